@@ -21,7 +21,7 @@ struct AccessRoute {
     Point3 from;
     All<std::string> ids;
     All<Point3> positions;
-    All<double> delays;  // who has one is a junction
+    All<double> delays;  // only junctions have this port
   };
   struct Out {
     std::vector<std::string> access;
@@ -30,16 +30,19 @@ struct AccessRoute {
   static void declare(LinkBuilder<AccessRoute>& l) {
     l.id("access_route").label("Access route");
     l.doc(
-        "Says by which junctions the trips of a zone enter and leave the streets: the nearest of those at the other end, within "
-        "a "
-        "walk. Several links, or several junctions, are several ways to choose from.");
+        "Attaches a zone to the nearest of the junctions at the other end, within walking distance. The zone's trips enter and "
+        "leave the streets there. With several links or junctions the trips choose among them.");
     l.family(LinkFamily::traffic);
-    l.param(&In::max_walk, "max_walk").unit(Unit::metre).range(0, 1e5).soft(50, 1000).doc("The longest walk, as the crow flies.");
+    l.param(&In::max_walk, "max_walk")
+        .unit(Unit::metre)
+        .range(0, 1e5)
+        .soft(50, 1000)
+        .doc("The longest walk, measured in a straight line.");
     l.param(&In::count, "count")
         .unit(Unit::count)
         .range(1, 100)
         .soft(1, 5)
-        .doc("So many of the nearest junctions, where there are as many.");
+        .doc("How many of the nearest junctions are attached at most.");
     l.reads(&Ends::zone, End::from, "node.id").reads(&Ends::from, End::from, "node.position", Unit::metre);
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
     l.reads(&Ends::delays, End::to, "junction.delay", Unit::second);
@@ -55,7 +58,7 @@ struct AccessRoute {
     if (near.empty()) return out;
     for (const auto& [walk, id] : near)
       if (walk <= in.max_walk && out.access.size() < static_cast<std::size_t>(in.count)) out.access.push_back(id);
-    // Where none is near enough the zone itself says so: an error would leave it the access that it had from elsewhere.
+    // Where no junction is near enough, the zone itself reports it. An error here would leave the access of other links in force.
     return out;
   }
 };

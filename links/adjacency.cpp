@@ -34,21 +34,20 @@ struct Adjacency {
     l.id("adjacency")
         .label("Adjacency")
         .doc(
-            "Draws two volumes together until the facet that they share has the wanted area, but never nearer than their bodies "
-            "allow. Volumes that share enough are left alone; one that is pressed against others is pulled no further, so that "
-            "others in between have to give way (see `make_room`) or stay between them. Pulls are straight: they lead round no "
-            "court "
-            "and no corner. Who does not touch is named.");
+            "Draws two volumes together until the facet that they share has the wanted area. Volumes that share enough are left "
+            "alone. A volume that is pressed against others is pulled no further: volumes in between give way (see `make_room`) "
+            "or stay there. Pulls go in a straight line, not around courts or corners. The link names volumes that do not "
+            "touch.");
     l.param(&In::area, "area")
         .unit(Unit::square_metre)
         .min(0)
         .soft(0, 500)
-        .doc("The area of the shared facet that is wanted at least.");
+        .doc("The least area that the shared facet should have.");
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
-        .doc("How much of the way that seems to be missing is gone in one tick; each volume goes half of it.");
+        .doc("Share of the estimated missing distance that is closed in one tick; each volume moves half of it.");
     l.reads(&Ends::neighbours, End::from, "smart_volume.neighbours");
     l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
@@ -66,8 +65,8 @@ struct Adjacency {
     const double length = norm(between), shared = ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area"),
                  missing = in.area - shared;
     if (!(missing > 0) || !(length > 1e-9)) return Out{};
-    // The clear distance, and a way that grows with the missing area. A facet grows by about one and a half times its distance
-    // for each metre that the volumes come nearer, so that a small area calls for a short way only.
+    // The clear distance plus a distance that grows with the missing area. For each metre that the volumes come nearer, a facet
+    // grows by about one and a half times their distance, so that a small missing area needs a short move only.
     const double clear = std::max(0.0, length - ends.from_radius - ends.to_radius);
     if (!(shared > 0)) tell(ends, clear, tick);
     const double reach = std::min(std::sqrt(in.area), 0.5 * in.area / (length * std::max(in.stiffness, 0.01)));
@@ -89,24 +88,23 @@ struct Adjacency {
  private:
   static constexpr double kLeastClear = 0.05;  // [m] what is less reads as nothing
 
-  // A wish hinders nobody from settling, but whoever goes without is named. That somebody has no body is said elsewhere.
+  // An unmet wish does not keep the scene from settling, but the pair is named. A volume without a body is reported elsewhere.
   static void tell(const Ends& ends, double clear, const Tick& tick) {
     if (!(ends.from_radius > 0) || !(ends.to_radius > 0) || !(ends.from_wanted > 0) || !(ends.to_wanted > 0)) return;
     const std::string between =
-        clear < kLeastClear ? "others or the boundary part them" : fixed(clear, 1) + " m are between them";
+        clear < kLeastClear ? "other volumes or the boundary lie between them" : fixed(clear, 1) + " m are between them";
     remark(tick, LinkRemark::short_of,
            {ErrorCode::infeasible, "",
             "`" + ends.from_id + "` and `" + ends.to_id + "` do not touch: " + between +
-                "; move one of them, or what stands in the way"});
+                "; move one of them, or what lies between them"});
   }
 
-  // A body that others keep from following stays behind its position. The pull takes a share of the way that is left until the
-  // middle is so far behind, in radii of the body. That is less than the play of `make_room`: a pull that cannot be satisfied
-  // ends before the others begin to give way to each other for ever. A ball that is cut in half has its middle 3/8 of the radius
-  // off.
+  // Where neighbours hold a body back, its centre of gravity stays behind its position. The pull fades out as that lag grows to
+  // this many radii of the body. The limit is below the tolerance of `make_room`, so that a pull that cannot be satisfied ends
+  // before volumes give way to each other without end. For a ball that is cut in half, the lag is 3/8 of the radius.
   static constexpr double kPressed = 0.08, kShareOfRoom = 0.25;
   static double room_for(double ahead, double volume) {
-    // What has no body yet is free.
+    // A volume without a body is not held back.
     if (!(volume > 0)) return std::numeric_limits<double>::infinity();
     return kShareOfRoom * (kPressed * geometry::ball_radius(volume) - ahead);
   }

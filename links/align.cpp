@@ -27,21 +27,20 @@ struct Align {
   static void declare(LinkBuilder<Align>& l) {
     l.family(LinkFamily::order);
     l.id("align").label("Align").doc(
-        "Moves a node in line with another one, which stays where it is: either one coordinate is shared, or the node goes to "
-        "the "
-        "nearest point of a square grid in plan around the other one.");
+        "Moves a node in line with another one, which stays where it is. Either both share one coordinate, or the node moves to "
+        "the nearest point of a square grid in plan around the other one.");
     l.param(&In::mode, "mode",
             {{Mode::x, "x", "Both nodes share their x: they stand on one line across it."},
              {Mode::y, "y", "Both nodes share their y: they stand on one line across it."},
              {Mode::z, "z", "Both nodes share their height."},
-             {Mode::grid, "grid", "The node goes to the nearest point of a grid around the other one; heights are free."}})
+             {Mode::grid, "grid", "The node moves to the nearest point of a grid around the other one; heights do not change."}})
         .doc("What the two nodes share.");
     l.param(&In::module, "module").unit(Unit::metre).min(0.01).soft(0.6, 20).doc("The spacing of the grid.");
     l.param(&In::angle, "angle")
         .unit(Unit::degree)
         .soft(-90, 90)
         .range(-360, 360)
-        .doc("How far the grid is turned from the x axis, counter-clockwise seen from above.");
+        .doc("Angle of the grid from the x axis, counter-clockwise seen from above.");
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -66,7 +65,7 @@ struct Align {
   }
 
  private:
-  // How far it is to the nearest of the grid lines, of which one is `distance` away.
+  // The distance to the nearest grid line, where one grid line is `distance` away.
   static double to_line(double distance, double module) { return distance - module * std::floor(distance / module + 0.5); }
 };
 

@@ -23,9 +23,8 @@ struct Attract {
   static void declare(LinkBuilder<Attract>& l) {
     l.family(LinkFamily::nearness);
     l.id("attract").label("Attract").doc(
-        "Pulls two nodes together, like a spring that only pulls: nodes nearer than the rest distance are left alone. Between "
-        "sets, "
-        "every pair is a spring; lower the stiffness where one node has very many partners.");
+        "Pulls two nodes together until they are no further apart than the rest distance. Nearer nodes are left alone. Between "
+        "sets every pair is pulled; lower the stiffness where one node has very many partners.");
     l.param(&In::rest, "rest")
         .unit(Unit::metre)
         .min(0)
@@ -35,7 +34,7 @@ struct Attract {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
-        .doc("The share of the distance beyond rest that is closed in one tick; each end goes half of the way.");
+        .doc("The share of the distance beyond the rest distance that is closed in one tick; each end moves half of it.");
     l.param(&In::in_plan, "in_plan")
         .doc("When on, the distance is measured in plan and the heights of both nodes stay as they are.");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);

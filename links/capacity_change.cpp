@@ -22,13 +22,13 @@ struct CapacityChange {
 
   static void declare(LinkBuilder<CapacityChange>& l) {
     l.id("capacity_change").label("Capacity change");
-    l.doc("Carries the value of a control to streets, to see what another lane, another speed or a closed street would do.");
+    l.doc("Sets the lanes, the speed or the opening of streets to the value of a control, to test a change of the network.");
     l.family(LinkFamily::traffic);
     l.param(&In::target, "target",
             {{Target::lanes, "lanes", "The value is the number of lanes in each direction."},
              {Target::speed, "speed", "The value is the speed without traffic, in metres per second."},
              {Target::open, "open", "The value is the share of the capacity that is open: 0 closes the street, 1 opens it."}})
-        .doc("What of the street the control changes.");
+        .doc("Which property of the street the control changes.");
     l.reads(&Ends::value, End::from, "control.output");
     l.proposes(&Out::lanes, End::to, "street.lanes", Unit::count);
     l.proposes(&Out::speed, End::to, "street.speed", Unit::metre_per_second);

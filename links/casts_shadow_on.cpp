@@ -1,5 +1,4 @@
-// Says that a caster's shadow counts for a receiver: the receiver then looks at the casters that are linked to it, and at no
-// others.
+// Makes a caster's shadow count for a receiver: a receiver with such links counts the linked casters only.
 #include <string>
 #include <vector>
 
@@ -24,15 +23,14 @@ struct CastsShadowOn {
     l.id("casts_shadow_on")
         .label("Casts shadow on")
         .doc(
-            "Says whose shadow counts for a receiver. Without such a link all casters of the study count; with one or more, "
-            "those "
-            "that are linked, and the receiver's table of losses then tells what each of these pairs costs in sun.");
+            "Makes the shadow of a caster count for a receiver. Without such a link, all casters of the study count. With one or "
+            "more, only the linked casters count, and the receiver's table of losses lists the sun that each of them takes.");
     l.family(LinkFamily::sun);
     l.reads(&Ends::id, End::from, "node.id").reads(&Ends::casts, End::from, "shadow_caster.casts");
     l.proposes(&Out::casters, End::to, "shadow_receiver.casters");
   }
 
-  // A caster that is switched off stays named: else the last link would let all others in.
+  // A caster that is switched off stays in the list: with an empty list all casters would count.
   static Result<Out> evaluate(const In&, const Ends& ends, const Tick&) { return Out{{ends.id}}; }
 };
 

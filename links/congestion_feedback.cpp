@@ -32,10 +32,9 @@ struct CongestionFeedback {
   static void declare(LinkBuilder<CongestionFeedback>& l) {
     l.id("congestion_feedback").label("Congestion feedback");
     l.doc(
-        "Limits what a volume asks for while a street at its access carries more than a share of its capacity, or most of its "
-        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: "
-        "the streets say how large the volume "
-        "may be.");
+        "Lowers the demand limit of a volume while a street at its access carries more than a share of its capacity, or while "
+        "most of its trips find no way. The limit rises again when there is room. Together with `request_traffic` this is a "
+        "feedback loop: the streets limit the size of the volume.");
     l.family(LinkFamily::traffic);
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
@@ -46,21 +45,22 @@ struct CongestionFeedback {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.3)
-        .doc("How strongly one tick answers. Volumes and streets follow some ticks later, so that large gains swing.");
+        .doc(
+            "Gain: how strongly the limit changes in one tick. Volumes and streets follow some ticks later, so that large gains "
+            "oscillate.");
     l.param(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(0.0001, 0.5)
         .soft(0.005, 0.1)
         .doc(
-            "The volume rests while the most used street carries less than the limit by no more than this share of it: drivers "
-            "try "
-            "other ways for ever, and the volume would answer for ever.");
+            "Dead band: the volume stays as it is while the most used street is below the limit by no more than this share of "
+            "it. Drivers never stop trying other ways, and without this band the volume would never settle.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
         .doc(
-            "Share of the demand that no congestion takes away: it may be caused by others. Where that is not enough, the limit "
-            "cannot be met, and says so.");
+            "Share of the demand that congestion never takes away, as others may cause it. Where that is not enough, the link "
+            "reports that the limit cannot be met.");
     l.reads(&Ends::loads, End::from, "traffic_network.loads");
     l.reads(&Ends::id, End::to, "node.id").reads(&Ends::access, End::to, "traffic_zone.access");
     l.reads(&Ends::served, End::to, "traffic_zone.trips_served", Unit::per_hour);
@@ -80,8 +80,8 @@ struct CongestionFeedback {
       if (const std::size_t row = ends.loads->row_of("junction", junction); row < ends.loads->rows.size())
         load = std::max(load, ends.loads->number(row, "volume_over_capacity"));
     if (!(ends.demand > 0)) return Out{};
-    // From the share that the limit leaves now; one tick answers to at most a halving or a doubling. Where most trips find no way
-    // at all, the access is as bad as can be.
+    // Starts from the share that the limit leaves now. One tick takes account of at most twice or half the allowed load. Where
+    // most trips find no way, the largest excess counts.
     if (ends.lost > ends.served || load > in.limit) tell(in, ends, load, tick);
     const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, demand::answer_within(in.limit, load, in.tolerance));
     const double answer = 1 + in.gain * (room - 1);
@@ -90,8 +90,8 @@ struct CongestionFeedback {
   }
 
  private:
-  // The access is too full: on its way, or held up by a volume that gives way no further. Drivers try other ways for ever, so
-  // that a load within the tolerance of the limit is nothing to be waited for.
+  // Reports a load that is too high: as being worked on, or as unmet where the volume cannot be limited further. Drivers never
+  // stop trying other ways, so a load within the tolerance of the limit does not keep the scene from settling.
   static void tell(const In& in, const Ends& ends, double load, const Tick& tick) {
     const std::vector<std::string> ids{ends.id};
     const std::vector<double> demands{ends.demand}, limits{ends.demand_limit}, wanted{ends.wanted}, volumes{ends.volume};

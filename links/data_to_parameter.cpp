@@ -33,9 +33,8 @@ struct DataToParameter {
     l.id("data_to_parameter")
         .label("Data to parameter")
         .doc(
-            "Reads a data layer at the position of a node and proposes the number to any port that links may change: as it is, "
-            "or "
-            "rescaled from a range of the data to a range of the port.");
+            "Reads a data layer at the position of a node and proposes the number to any port that links may change. The number "
+            "is unchanged, or rescaled from a range of the data to a range of the port.");
     l.family(LinkFamily::data);
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::sampling, "sampling",
@@ -47,14 +46,14 @@ struct DataToParameter {
     l.param(&In::radius, "radius").unit(Unit::metre).range(0.1, 1e6).soft(10, 1000).doc("How far from the node points count.");
     l.param(&In::needs_data, "needs_data")
         .doc("When on, a node without a point within the radius is an error; when off, such a node gets no proposal.");
-    l.param(&In::rescale, "rescale").doc("When on, the number is carried from the range of the data to the range of the port.");
-    l.param(&In::in_min, "in_min").soft(0, 100).doc("The value of the data that becomes the first of the output.");
-    l.param(&In::in_max, "in_max").soft(0, 100).doc("The value of the data that becomes the last of the output.");
-    l.param(&In::out_min, "out_min").unit_from("target").soft(0, 1000).doc("What the target gets for the first of the data.");
+    l.param(&In::rescale, "rescale").doc("When on, the number is rescaled from the range of the data to the range of the port.");
+    l.param(&In::in_min, "in_min").soft(0, 100).doc("The value of the data that becomes `out_min`.");
+    l.param(&In::in_max, "in_max").soft(0, 100).doc("The value of the data that becomes `out_max`.");
+    l.param(&In::out_min, "out_min").unit_from("target").soft(0, 1000).doc("The number that the target gets for `in_min`.");
     l.param(&In::out_max, "out_max")
         .unit_from("target")
         .soft(0, 1000)
-        .doc("What the target gets for the last of the data; it may be the smaller one.");
+        .doc("The number that the target gets for `in_max`; it may be smaller than `out_min`.");
     l.param(&In::clamp, "clamp")
         .doc("When on, values outside the range of the data count as its nearer limit; used with rescale only.");
     l.reads(&Ends::values, End::from, "data_layer.values");
@@ -82,7 +81,7 @@ struct DataToParameter {
   }
 
  private:
-  // Rows are walked where they lie: a layer may have many, and is read in every tick.
+  // The rows are read in place and not copied: a layer may have many, and is read in every tick.
   static std::optional<double> sample(const In& in, const Ends& ends) {
     const Table& table = *ends.values;
     const std::size_t x = table.column("x"), y = table.column("y"), value = table.column("value");

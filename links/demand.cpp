@@ -1,4 +1,4 @@
-// Deals the floor areas of a programme out to volumes as demands.
+// Divides the floor areas of a programme among volumes as demands.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -30,18 +30,15 @@ struct Demand {
   static void declare(LinkBuilder<Demand>& l) {
     l.family(LinkFamily::brief);
     l.id("demand").label("Demand").doc(
-        "Deals a programme out to volumes: the floor area of a row, times its count and its storey height, becomes the demand of "
-        "the "
-        "volumes of that use, in equal parts. Smallest and largest floor areas become limits in the same way. Rows of one use "
-        "are "
-        "added up.");
+        "Divides a programme among volumes. The floor area of a row, times its count and its storey height, is divided equally "
+        "among the volumes of that use as their demand. Smallest and largest floor areas become limits in the same way. Rows of "
+        "one use are added up.");
     l.param(&In::use, "use")
         .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
     l.param(&In::every_row, "every_row")
         .doc(
-            "When on, and no use is given, a row for which this link has no volume is named as a problem, so that no floor area "
-            "is "
-            "forgotten. All other rows are dealt out nevertheless.");
+            "When on, and no use is given, the link reports each row for which it has no volume, so that no floor area is "
+            "forgotten. All other rows are divided nevertheless.");
     l.reads(&Ends::rows, End::from, "programme.rows");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::uses, End::to, "smart_volume.use");
     l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
@@ -62,7 +59,7 @@ struct Demand {
     if (in.use.empty() && in.every_row)
       for (const auto& [use, share] : shares)
         if (share.volumes == 0 && share.demand > 0) add_sentence(problem, without_volume(use, share));
-    // Nobody else has to wait for these.
+    // These do not keep the scene from settling.
     if (!problem.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::missing, "", problem});
     return dealt(in, ends, shares);
   }
@@ -79,7 +76,7 @@ struct Demand {
   static std::map<std::string, Share> shares_of(const Table& rows) {
     std::map<std::string, Share> shares;
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
-      if (rows.text(row, "use").empty()) continue;  // the programme itself says so
+      if (rows.text(row, "use").empty()) continue;  // the programme itself reports it
       Share& share = shares[rows.text(row, "use")];
       const demand::BriefSums sums = demand::brief_sums(rows, row);
       share.demand += sums.volume;
@@ -117,14 +114,14 @@ struct Demand {
   static void add_sentence(std::string& text, const std::string& sentence) { text += (text.empty() ? "" : "; ") + sentence; }
 
   static std::string without_row(const std::string& id, const std::string& use, const std::map<std::string, Share>& shares) {
-    if (use.empty()) return "`" + id + "` has no use, so the programme asks nothing of it: give it a use of the programme";
+    if (use.empty()) return "`" + id + "` has no use, so it gets no demand from the programme: give it a use of the programme";
     return "`" + id + "` has the use `" + use + "`, for which the programme has no row: change the use or add the row" +
            did_you_mean(use, keys_of(shares));
   }
 
   static std::string without_volume(const std::string& use, const Share& share) {
     return "no volume has the use `" + use + "`, so all of the " + fixed(share.floor_area, 0) +
-           " m² that are asked for are missing: give a volume that use, add one, or remove the row";
+           " m² that it asks for are missing: give a volume that use, add one, or remove the row";
   }
 
   static Error no_row(const std::string& use, const std::map<std::string, Share>& shares) {

@@ -24,8 +24,8 @@ struct FacadePerformance {
     l.id("facade_performance")
         .label("Façade performance")
         .doc(
-            "Asks a façade for more or less glass by how it performs: a curve leads from any number, such as the seconds of sun on "
-            "a receiver, to the factor on the glazing ratios of its style.");
+            "Asks a façade for more or less glass according to its performance. A curve gives the factor on the glazing ratios "
+            "of its style for any number, such as the seconds of sun on a receiver.");
     l.family(LinkFamily::facades);
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::curve, "curve")
@@ -37,7 +37,9 @@ struct FacadePerformance {
                  .minimum = 0,
                  .maximum = 10,
                  .doc = "The factor that is asked for there."})
-        .doc("Points of the curve with ascending values, straight between them and level beyond the first and the last.");
+        .doc(
+            "Points of the curve with ascending values. The curve is linear between them and constant beyond the first and the "
+            "last.");
     l.reads_chosen(&Ends::value, End::from, "source");
     l.proposes(&Out::glazing, End::to, "facade.glazing", Unit::ratio);
   }

@@ -1,4 +1,4 @@
-// Gives façades a style: the style dresses them from the next tick on.
+// Gives façades a style, which applies from the next tick on.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -25,16 +25,18 @@ struct FacadeStyleLink {
   };
 
   static void declare(LinkBuilder<FacadeStyleLink>& l) {
-    l.id("facade_style").label("Façade style").doc(
-        "Gives façades a style, by which they are dressed. Orientations are told apart by the rows of the style; uses and heights "
-        "can be told apart here. A façade that gets several styles takes the first by name and says so.");
+    l.id("facade_style")
+        .label("Façade style")
+        .doc(
+            "Gives façades a style. The rows of the style distinguish orientations; this link can select volumes by use and "
+            "height. A façade that gets several styles takes the first by name and reports it.");
     l.family(LinkFamily::facades);
-    l.param(&In::uses, "uses").doc("Only volumes of these uses get the style; without any, all do.");
+    l.param(&In::uses, "uses").doc("Only volumes of these uses get the style; without any use, all volumes do.");
     l.param(&In::above, "above")
         .unit(Unit::metre)
         .range(0, 1e4)
         .soft(0, 100)
-        .doc("Only volumes that are at least so high get the style.");
+        .doc("Only volumes of at least this height get the style.");
     l.reads(&Ends::name, End::from, "facade_style.name");
     l.reads(&Ends::use, End::to, "smart_volume.use").reads(&Ends::height, End::to, "smart_volume.height", Unit::metre);
     l.proposes(&Out::style, End::to, "facade.style");

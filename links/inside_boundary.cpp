@@ -31,14 +31,13 @@ struct InsideBoundary {
     l.id("inside_boundary")
         .label("Inside boundary")
         .doc(
-            "Brings nodes that are outside a boundary, or nearer to its sides than the margin, back inside by the shortest way "
-            "and in one "
-            "tick. Nodes inside are left alone.");
+            "Moves nodes that are outside a boundary, or nearer to its sides than the margin, back inside in one tick by the "
+            "shortest way. Nodes inside are left alone.");
     l.param(&In::margin, "margin")
         .unit(Unit::metre)
         .min(0)
         .soft(0, 10)
-        .doc("How far inside the sides of the boundary a node's position must be; it must leave some room.");
+        .doc("The least distance of a node's position from the sides of the boundary. A margin that leaves no room is an error.");
     l.reads(&Ends::domain, End::from, "boundary.domain");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
@@ -65,7 +64,7 @@ struct InsideBoundary {
     return piece.shape.planes[side].offset - (piece.sides[side] == geometry::Domain::kInner ? 0 : margin);
   }
 
-  // How far the point is outside the side that it is furthest outside of.
+  // The largest distance by which the point lies outside a side.
   static double outside(const geometry::Domain::Piece& piece, double margin, const Point3& point) {
     double largest = 0;
     for (std::size_t s = 0; s < piece.sides.size(); ++s)
@@ -73,8 +72,8 @@ struct InsideBoundary {
     return largest;
   }
 
-  // The nearest point inside all sides: projections on one side after the other, each of which first takes back what it did
-  // the round before (the algorithm of Dykstra). Where that is slow, plain projections still find some point inside.
+  // The nearest point inside all sides, by Dykstra's algorithm: projections on one side after the other, each of which first
+  // undoes its correction of the round before. Where that converges slowly, plain projections still find some point inside.
   static Point3 projected(const geometry::Domain::Piece& piece, double margin, Point3 point) {
     constexpr int kNearest = 500, kRounds = 1000;
     std::vector<double> pushed(piece.sides.size(), 0);

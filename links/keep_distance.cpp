@@ -1,4 +1,4 @@
-// Keeps the distance between two nodes within a range and leaves them alone while it is.
+// Keeps the distance between two nodes within a range.
 #include <optional>
 #include <string>
 
@@ -45,7 +45,7 @@ struct KeepDistance {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
-        .doc("The share of the violation that is corrected in one tick; each end goes half of the way.");
+        .doc("The share of the violation that is corrected in one tick; each end moves half of it.");
     l.param(&In::in_plan, "in_plan")
         .doc("When on, the distance is measured in plan and the heights of both nodes stay as they are.");
     l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");

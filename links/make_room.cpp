@@ -1,4 +1,4 @@
-// Makes volumes that press on each other part: each goes towards the middle of its own body.
+// Moves volumes that press on each other apart: each moves towards the centre of gravity of its own body.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -31,10 +31,10 @@ struct MakeRoom {
     l.id("make_room")
         .label("Make room")
         .doc(
-            "Makes volumes that press on each other part. A body that others or the boundary cut has its middle away from its "
-            "position; the position follows it, until the bodies have room. A volume whose body is round stays where it is. One "
-            "that "
-            "has to stand on the ground, and does not yet, goes aside where others press it up.");
+            "Moves volumes that press on each other apart. Where neighbours or the boundary cut a body, its centre of gravity is "
+            "away from its position. The position follows the centre until the bodies have room. A volume with a round body "
+            "stays where it is. A volume that must stand on the ground and does not yet moves sideways where others press it "
+            "up.");
     l.family(LinkFamily::separation);
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
@@ -46,9 +46,9 @@ struct MakeRoom {
         .range(0, 1)
         .soft(0, 0.3)
         .doc(
-            "How far the position may be from the middle of the body before it follows, as a share of the radius of a ball of "
-            "that "
-            "volume: neighbours that share a facet on purpose are left alone, and pulls that cannot be satisfied come to rest.");
+            "How far the position may be from the centre of gravity before it follows, as a share of the radius of a ball of "
+            "that volume. The tolerance leaves neighbours alone that should share a facet, and lets pulls that cannot be "
+            "satisfied come to rest.");
     l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
     l.reads(&Ends::id, End::to, "node.id").reads(&Ends::standing, End::to, "smart_volume.standing");
     l.reads(&Ends::drop, End::to, "smart_volume.drop", Unit::metre);
@@ -61,7 +61,7 @@ struct MakeRoom {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 off = ends.centroid - ends.position;
     const double length = norm(off), beyond = length - in.play * geometry::ball_radius(ends.volume);
-    // Where the solver has given nobody room there are no bodies to follow.
+    // Where the solver has given no member a volume, there are no bodies to follow.
     if (ends.count == 0 || !(ends.volume > 0) || !(beyond > 0)) return Out{};
     const Vector3 straight = off * (in.stiffness * beyond / length);
     const double aside = off.z > 0 ? share_aside(ends) : 0;
@@ -73,14 +73,14 @@ struct MakeRoom {
   static constexpr double kFooting = 0.1;  // of a radius; `stand` lets down a little further
   static constexpr double kTurn = 0.25;
 
-  // How much of a way up is barred: what has to come down to the ground would be lifted by those that it came down on, and let
-  // down again, for ever. It goes to nothing with the footing.
+  // The share of an upward move that is suppressed. A volume that must come down to the ground would otherwise be lifted by those
+  // below it and let down again without end. The share goes to 0 as the volume reaches its footing.
   static double share_aside(const Ends& ends) {
     if (ends.standing != "ground") return 0;
     return std::clamp(1 + ends.drop / (kFooting * geometry::ball_radius(ends.volume)), 0.0, 1.0);
   }
 
-  // Its name turns it a little: what is piled up in one plane, or straight above another one, would never leave that.
+  // The id turns the direction a little: volumes in one plane, or one straight above another, would otherwise never leave it.
   static Vector3 level_way(const Vector3& off, const std::string& id) {
     const Vector3 by_name = direction_by_name(id, ""), level = Vector3{off.x, off.y, 0} / norm(off) + by_name * kTurn;
     const double length = norm(level);

@@ -28,26 +28,19 @@ struct MapValue {
     l.id("map_value")
         .label("Map value")
         .doc(
-            "Carries a number from any port of one node to any port of another that links may change. The number goes over as it "
-            "is, "
-            "between ports of one unit, or is rescaled from one range to another, between ports of any units.");
+            "Carries a number from any port of one node to any port of another that links may change. Between ports of one unit "
+            "the number is unchanged. With `rescale` it is mapped from one range to another, between ports of any units.");
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::rescale, "rescale")
-        .doc("When on, the number is carried from the range of the input to the range of the output.");
-    l.param(&In::in_min, "in_min")
-        .unit_from("source")
-        .soft(0, 100)
-        .doc("The number at the source that becomes the first of the output.");
-    l.param(&In::in_max, "in_max")
-        .unit_from("source")
-        .soft(0, 100)
-        .doc("The number at the source that becomes the last of the output.");
-    l.param(&In::out_min, "out_min").unit_from("target").soft(0, 100).doc("What the target gets for the first of the input.");
+        .doc("When on, the number is rescaled from the range of the input to the range of the output.");
+    l.param(&In::in_min, "in_min").unit_from("source").soft(0, 100).doc("The number at the source that becomes `out_min`.");
+    l.param(&In::in_max, "in_max").unit_from("source").soft(0, 100).doc("The number at the source that becomes `out_max`.");
+    l.param(&In::out_min, "out_min").unit_from("target").soft(0, 100).doc("The number that the target gets for `in_min`.");
     l.param(&In::out_max, "out_max")
         .unit_from("target")
         .soft(0, 100)
-        .doc("What the target gets for the last of the input; it may be the smaller one of the two.");
+        .doc("The number that the target gets for `in_max`; it may be smaller than `out_min`.");
     l.param(&In::clamp, "clamp")
         .doc("When on, numbers outside the range of the input count as its nearer limit; used with rescale only.");
     l.reads_chosen(&Ends::value, End::from, "source");

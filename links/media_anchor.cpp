@@ -1,4 +1,4 @@
-// Makes a picture stay beside a node, at an offset.
+// Keeps a picture at an offset from a node.
 #include <optional>
 
 #include "core/define/link_builder.h"
@@ -30,7 +30,11 @@ struct MediaAnchor {
     offset(&In::x, "x", "Offset from the node along the scene's x axis.");
     offset(&In::y, "y", "Offset along the y axis.");
     offset(&In::z, "z", "Offset upwards.");
-    l.param(&In::share, "share").unit(Unit::ratio).range(0, 1).soft(0.05, 1).doc("How much of the way to its place it goes in one tick.");
+    l.param(&In::share, "share")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0.05, 1)
+        .doc("The share of the distance to its place that the picture moves in one tick.");
     l.reads(&Ends::media, End::from, "node.position", Unit::metre).reads(&Ends::node, End::to, "node.position", Unit::metre);
     l.reads(&Ends::opacity, End::from, "media.opacity", Unit::ratio);
     l.proposes(&Out::media, End::from, "node.position", Unit::metre);

@@ -31,8 +31,10 @@ struct ParameterToActuator {
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::target, "target").doc("The port of the actuator that the number is proposed to, written `typification.port`.");
     l.param(&In::rescale, "rescale").doc("When on, the actuator gets `base + gain x number`; its unit may then be another one.");
-    l.param(&In::gain, "gain").doc("What one unit of the number is worth at the actuator; used with rescale only.");
-    l.param(&In::base, "base").unit_from("target").doc("What the actuator gets for 0; used with rescale only.");
+    l.param(&In::gain, "gain").doc("The factor that the number is multiplied with; used with rescale only.");
+    l.param(&In::base, "base")
+        .unit_from("target")
+        .doc("The value that the actuator gets for a number of 0; used with rescale only.");
     l.reads_chosen(&Ends::value, End::from, "source");
     l.reads(&Ends::address, End::to, "actuator.address");
     l.proposes_chosen(&Out::value, End::to, "target");

@@ -36,10 +36,10 @@ struct PlotRules {
     l.id("plot_rules")
         .label("Plot rules")
         .doc(
-            "Turns what goes beyond the rules of a plot into tension: the demands of the volumes on it are limited in one "
-            "proportion until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. "
-            "When there is room again, the limits are loosened in the same way, up to what each volume wants. Just below what is "
-            "allowed they rest.");
+            "Limits the demands of the volumes on a plot until its rules are kept. FSI and GSI limit all volumes in one "
+            "proportion; a volume above the largest height is limited by itself. When there is room again, the limits rise in "
+            "the same way, up to what each volume wants. Just below the allowed figure they stay as they are. The limits appear "
+            "as tension on the demands.");
     l.family(LinkFamily::ground);
     l.param(&In::hold_fsi, "hold_fsi").doc("When on, floor area beyond the largest FSI limits all volumes on the plot.");
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
@@ -49,18 +49,21 @@ struct PlotRules {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.5)
-        .doc("How strongly one tick answers to an overshoot. Volumes answer some ticks later, so that large gains swing.");
+        .doc(
+            "Gain: how strongly the limits change with an overshoot in one tick. Volumes follow some ticks later, so that large "
+            "gains oscillate.");
     l.param(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(0.0001, 0.5)
         .soft(0.005, 0.05)
         .doc(
-            "The limits rest while a figure is below what is allowed by no more than this share of it. It has to be wider than "
-            "the errors of volumes (the solver's tolerance), or the answers to these go on for ever.");
+            "Dead band: the limits stay as they are while a figure is below the allowed one by no more than this share of it. "
+            "The band must be wider than the errors of volumes (the solver's tolerance), or the limits never settle.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of a demand that no rule takes away. Where that is not enough, the rule cannot be met, and says so.");
+        .doc(
+            "Share of a demand that no rule takes away. Where that is not enough, the link reports that the rule cannot be met.");
     l.reads(&Ends::polygon, End::from, "plot.polygon", Unit::metre);
     l.reads(&Ends::ground, End::from, "plot.ground", Unit::metre)
         .reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
@@ -103,8 +106,8 @@ struct PlotRules {
   }
 
  private:
-  // Of the land. Where less of it is built on, the answer is to what is missing of it rather than to its share of the little that
-  // is there: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
+  // A share of the land. Where less of it is built on, the limits follow the difference to the aim as a share of this, not of the
+  // small built area: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
   static constexpr double kLittleGround = 0.1;
 
   static double granted(const Ends& ends, std::size_t i) {
@@ -114,7 +117,7 @@ struct PlotRules {
 
   static constexpr std::size_t kMostHeights = 4;
 
-  // Rules that are broken, in words, by those who could mend them.
+  // The broken rules as sentences, grouped by the volumes whose demands could correct them.
   struct Broken {
     std::vector<std::string> found;
     std::vector<std::size_t> who;
@@ -131,7 +134,7 @@ struct PlotRules {
     return a.empty() || b.empty() ? a + b : a + with + b;
   }
 
-  // What nobody can mend any more, and who holds it; what holds both is said once.
+  // The rules that no limit can correct any more, with the volumes that hold them up; a volume that holds up both is named once.
   static std::string unmet(const demand::LimitedVolumes& held, const Broken& all, const Broken& heights, double least) {
     const std::string by = all.found.empty() ? "" : held_by(held, all.who, least);
     const std::string heights_by = heights.found.empty() ? "" : held_by(held, heights.who, least);
@@ -140,7 +143,7 @@ struct PlotRules {
     return listed(all) + ", " + by + "; " + listed(heights) + ", " + heights_by;
   }
 
-  // Every rule that is broken: on its way, or held up by volumes that give way no further.
+  // Reports every broken rule: as being worked on, or as unmet where the volumes cannot be limited further.
   static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;

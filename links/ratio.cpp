@@ -19,8 +19,7 @@ struct Ratio {
 
   static void declare(LinkBuilder<Ratio>& l) {
     l.family(LinkFamily::numbers);
-    l.id("ratio").label("Ratio").doc(
-        "Asks that a volume is a given multiple of another one: its demand follows the volume that the other one has reached.");
+    l.id("ratio").label("Ratio").doc("Makes the demand of one volume a multiple of the volume that another one has reached.");
     l.param(&In::ratio, "ratio").unit(Unit::ratio).min(0).soft(0, 4).doc("The demand as a multiple of the other volume.");
     l.reads(&Ends::volume, End::from, "smart_volume.volume", Unit::cubic_metre);
     l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);

@@ -38,7 +38,7 @@ struct Repel {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
-        .doc("The share of the distance missing to the reach that is made up in one tick; each end goes half of the way.");
+        .doc("The share of the distance missing to the reach that is added in one tick; each end moves half of it.");
     l.param(&In::in_plan, "in_plan")
         .doc("When on, the distance is measured in plan and the heights of both nodes stay as they are.");
     l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");

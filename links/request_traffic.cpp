@@ -20,8 +20,8 @@ struct RequestTraffic {
   static void declare(LinkBuilder<RequestTraffic>& l) {
     l.id("request_traffic").label("Request traffic");
     l.doc(
-        "Asks a traffic network for the trips that a volume causes: its floor area, as it is now, times the trips of its use, of "
-        "which the network says how many fall into the hour looked at. They become trips of the volume's zone.");
+        "Computes the trips that a volume causes and proposes them to its traffic zone: its present floor area, times the daily "
+        "trips of its use, times the share of the day that the traffic network puts into the hour studied.");
     l.family(LinkFamily::traffic);
     l.param(&In::trips_per_100, "trips_per_100")
         .min(0)

@@ -1,4 +1,4 @@
-// Lets a sensor steer a number of other nodes, as long as its readings can be relied on.
+// Carries the reading of a sensor to a number of other nodes, as long as the reading is good.
 #include <cmath>
 
 #include "core/base/text.h"
@@ -30,24 +30,28 @@ struct SensorToParameter {
   static void declare(LinkBuilder<SensorToParameter>& l) {
     l.id("sensor_to_parameter").label("Sensor to parameter");
     l.doc(
-        "Carries the reading of a sensor to any number that links may change. Readings that are stale or invalid never move "
-        "anything by themselves: what was proposed last stays, and the link says why.");
+        "Carries the reading of a sensor to any number that links may change. A stale or invalid reading changes nothing by "
+        "itself: the last proposal stays in force, and the link shows why.");
     l.family(LinkFamily::data);
     l.param(&In::source, "source").doc("The port of the sensor that is read, written `typification.port`.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::rescale, "rescale").doc("When on, the target gets `base + gain x reading`; its unit may then be another one.");
-    l.param(&In::gain, "gain").doc("What one unit of the reading is worth at the target; used with rescale only.");
-    l.param(&In::base, "base").unit_from("target").doc("What the target gets for a reading of 0; used with rescale only.");
+    l.param(&In::gain, "gain").doc("The factor that the reading is multiplied with; used with rescale only.");
+    l.param(&In::base, "base")
+        .unit_from("target")
+        .doc("The value that the target gets for a reading of 0; used with rescale only.");
     l.param(&In::max_age, "max_age")
         .unit(Unit::second)
         .min(0)
         .soft(0, 3600)
-        .doc("Older readings do not count here, though the sensor may still allow them. 0: as the sensor says.");
+        .doc(
+            "The greatest age of a reading that counts here, even where the sensor allows older ones. 0: the sensor's own "
+            "limit.");
     l.param(&In::when_stale, "when_stale",
-            {{WhenStale::hold, "hold", "What was proposed last stays in force, and the link shows why."},
+            {{WhenStale::hold, "hold", "The last proposal stays in force, and the link shows why."},
              {WhenStale::fallback, "fallback", "The fallback is proposed."}})
-        .doc("What happens while there is no good reading.");
-    l.param(&In::fallback, "fallback").unit_from("target").doc("What is proposed instead, where that is chosen.");
+        .doc("What the link does while there is no good reading.");
+    l.param(&In::fallback, "fallback").unit_from("target").doc("The value that is proposed instead, where `fallback` is chosen.");
     l.reads_chosen(&Ends::value, End::from, "source");
     l.reads(&Ends::age, End::from, "sensor.age", Unit::second);
     l.reads(&Ends::is_good, End::from, "sensor.is_good");

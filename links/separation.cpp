@@ -31,9 +31,9 @@ struct Separation {
     l.id("separation")
         .label("Separation")
         .doc(
-            "Pushes two volumes apart until they share no facet. With a gap, they are also pushed until that much is clear "
-            "between the "
-            "balls that bound them; volumes cut off by a boundary may then stand further apart than their shapes need.");
+            "Pushes two volumes apart until they share no facet. With a gap, it also pushes until the clear distance between "
+            "their bounding balls is that large. Volumes that a boundary cuts may then stand further apart than their shapes "
+            "need.");
     l.param(&In::gap, "gap")
         .unit(Unit::metre)
         .min(0)
@@ -43,7 +43,7 @@ struct Separation {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
-        .doc("How much of the way that seems to be missing is gone in one tick; each volume goes half of it.");
+        .doc("Share of the estimated missing distance that is closed in one tick; each volume moves half of it.");
     l.reads(&Ends::neighbours, End::from, "smart_volume.neighbours");
     l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);

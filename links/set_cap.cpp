@@ -32,9 +32,9 @@ struct SetCap {
   static void declare(LinkBuilder<SetCap>& l) {
     l.family(LinkFamily::numbers);
     l.id("set_cap").label("Set cap").doc(
-        "Holds the sum of a statistic under a cap. When the sum is too large, the demands of all volumes of the set are limited "
-        "in one proportion, tick by tick, until it fits; when there is room again, the limit is loosened in the same way, up to "
-        "what each volume wants. Just below the cap the limit rests. The statistic should watch the same volumes.");
+        "Holds the sum of a statistic under a cap. While the sum is too large, the demands of all volumes of the set are limited "
+        "in one proportion. When there is room again, the limit rises in the same way, up to what each volume wants. Just below "
+        "the cap the limit stays as it is. The statistic should count the same volumes.");
     l.param(&In::cap, "cap")
         .min(0.001)
         .soft(100, 100000)
@@ -46,19 +46,21 @@ struct SetCap {
         .range(0, 1)
         .soft(0.01, 0.5)
         .doc(
-            "How strongly one tick answers to the deviation of the sum. Volumes answer some ticks later, so that large gains "
-            "swing.");
+            "Gain: how strongly the limit changes with the deviation of the sum in one tick. Volumes follow some ticks later, so "
+            "that large gains oscillate.");
     l.param(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(0.0001, 0.5)
         .soft(0.005, 0.05)
         .doc(
-            "The limit rests while the sum is below the cap by no more than this share of it. It has to be wider than the errors "
-            "of volumes (the solver's tolerance), or the answers to these go on for ever.");
+            "Dead band: the limit stays as it is while the sum is below the cap by no more than this share of it. The band must "
+            "be wider than the errors of volumes (the solver's tolerance), or the limit never settles.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of a demand that the cap does not take away. Where that is not enough, the cap cannot be met, and says so.");
+        .doc(
+            "Share of a demand that the cap does not take away. Where that is not enough, the link reports that the cap cannot "
+            "be met.");
     l.reads(&Ends::total, End::from, "statistics.sum");
     l.reads(&Ends::ids, End::to, "node.id");
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);

@@ -42,23 +42,24 @@ struct SolarEnvelope {
         .label("Solar envelope")
         .doc(
             "Limits how high volumes stand, so that a neighbour's edge keeps its sun at all moments of the sun's period. Each "
-            "moment "
-            "gives a plane that rises from the edge towards the sun; volumes that reach through one come back under it.");
+            "moment gives a plane that rises from the edge towards the sun. A volume that reaches through a plane is moved back "
+            "or made smaller.");
     l.family(LinkFamily::sun);
     l.param(&In::edge, "edge")
         .unit(Unit::metre)
         .doc(
-            "The neighbour's edge: a chain of points, at the height at which the sun has to arrive, such as that of window "
-            "sills.");
+            "The neighbour's edge: a chain of points at the height that the sun must reach, such as the height of window sills.");
     l.param(&In::mode, "mode",
             {{Mode::move, "move", "The volume's position moves back under the plane by the shortest way."},
-             {Mode::shave, "shave", "The volume may demand less, until it fits under the planes; then it may grow again."}})
+             {Mode::shave, "shave", "The volume's demand limit falls until it fits under the planes; then it may rise again."}})
         .doc("How a volume gives way.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.5)
-        .doc("Share of the excess that one tick takes back; of the demand, that share of the excess over the radius.");
+        .doc(
+            "Share of the excess that is corrected in one tick. In the mode `shave` it is that share of the excess divided by "
+            "the radius.");
     l.param(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(0.001, 1)
@@ -69,15 +70,12 @@ struct SolarEnvelope {
         .range(0, 1)
         .soft(0, 0.5)
         .doc(
-            "How far beyond the tolerance a volume that is shaved still rests, as a share of the tolerance. The rule is being "
-            "brought about until no volume reaches farther than that.");
+            "Dead band of the mode `shave`, beyond the tolerance and as a share of it: the limit stays as it is within it. The "
+            "scene settles only when no volume reaches farther than that.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc(
-            "Share of the demand that is not shaved off, whatever stands in the sun. Where that is not enough, the rule cannot "
-            "be "
-            "met, and says so.");
+        .doc("Share of the demand that is never shaved off. If that is not enough, the link reports that the rule is not met.");
     l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
@@ -94,7 +92,7 @@ struct SolarEnvelope {
     l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
-  // The planes through each part of the edge, for volumes on its one side and on its other: the same for all volumes of a tick.
+  // The planes through each part of the edge, for volumes on either side of it. They are the same for all volumes of a tick.
   struct Planes {
     std::optional<Shared<Table>> moments;
     std::vector<std::array<std::vector<sun::SunPlane>, 2>> parts;
@@ -110,7 +108,7 @@ struct SolarEnvelope {
           parts[i][static_cast<std::size_t>(side)] =
               sun::solar_envelope(edge[i], edge[i + 1], edge[i] + (side == 0 ? -1.0 : 1.0) * across(edge, i), suns);
     }
-    // Level, at right angles to a part of the edge.
+    // Horizontal, at right angles to a part of the edge.
     static Vector3 across(const std::vector<Point3>& edge, std::size_t i) {
       return {(edge[i + 1] - edge[i]).y, -(edge[i + 1] - edge[i]).x, 0};
     }
@@ -131,7 +129,7 @@ struct SolarEnvelope {
     planes.make(in.edge, ends.moments);
     double worst = -ends.radius;
     Vector3 normal;
-    // Most planes are far above: the whole ball, and a hair for rounding, is below them.
+    // Most planes are far above the whole ball, with a small margin for rounding.
     const double most = ends.radius * (1 + 1e-12);
     for (std::size_t i = 0; i + 1 < in.edge.size(); ++i) {
       const double side = dot(Planes::across(in.edge, i), ends.position - in.edge[i]);
@@ -148,8 +146,8 @@ struct SolarEnvelope {
     const double beyond = worst / ends.radius - in.tolerance;
     if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
     if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
-    // From half the tolerance to a little beyond it the limit rests; below it the volume may grow again. Without that little the
-    // last of the excess would be shaved off for ever.
+    // The limit stays as it is from half the tolerance to a little beyond it; below that the volume may grow again. Without that
+    // little, the last of the excess would be shaved off without end.
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
     const double excess = beyond > in.play * in.tolerance ? std::min(beyond, 0.5) : 0.0;
     const double answer = (1 - in.gain * excess) * (1 + in.gain * room);
@@ -158,7 +156,7 @@ struct SolarEnvelope {
   }
 
  private:
-  // The planes are not kept: the volume is on its way under them, or held.
+  // Reports a volume that reaches through the planes: as being worked on, or as unmet where something holds it.
   static void tell(const In& in, const Ends& ends, double through, const Tick& tick) {
     const std::string found = "`" + ends.id + "` reaches " + fixed(through * ends.radius, 2) + " m through the planes of the sun";
     const std::vector<bool> locked = {ends.is_limit_locked};

@@ -1,4 +1,4 @@
-// Makes those who take most sun from a receiver give way, for as long as the receiver is short of what it needs.
+// Makes the volumes that take most sun from a receiver give way, as long as the receiver has less sun than it needs.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -41,25 +41,24 @@ struct SolarRight {
     l.id("solar_right")
         .label("Solar right")
         .doc(
-            "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
-            "worst "
-            "one most, the others by what they take, none once the need is met. Who takes next to nothing is not held back.");
+            "Protects the sun that a receiver needs. While it has less, the volumes that shade it give way, each in proportion "
+            "to the sun that it takes. A volume that takes next to nothing is not limited.");
     l.family(LinkFamily::sun);
     l.param(&In::mode, "mode",
-            {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
+            {{Mode::lower, "lower", "The volume's position sinks to the foot of its shape at most; the volume gets wider."},
              {Mode::move, "move", "The volume moves away in plan."},
-             {Mode::shave, "shave", "The volume may demand less, until the receiver has its sun; then it may grow again."}})
+             {Mode::shave, "shave", "The volume's demand limit falls until the receiver has its sun; then it may rise again."}})
         .doc("How a volume gives way.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.5)
-        .doc("How strongly one tick answers to what is missing: as a share of the volume's radius, height or demand.");
+        .doc("Gain: how strongly a volume gives way to missing sun in one tick, as a share of its radius, height or demand.");
     l.param(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(0.001, 1)
         .soft(0.005, 0.1)
-        .doc("What may be missing on the mean of all points, as a share of the sun that is required.");
+        .doc("The sun that may be missing as the mean over all points, as a share of the required sun.");
     l.param(&In::play, "play")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -68,7 +67,7 @@ struct SolarRight {
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of a demand that is not shaved off. Where that is not enough, the rule cannot be met, and says so.");
+        .doc("Share of a demand that is never shaved off. If that is not enough, the link reports that the rule is not met.");
     l.reads(&Ends::receiver, End::from, "node.id").reads(&Ends::place, End::from, "node.position", Unit::metre);
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
@@ -90,16 +89,16 @@ struct SolarRight {
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
 
-  // What is missing beyond the tolerance, as a share of what is required; what no caster takes cannot be asked of one.
+  // The sun missing beyond the tolerance, as a share of the required sun. Sun that no caster takes is not counted.
   static double shortage(const In& in, const Ends& ends) {
     const double unavoidable = std::max(0.0, ends.required - ends.possible);
     return std::clamp((ends.deficit - unavoidable) / ends.required, 0.0, 1.0) - in.tolerance;
   }
 
-  // What even the worst point has beyond its need, as a share of the need.
+  // What the worst point has beyond its need, as a share of the need.
   static double surplus(const Ends& ends) { return std::clamp((ends.least - ends.required) / ends.required, 0.0, 1.0); }
 
-  // Moves away from the receiver in plan; two on one point part by their names.
+  // Direction in plan away from the receiver. Where both lie on one point, their ids give the direction.
   static Vector3 away(const Ends& ends, std::size_t i) {
     const Point3& position = ends.positions.values[i];
     const Vector3 between{position.x - ends.place.x, position.y - ends.place.y, 0};
@@ -111,12 +110,12 @@ struct SolarRight {
     return std::max(0.0, ends.positions.values[i].z - ends.bottoms.values[i]);
   }
 
-  // Why those who take the sun cannot give way any further; empty while one of them can.
+  // Why the volumes that take the sun cannot give way any further; empty while one of them can.
   static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& who) {
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
     const std::string advice = "; lower `required_sun`";
-    if (who.empty()) return held_by(held, who, in.least) + advice + ", or lead the link to them";
+    if (who.empty()) return held_by(held, who, in.least) + advice + ", or add them to the end of the link";
     if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
     if (in.mode == Mode::shave)
       return held_by(held, who, in.least) + advice + " or `least`," + unlocking(held, who, in.least) + " or move the volume";
@@ -130,7 +129,7 @@ struct SolarRight {
     return holders + advice + ", or let them be shaved";
   }
 
-  // The sun is not there yet: on its way, or held up by those who give way no further.
+  // Reports missing sun: as being worked on, or as unmet where the volumes cannot give way any further.
   static void tell(const In& in, const Ends& ends, const std::vector<double>& shares, const Tick& tick) {
     std::vector<std::size_t> who;
     for (std::size_t i = 0; i < shares.size(); ++i)
@@ -164,8 +163,8 @@ struct SolarRight {
     return out;
   }
 
-  // From half the tolerance to a little beyond it the limit rests: the last moments of sun would be shaved off for ever. Who
-  // takes little may grow nevertheless: what others limit, or limited once, is not ours to hold.
+  // The limit stays as it is from half the tolerance to a little beyond it, or the last moments of sun would be shaved off
+  // without end. A volume that takes little may grow nevertheless: this link does not hold limits that others set.
   static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, double missing, double answer,
                                         double share) {
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});

@@ -26,9 +26,8 @@ struct Stack {
   static void declare(LinkBuilder<Stack>& l) {
     l.family(LinkFamily::order);
     l.id("stack").label("Stack").doc(
-        "Sets a volume on top of another one, or on the same level as it. Only the second volume moves. While one of the two has "
-        "no "
-        "shape yet, heights are left alone.");
+        "Sets a volume on top of another one, or on the same level. Only the second volume moves. While one of the two has no "
+        "shape yet, heights do not change.");
     l.param(&In::relation, "relation",
             {{Relation::on_top, "on_top", "The lowest point of the second volume meets the highest point of the first."},
              {Relation::same_level, "same_level", "The lowest points of both volumes are on one level."}})
@@ -64,7 +63,7 @@ struct Stack {
   }
 
  private:
-  // Shapes that follow their positions never come to rest on a level exactly: a centimetre is near enough.
+  // Shapes that follow their positions never rest on a level exactly; a centimetre is near enough.
   static double beyond(double error, double band) { return error - std::clamp(error, -band, band); }
 };
 

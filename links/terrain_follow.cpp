@@ -30,7 +30,9 @@ struct TerrainFollow {
   static void declare(LinkBuilder<TerrainFollow>& l) {
     l.id("terrain_follow")
         .label("Terrain follow")
-        .doc("Brings nodes to a height above the ground, upright, tick by tick; in plan they stay where they are.");
+        .doc(
+            "Moves nodes vertically to a height above the ground, a share in every tick. Their position in plan does not "
+            "change.");
     l.family(LinkFamily::ground);
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
     l.param(&In::stiffness, "stiffness")
@@ -47,7 +49,7 @@ struct TerrainFollow {
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
   }
 
-  // The grid is kept for the other nodes that the link looks at in the same tick; another terrain is another table.
+  // The grid is kept for the other nodes of the link in the same tick. Each terrain has a table of its own.
   struct Cache {
     std::optional<Shared<Table>> table;
     std::vector<std::string_view> rows;  // of that table
@@ -68,7 +70,7 @@ struct TerrainFollow {
     Cache& kept = tick.memo != nullptr ? tick.memo->of<Cache>() : own;
     geometry::HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
     find_rows(ends, kept);
-    grid.rows.swap(kept.rows);  // lent for the question
+    grid.rows.swap(kept.rows);  // swapped in for the query
     const auto ground = grid.sample(ends.position.x, ends.position.y);
     grid.rows.swap(kept.rows);
     if (!ground && in.needs_ground)

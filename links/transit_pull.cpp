@@ -14,7 +14,7 @@ struct TransitPull {
   struct Ends {
     Point3 stop, volume;
     double radius = 0;
-    double demand = 0;  // who has one is a volume
+    double demand = 0;  // only volumes have this port
   };
   struct Out {
     Vector3 volume;
@@ -23,20 +23,19 @@ struct TransitPull {
   static void declare(LinkBuilder<TransitPull>& l) {
     l.id("transit_pull").label("Transit pull");
     l.doc(
-        "Pulls a volume towards a stop until it stands in its catchment. Who is far away feels little of it; who is inside, "
-        "nothing. "
-        "Heights do not count.");
+        "Pulls a volume towards a stop until it stands in its catchment. The pull is weak far away and zero inside the "
+        "catchment. Distances are measured in plan.");
     l.family(LinkFamily::traffic);
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.5)
-        .doc("Share of the way into the catchment per tick, at its edge.");
+        .doc("Share of the distance to the catchment that is closed in one tick, at its edge.");
     l.param(&In::fade, "fade")
         .unit(Unit::metre)
         .range(1, 1e5)
         .soft(50, 1000)
-        .doc("So much farther out, the pull is only a third as strong (1/e).");
+        .doc("The distance outside the catchment at which the pull falls to a third (1/e).");
     l.reads(&Ends::stop, End::from, "node.position", Unit::metre)
         .reads(&Ends::radius, End::from, "transit_stop.radius", Unit::metre);
     l.reads(&Ends::volume, End::to, "node.position", Unit::metre)

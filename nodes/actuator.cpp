@@ -27,26 +27,28 @@ struct Actuator {
   static void declare(TypificationBuilder<Actuator>& t) {
     t.id("actuator").label("Actuator");
     t.doc(
-        "Sends a number to a device by MQTT or OSC, where the scene runs live. What is sent follows from the scene; whether it "
-        "arrives does not come back into it.");
+        "Sends a number to a device by MQTT or OSC while the scene runs live. The message depends on the scene only; the scene "
+        "does not learn whether it arrives.");
     t.in(&In::value, "value")
         .traced()
         .unit_from("unit")
         .combine(CombineRule::blend)
         .keeps_default()
-        .doc("The number, set by people or proposed by links. As long as neither has happened, nothing is sent.");
+        .doc("The number, set by people or proposed by links. Without a number nothing is sent.");
     t.in(&In::unit, "unit").doc("Unit that the number is sent in, as a symbol such as `m` or `cm`; empty for a plain number.");
-    t.in(&In::address, "address").shown_first().doc("Where it goes: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
+    t.in(&In::address, "address")
+        .shown_first()
+        .doc("The address of the device: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
     t.in(&In::format, "format")
         .doc(
-            "The message, with `{value}` where the number goes. By OSC, `{value}` alone is sent as a number, all else as a "
+            "The message, with `{value}` in place of the number. By OSC, `{value}` alone is sent as a number, anything else as a "
             "text.");
-    t.in(&In::decimals, "decimals").unit(Unit::count).range(-1, 12).doc("Decimals of the number; -1 for as many as it has.");
+    t.in(&In::decimals, "decimals").unit(Unit::count).range(-1, 12).doc("Number of decimals; -1 for as many as the number has.");
     t.in(&In::interval, "interval")
         .unit(Unit::second)
         .min(0.02)
         .soft(0.1, 60)
-        .doc("Shortest time between two messages. What changes in between is sent after it, the newest only.");
+        .doc("Shortest time between two messages. Of the changes in between, only the newest is sent afterwards.");
     t.in(&In::change, "change").unit_from("unit").min(0).doc("Smaller changes are not sent; 0 for every change of the message.");
     t.in(&In::is_on, "is_on").doc("Nothing is sent while this is off.");
     t.out(&Out::message, "message").doc("The message as it is sent.");
@@ -59,11 +61,11 @@ struct Actuator {
       const auto address = address::parse_live_address(in.address);
       if (!address) return address.error().within("address");
       if (address->scheme != address::LiveAddress::Scheme::mqtt && address->scheme != address::LiveAddress::Scheme::osc)
-        return Error{ErrorCode::conflict, "address", "messages are sent by `mqtt://` or `osc://` only"};
+        return Error{ErrorCode::conflict, "address", "messages are sent by `mqtt://` or `osc://` only: write such an address"};
     }
     const std::size_t slot = in.format.find(kSlot);
     if (slot == std::string::npos)
-      return Error{ErrorCode::missing, "format", "has no `{value}` where the number would go: put one in"};
+      return Error{ErrorCode::missing, "format", "has no `{value}` in place of the number: put one in"};
     const UnitInfo* unit = find_unit(in.unit);
     const double number = in.value / (unit != nullptr ? unit->scale : 1);
     Out out{in.format};

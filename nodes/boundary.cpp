@@ -35,7 +35,7 @@ struct Boundary {
   static void declare(TypificationBuilder<Boundary>& t) {
     t.id("boundary").label("Boundary");
     t.column(CanvasColumn::second);
-    t.doc("The space that SmartVolumes may take: all of their cells together fill it, and none reaches out of it.");
+    t.doc("The space that SmartVolumes may take. Their power cells together fill it, and no cell reaches outside it.");
     t.in(&In::form, "form",
          {{Form::hull, "hull", "The convex hull of `points`: the smallest convex body that holds them all."},
           {Form::plan, "plan", "The polygon `plan` without its `holes`, from `bottom` to `height` above it, with its `steps`."},
@@ -46,7 +46,7 @@ struct Boundary {
         .doc("At least four points that do not lie in one plane. Used where the form is `hull`.");
     t.in(&In::plan, "plan")
         .unit(Unit::metre)
-        .doc("Corners of a polygon, in order around it; their heights count for nothing. Used where the form is `plan`.");
+        .doc("Corners of a polygon, in order around it; their heights are ignored. Used where the form is `plan`.");
     t.in(&In::bottom, "bottom")
         .unit(Unit::metre)
         .range(-1e5, 1e5)
@@ -60,7 +60,7 @@ struct Boundary {
         .combine(CombineRule::blend)
         .doc("Height of the boundary from its underside to its top. Used where the form is `plan`.");
     ring_columns(t.in(&In::holes, "holes"))
-        .doc("Courts and the like in the plan, one corner per row. Used where the form is `plan`.");
+        .doc("Courts and other holes in the plan, one corner per row. Used where the form is `plan`.");
     ring_columns(t.in(&In::steps, "steps"))
         .column(height_column("top", "Height of this step's top above the origin, in its first row."))
         .doc("Parts of the plan that rise to a height of their own, from `bottom` on. Used where the form is `plan`.");
@@ -69,17 +69,17 @@ struct Boundary {
         .column(index_column("a", "First"))
         .column(index_column("b", "Second"))
         .column(index_column("c", "Third"))
-        .doc("The closed surface, each triangle by three corners, all turned the same way. Used where the form is `mesh`.");
+        .doc("The closed surface: three corners per triangle, with one orientation throughout. Used where the form is `mesh`.");
     t.in(&In::setbacks, "setbacks")
         .column(component_column("x", "First"))
         .column(component_column("y", "Second"))
         .column(component_column("z", "Third"))
         .column(height_column("offset", "Distance of the plane from the origin along the normal, for a normal of length 1."))
-        .doc("Planes that the boundary stays behind, such as setbacks: what lies on the side of the normal is cut away.");
+        .doc("Planes that limit the boundary, such as setbacks. The part on the side of the normal is cut away.");
     ring_columns(t.in(&In::exclusions, "exclusions"))
         .column(height_column("bottom", "Height of the underside above the origin, in the first row."))
         .column(height_column("top", "Height of the top above the origin, in the first row."))
-        .doc("Solids that are no part of the boundary, such as buildings that stay: plans between two heights.");
+        .doc("Solids that are cut out of the boundary, such as buildings that stay. Each is a plan between two heights.");
     declare_results(t);
   }
 
@@ -91,21 +91,23 @@ struct Boundary {
         .column({.id = "offset", .unit = Unit::metre, .doc = "Distance of the plane from the origin along the normal."})
         .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
         .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."})
-        .doc("The boundary as convex pieces, in a fixed order. Of a convex one row k is the side `#k`.");
+        .doc("The boundary as convex pieces, in a fixed order. Where the boundary is convex, row k is the side `#k`.");
     t.out(&Out::volume, "volume").shown_first().unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::ground_area, "ground_area")
         .shown_first()
         .unit(Unit::square_metre)
         .doc("Area that the boundary covers in plan, seen from above.");
-    t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for the eye and for export.");
-    t.made("domain", {"planes"}, &geometry::shared_domain<Shared<Table>>).doc("What `planes` bound, for solvers and links.");
+    t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for display and export.");
+    t.made("domain", {"planes"}, &geometry::shared_domain<Shared<Table>>)
+        .doc("The solid that `planes` bound, for solvers and links.");
   }
 
   static PortBuilder<Table> ring_columns(PortBuilder<Table> port) {
     return port
-        .column({.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows of one name make one polygon."})
-        .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East of the corner."})
-        .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North of the corner."});
+        .column(
+            {.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows with the same name make one polygon."})
+        .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East coordinate of the corner."})
+        .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North coordinate of the corner."});
   }
   static ColumnDefinition height_column(const char* id, const char* doc) {
     return {.id = id, .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = doc};

@@ -26,7 +26,7 @@ struct Control {
     t.id("control").label("Control");
     t.column(CanvasColumn::first).icon(Icon::plus);
     t.doc("A number that people set by a slider or a switch, and that links carry to other nodes.");
-    t.in(&In::value, "value").unit_from("unit").doc("What people have set. No link changes it.");
+    t.in(&In::value, "value").unit_from("unit").doc("The value that people have set. No link changes it.");
     t.in(&In::unit, "unit")
         .doc("Unit of the value as a symbol, such as `m`, `m2`, `m3`, `deg`, `s` or `EUR`; empty for a plain number.");
     t.in(&In::minimum, "minimum").unit_from("unit").doc("Lower end of the slider.");
@@ -34,10 +34,10 @@ struct Control {
     t.in(&In::step, "step")
         .unit_from("unit")
         .min(0)
-        .doc("Distance of the notches, counted from the lower end; 0 for a slider without notches.");
+        .doc("Step of the slider, counted from the lower end; 0 for a slider without steps.");
     t.in(&In::is_switch, "is_switch")
-        .doc("Makes it a switch: the output is 1 where the value is 0.5 or more, and 0 elsewhere; range and step do not count.");
-    t.out(&Out::output, "output").shown_first().unit_from("unit").doc("The value inside the range, at the nearest notch.");
+        .doc("Makes it a switch: the output is 1 where the value is 0.5 or more, and 0 elsewhere. Range and step are ignored.");
+    t.out(&Out::output, "output").shown_first().unit_from("unit").doc("The value inside the range, rounded to the nearest step.");
   }
 
   static Result<void> check_unit(const std::string& symbol) {
@@ -66,7 +66,7 @@ struct Control {
                        "): make it smaller, or 0 for none"};
     const double value = std::clamp(in.value, in.minimum, in.maximum);
     if (!(in.step > 0)) return Out{value};
-    // The last notch may lie below the maximum; the margin keeps a range that is a whole number of steps up to rounding.
+    // The last step may lie below the maximum; the margin keeps a range that is a whole number of steps up to rounding.
     const double last = std::floor(range / in.step * (1 + 1e-12));
     const double notch = std::min(std::floor((value - in.minimum) / in.step + 0.5), last);
     return Out{std::min(in.minimum + notch * in.step, in.maximum)};

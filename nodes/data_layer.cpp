@@ -22,21 +22,23 @@ struct DataLayer {
 
   static void declare(TypificationBuilder<DataLayer>& t) {
     t.id("data_layer").label("Data layer");
-    t.doc("Urban data: points with one value each, such as noise levels or residents. Links read it under the nodes.");
+    t.doc(
+        "Urban data: points with one value each, such as noise levels or residents. Links read the values at the positions of "
+        "nodes.");
     t.in(&In::values, "values")
-        .column({.id = "x", .unit = Unit::metre, .minimum = -1e7, .maximum = 1e7, .doc = "East of the point."})
-        .column({.id = "y", .unit = Unit::metre, .minimum = -1e7, .maximum = 1e7, .doc = "North of the point."})
+        .column({.id = "x", .unit = Unit::metre, .minimum = -1e7, .maximum = 1e7, .doc = "East coordinate of the point."})
+        .column({.id = "y", .unit = Unit::metre, .minimum = -1e7, .maximum = 1e7, .doc = "North coordinate of the point."})
         .column({.id = "value", .minimum = -1e12, .maximum = 1e12, .doc = "The value there, in the unit of the layer."})
         .doc("The points. Places without a value have no row.");
-    t.in(&In::quantity, "quantity").doc("What the values are, such as `noise level at night`.");
+    t.in(&In::quantity, "quantity").doc("What the values measure, such as `noise level at night`.");
     t.in(&In::unit, "unit").doc("Unit of the values as a symbol, such as `dB` or `m`; empty for plain numbers.");
     t.in(&In::source, "source").doc("Who made the data, when, and from which file it came.");
-    t.in(&In::licence, "licence").doc("What may be done with the data, such as `CC BY 4.0`.");
+    t.in(&In::licence, "licence").doc("Licence of the data, such as `CC BY 4.0`.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of points.");
     t.out(&Out::sum, "sum").unit_from("unit").doc("Sum of the values.");
     t.out(&Out::mean, "mean").unit_from("unit").doc("Mean of the values; 0 where there are none.");
-    t.out(&Out::minimum, "minimum").unit_from("unit").doc("Least of the values; 0 where there are none.");
-    t.out(&Out::maximum, "maximum").unit_from("unit").doc("Greatest of the values; 0 where there are none.");
+    t.out(&Out::minimum, "minimum").unit_from("unit").doc("Smallest value; 0 where there are none.");
+    t.out(&Out::maximum, "maximum").unit_from("unit").doc("Largest value; 0 where there are none.");
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {

@@ -1,4 +1,4 @@
-// A building that stands already: a footprint between two heights or a closed mesh, and where its height is known from.
+// An existing building: a footprint between two heights or a closed mesh, with the source of its height.
 #include <algorithm>
 #include <cmath>
 
@@ -37,18 +37,18 @@ struct ExistingBuilding {
 
   static void declare(TypificationBuilder<ExistingBuilding>& t) {
     t.id("existing_building").label("Existing building");
-    t.doc("A building that stands already and that the plan has to live with: context, from a map or a city model.");
+    t.doc("A building that exists already and stays. It is context, from a map or a city model.");
     t.in(&In::form, "form",
          {{Form::extrusion, "extrusion", "The outline from the base up to the height."},
           {Form::mesh, "mesh", "The closed mesh of `vertices` and `triangles`; the outline is its footprint."}})
         .doc("How the body is given.");
     t.in(&In::outline, "outline")
         .unit(Unit::metre)
-        .doc("Corners of the footprint, in order around it; their heights count for nothing.");
+        .doc("Corners of the footprint, in order around it; their heights are ignored.");
     t.in(&In::holes, "holes")
-        .column({.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows of one name make one court."})
-        .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East of the corner."})
-        .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North of the corner."})
+        .column({.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows with the same name make one court."})
+        .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East coordinate of the corner."})
+        .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North coordinate of the corner."})
         .doc("Courts in the footprint, one corner per row.");
     t.in(&In::base, "base")
         .unit(Unit::metre)
@@ -63,33 +63,35 @@ struct ExistingBuilding {
         .combine(CombineRule::blend)
         .doc("Height from the underside to the top. Used where the form is `extrusion`.");
     t.in(&In::height_source, "height_source",
-         {{Source::geometry, "geometry", "Measured on the model that it came from."},
-          {Source::tag, "tag", "Written beside the building in its source."},
+         {{Source::geometry, "geometry", "Measured on the model that the building came from."},
+          {Source::tag, "tag", "Given as an attribute of the building in its source."},
           {Source::levels, "levels", "The number of storeys times the storey height."},
           {Source::neighbour, "neighbour", "Assumed: the median of known buildings nearby."},
           {Source::assumed, "default", "Assumed: nothing is known about it."}})
-        .doc("Where the height is known from; the last two are assumptions, and are drawn as such.");
+        .doc("Source of the height; the last two are assumptions, and are drawn as such.");
     t.in(&In::storey_height, "storey_height")
         .unit(Unit::metre)
         .range(1, 50)
         .soft(2.4, 6)
-        .doc("Height from floor to floor, by which the floor area is estimated.");
+        .doc("Height from floor to floor, used to estimate the floor area.");
     t.in(&In::use, "use").doc("What the building is used for, such as `apartments`.");
-    t.in(&In::origin, "origin").doc("Where the building comes from: its id in the source, and the source.");
+    t.in(&In::origin, "origin").doc("Origin of the data: the source, and the building's id in it.");
     t.in(&In::vertices, "vertices").unit(Unit::metre).doc("Corners of the mesh. Used where the form is `mesh`.");
     t.in(&In::triangles, "triangles")
         .column(index_column("a", "First"))
         .column(index_column("b", "Second"))
         .column(index_column("c", "Third"))
-        .doc("The closed surface, each triangle by three corners, counter-clockwise seen from outside.");
+        .doc("The closed surface: three corners per triangle, counter-clockwise seen from outside.");
     t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume of the body.");
     t.out(&Out::footprint, "footprint").unit(Unit::square_metre).doc("Area of the outline without its courts.");
     t.out(&Out::floor_area, "floor_area")
         .unit(Unit::square_metre)
-        .doc("Estimate: the footprint times the whole storeys, at least one; of a mesh its volume over the storey height.");
+        .doc(
+            "Estimate: the footprint times the number of whole storeys, at least one. For a mesh: its volume divided by the "
+            "storey height.");
     t.out(&Out::top, "top").unit(Unit::metre).doc("Height of the highest point above the origin.");
-    t.out(&Out::is_assumed, "is_assumed").doc("On where the height is an assumption: of neighbours, or the default.");
-    t.out(&Out::mesh, "mesh").doc("The body as a closed triangle mesh, for the eye, for shadows and for export.");
+    t.out(&Out::is_assumed, "is_assumed").doc("On where the height is an assumption: taken from neighbours, or the default.");
+    t.out(&Out::mesh, "mesh").doc("The body as a closed triangle mesh, for display, shadows and export.");
   }
 
   static ColumnDefinition index_column(const char* id, const std::string& which) {

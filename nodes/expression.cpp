@@ -24,10 +24,11 @@ constexpr std::array kBaseNames = {"m", "s", "deg", "EUR"};
 // Rescaling by 64 is exact in binary, also under square and cube roots, so that a sound formula rescales without rounding.
 constexpr int kScaleBits = 6, kSamples = 24, kLargestPower = 9, kLongestFormula = 500;
 
-// Stands for `^` while the parser reads: its own could not be replaced, and calls the C library. No formula can hold it.
+// Replaces `^` while the parser reads: the parser's own `^` cannot be replaced, and calls the C library. No formula can contain
+// it.
 constexpr char kPowerSign = '\x7f';
 
-// The functions of formulas, by those whose bits no processor changes; the parser's own are cleared away.
+// The functions of formulas, which give the same bits on every processor. The parser's own functions are removed.
 void define_functions(mu::Parser& parser) {
   using namespace mathematics;
   const auto one = [&](const char* name, double (*function)(double)) { parser.DefineFun(name, function); };
@@ -67,8 +68,9 @@ struct Expression {
     t.id("expression").label("Expression");
     t.column(CanvasColumn::first).icon(Icon::step);
     t.doc(
-        "Computes one number from up to four. Units are checked: lengths add to lengths only, and a plain number in the formula "
-        "becomes a quantity by its unit, as in `a + 3*m`. Sines and the like take radians: write `sin(a/deg*_pi/180)`.");
+        "Computes one number from up to four. Units are checked: a length can be added to a length only. A plain number in the "
+        "formula gets a unit by multiplication, as in `a + 3*m`. Sines and similar functions take radians: write "
+        "`sin(a/deg*_pi/180)`.");
     t.in(&In::formula, "formula")
         .doc(
             "At most 500 characters: a b c d, + - * / ^, comparisons, `x ? y : z`, sqrt, abs, min, max, sum, avg, exp, ln, sin, "
@@ -83,7 +85,7 @@ struct Expression {
           .doc("Unit of `" + name + "` as a symbol, such as `m`, `m2`, `m3` or `EUR`; empty for a plain number.");
     }
     t.in(&In::unit, "unit").doc("Unit of the result as a symbol; empty for a plain number.");
-    t.out(&Out::result, "result").unit_from("unit").doc("What the formula gives.");
+    t.out(&Out::result, "result").unit_from("unit").doc("The result of the formula.");
   }
 
   static Result<Dimension> dimension_of(const std::string& symbol, const std::string& port) {
@@ -184,7 +186,7 @@ struct Expression {
   // The power p with which the formula follows one base of units: rescaling the base by 64 rescales the result by 64^p.
   static Result<int> power_of(Formula& formula, std::size_t base, int expected) {
     Random random(7, base);
-    std::vector<std::pair<double, double>> pairs;  // as it is, rescaled; the first is where the inputs stand
+    std::vector<std::pair<double, double>> pairs;  // unchanged, rescaled; the first set holds the inputs
     for (int s = 0; s <= kSamples; ++s) {
       const double plain = formula.value(nullptr), scaled = formula.value(kBases[base]);
       if (std::isfinite(plain) && std::isfinite(scaled)) pairs.emplace_back(plain, scaled);

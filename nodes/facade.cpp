@@ -1,4 +1,4 @@
-// A façade: the role of a SmartVolume that is dressed by a style, and the record of what that makes of it.
+// A façade: the role of a SmartVolume whose surface a façade style designs, with the resulting areas and cost.
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -24,40 +24,42 @@ struct Facade {
     t.id("facade").label("Façade");
     t.doc(
         "The façade of a SmartVolume: the parts of its surface that are steep, above the ground and not shared with a neighbour. "
-        "A façade style dresses it and writes its areas.");
+        "A façade style gives it windows and writes its areas.");
     t.in(&In::style, "style")
         .collect()
-        .doc("Name of the style that dresses it. Links assign styles here; of several the first by name holds, and it says so.");
+        .doc(
+            "Name of the style that applies. Links assign styles here; of several the first by name applies, and the façade "
+            "reports it.");
     t.in(&In::glazing, "glazing")
         .unit(Unit::ratio)
         .range(0, 10)
         .soft(0, 2)
         .combine(CombineRule::blend)
-        .doc("Multiplies the glazing ratios of the style; 1 leaves them as they are. Links may ask for more or less glass.");
+        .doc("Factor on the glazing ratios of the style; 1 leaves them as they are. Links may ask for more or less glass.");
     t.in(&In::ground, "ground")
         .unit(Unit::metre)
         .range(-1e4, 1e4)
         .soft(-10, 10)
-        .doc("Height of the ground: what stands below it is no façade, and what lies on it no underside.");
+        .doc("Height of the ground. Surface below it does not count as façade, and surface on it does not count as underside.");
     declare_areas(t);
   }
 
   static void declare_areas(TypificationBuilder<Facade>& t) {
-    t.out(&Out::style_in_force, "style_in_force").doc("Name of the style that dresses it; empty where none does.");
+    t.out(&Out::style_in_force, "style_in_force").doc("Name of the style that was applied; empty where none was.");
     t.out(&Out::facade_area, "facade_area").unit(Unit::square_metre).doc("Area of the façade: glazed and opaque together.");
     t.out(&Out::glazed_area, "glazed_area").unit(Unit::square_metre).doc("Area of glass.");
     t.out(&Out::opaque_area, "opaque_area").unit(Unit::square_metre).doc("Area of wall.");
-    t.out(&Out::roof_area, "roof_area").unit(Unit::square_metre).doc("Surface flatter than 45 degrees that looks up.");
+    t.out(&Out::roof_area, "roof_area").unit(Unit::square_metre).doc("Surface flatter than 45 degrees that faces up.");
     t.out(&Out::shared_area, "shared_area").unit(Unit::square_metre).doc("Surface that neighbours cover.");
     t.out(&Out::glazing_ratio, "glazing_ratio").unit(Unit::ratio).soft(0, 1).doc("Glazed share of the façade; 0 where there is none.");
     t.out(&Out::cost, "cost").unit(Unit::euro).doc("Cost of the façade by the prices of its style.");
     t.out(&Out::panels, "panels").unit(Unit::count).doc("Number of modules, one storey high; parts of modules count as parts.");
     t.out(&Out::true_north, "true_north")
         .unit(Unit::degree)
-        .doc("Where the style takes true north to be: clockwise from the scene's y axis.");
+        .doc("True north according to the style, clockwise from the scene's y axis.");
     const auto number = [](const char* id, Unit unit, const char* doc) { return ColumnDefinition{.id = id, .unit = unit, .doc = doc}; };
     t.out(&Out::by_orientation, "by_orientation")
-        .column({.id = "orientation", .is_text = true, .default_value = std::string(), .doc = "Where this part looks to."})
+        .column({.id = "orientation", .is_text = true, .default_value = std::string(), .doc = "Orientation of this part."})
         .column(number("area", Unit::square_metre, "Area of the façade."))
         .column(number("glazed", Unit::square_metre, "Area of glass."))
         .column(number("opaque", Unit::square_metre, "Area of wall."))
@@ -68,13 +70,13 @@ struct Facade {
         .column(number("width", Unit::ratio, "Width of a window as a share of its module."))
         .doc("Areas for each of the eight orientations, clockwise from north, with the windows that are drawn there.");
     t.out(&Out::by_storey, "by_storey")
-        .column(number("storey", Unit::count, "Storey, the lowest of the volume is 0."))
+        .column(number("storey", Unit::count, "Number of the storey; the lowest of the volume is 0."))
         .column(number("area", Unit::square_metre, "Area of the façade."))
         .column(number("glazed", Unit::square_metre, "Area of glass."))
         .column(number("opaque", Unit::square_metre, "Area of wall."))
         .column(number("cost", Unit::euro, "Cost."))
         .doc("Areas for each storey that has a façade.");
-    t.out(&Out::message, "message").doc("What is unclear or cannot be had; empty where all is well.");
+    t.out(&Out::message, "message").doc("What is unclear or impossible, as a sentence; empty where there is no problem.");
   }
 };
 

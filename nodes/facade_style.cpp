@@ -1,4 +1,4 @@
-// A façade style: glazing, modules, bands and prices by use and orientation, and the dressing of the volumes that it is given.
+// A façade style: glazing, modules, bands and prices by use and orientation, and their application to volumes.
 #include <map>
 #include <optional>
 #include <set>
@@ -39,7 +39,7 @@ struct FacadeStyle {
   struct Claimant {
     std::string id;
     std::vector<std::string> style;
-    double bottom = 0;  // read for its being there: the façade is that of a SmartVolume
+    double bottom = 0;  // read to see that it exists: the façade belongs to a SmartVolume
   };
   struct Sets {
     std::vector<Member> members;
@@ -61,21 +61,21 @@ struct FacadeStyle {
   static void declare(TypificationBuilder<FacadeStyle>& t) {
     t.id("facade_style").label("Façade style");
     t.doc(
-        "A set of rules by which façades are dressed: how much glass, how wide the modules, how high sills and bands, at what "
-        "price. It dresses the façades that name it, and adds up their areas.");
-    t.in(&In::name, "name").doc("What façades call the style; each style of a scene needs a name of its own.");
+        "Rules for façades: the share of glass, the width of modules, the height of sills and bands, and prices. The style "
+        "applies to the façades that name it, and adds up their areas.");
+    t.in(&In::name, "name").doc("The name by which façades refer to the style; each style of a scene needs a name of its own.");
     declare_rows(t);
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
         .of_scene(OfScene::always)
-        .doc("Where true north lies in the scene: clockwise from its y axis. Orientations are told against it.");
-    t.in(&In::volumes, "volumes").doc("The façades that the style may dress; it dresses those among them that name it.");
-    t.in(&In::styles, "styles").doc("All styles of the scene, by which a façade is known that names none of them.");
+        .doc("Direction of true north, clockwise from the scene's y axis. Orientations are measured from it.");
+    t.in(&In::volumes, "volumes").doc("The façades that the style may apply to; it applies to those among them that name it.");
+    t.in(&In::styles, "styles").doc("All styles of the scene, to find façades that name none of them.");
     t.in(&In::surroundings, "surroundings").doc("The volumes that may cover façades.");
     t.in(&In::facades, "facades")
-        .doc("All façades of the scene: those that ask for this style and are not its `volumes` are told.");
-    t.out(&Out::count, "count").unit(Unit::count).doc("Number of façades that the style dresses.");
+        .doc("All façades of the scene: those that name this style and are not among its `volumes` get a message.");
+    t.out(&Out::count, "count").unit(Unit::count).doc("Number of façades that the style applies to.");
     t.out(&Out::facade_area, "facade_area").unit(Unit::square_metre).doc("Their area.");
     t.out(&Out::glazed_area, "glazed_area").unit(Unit::square_metre).doc("Their area of glass.");
     t.out(&Out::cost, "cost").unit(Unit::euro).doc("Their cost.");
@@ -90,18 +90,18 @@ struct FacadeStyle {
     ColumnDefinition module = number("module", Unit::metre, rule.module, 100, "Width of one window with its pier.");
     module.minimum = 0.1;
     t.in(&In::rows, "rows")
-        .column({.id = "use", .is_text = true, .default_value = std::string(), .doc = "Use that the row is for; empty: any."})
+        .column({.id = "use", .is_text = true, .default_value = std::string(), .doc = "Use that the row applies to; empty: any."})
         .column({.id = "orientation",
                  .is_text = true,
                  .default_value = std::string(),
-                 .doc = "Orientation that the row is for, such as `south_west`; empty: any."})
+                 .doc = "Orientation that the row applies to, such as `south_west`; empty: any."})
         .column(number("glazing", Unit::ratio, rule.glazing, 1, "Glazed share of each storey."))
         .column(module)
         .column(number("sill", Unit::metre, rule.sill, 50, "Closed parapet above each floor."))
         .column(number("band", Unit::metre, rule.band, 50, "Closed band under the next floor."))
-        .column(number("cost_glazed", Unit::none, rule.cost_glazed, 1e6, "Price of glass in euro for a square metre."))
-        .column(number("cost_opaque", Unit::none, rule.cost_opaque, 1e6, "Price of wall in euro for a square metre."))
-        .doc("The rules; the first row that fits a use and an orientation holds. Without rows all façades are alike.");
+        .column(number("cost_glazed", Unit::none, rule.cost_glazed, 1e6, "Price of glass in euro per square metre."))
+        .column(number("cost_opaque", Unit::none, rule.cost_opaque, 1e6, "Price of wall in euro per square metre."))
+        .doc("The rules; the first row that fits a use and an orientation applies. Without rows all façades are alike.");
   }
 
   static void declare_sets(TypificationBuilder<FacadeStyle>& t) {
@@ -151,7 +151,7 @@ struct FacadeStyle {
     return {member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, bands_of(rules, member.storey_height)};
   }
 
-  // Two with one name would dress the same façades.
+  // Two styles with one name would apply to the same façades.
   static Result<void> check_names(const In& in, const std::vector<Named>& styles) {
     std::vector<std::string> same;
     for (const Named& style : styles)
@@ -161,8 +161,8 @@ struct FacadeStyle {
                  "`" + same[0] + "` and `" + same[1] + "` are both called `" + in.name + "`: give one of them another name"};
   }
 
-  // Façades that nobody dresses must not keep what an earlier style wrote. The style that a façade asks for clears it where it is
-  // none of the style's volumes; where a façade asks for none, the first style does.
+  // Façades without a style must not keep what an earlier style wrote. The style that a façade names clears it where it is not
+  // among the style's volumes; where a façade names none, the first style clears it.
   static void clear(const In& in, const Sets& sets, std::span<const std::string> names, Out& out) {
     std::set<std::string> own;
     for (const Member& member : sets.members) own.insert(member.id);

@@ -26,12 +26,12 @@ struct Junction {
         .range(0, 3600)
         .soft(0, 60)
         .combine(CombineRule::blend)
-        .doc("What everybody loses who arrives here by a street: at a signal, or for giving way.");
+        .doc("Time that each vehicle loses on arriving here by a street: at a signal, or in giving way.");
     t.out(&Out::streets, "streets").unit(Unit::count).doc("Number of streets that begin or end here.");
     t.out(&Out::flow, "flow").unit(Unit::per_hour).doc("Vehicles per hour that arrive by all streets together.");
     t.out(&Out::volume_over_capacity, "volume_over_capacity")
         .unit(Unit::ratio)
-        .doc("The largest share of its capacity that one of the streets here is used to; above 1 it is overloaded.");
+        .doc("Largest volume over capacity of the streets here; above 1 a street is overloaded.");
   }
 };
 

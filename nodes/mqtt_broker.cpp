@@ -1,4 +1,4 @@
-// An MQTT broker: who we are there, and how the connection to it is secured.
+// An MQTT broker: our user name there, and how the connection to it is secured.
 #include "core/address/password_source.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
@@ -22,24 +22,22 @@ struct MqttBroker {
   static void declare(TypificationBuilder<MqttBroker>& t) {
     t.id("mqtt_broker").label("MQTT broker");
     t.doc(
-        "How sensors and actuators reach one broker: all whose address names this host and port. Without such a node they "
-        "connect "
-        "without a name and unencrypted. Of several nodes for one broker the first id counts.");
-    t.in(&In::host, "host").doc("The host as addresses name it, such as `localhost` or `broker.example.org`.");
-    t.in(&In::port, "port").range(1, 65535).doc("Its port: 1883 as a rule, 8883 for encrypted connections.");
-    t.in(&In::user, "user").doc("The name that the broker knows us by; empty for none.");
+        "The connection of sensors and actuators to one broker. It applies to all addresses with this host and port. Without "
+        "such a node they connect without a user name and unencrypted. Of several nodes for one broker the first id counts.");
+    t.in(&In::host, "host").doc("The host as written in addresses, such as `localhost` or `broker.example.org`.");
+    t.in(&In::port, "port").range(1, 65535).doc("Its port: usually 1883, or 8883 for encrypted connections.");
+    t.in(&In::user, "user").doc("The user name at the broker; empty for none.");
     t.in(&In::password_from, "password_from")
         .doc(
             "Where the password is: `env:BL_NAME` for a variable of the environment, or `file:NAME.password` for the first line "
             "of a "
             "file beside the scene; empty for none. The password itself never stands in a scene.");
     t.in(&In::is_encrypted, "is_encrypted")
-        .doc("Connects by TLS and checks the certificate of the broker. When off, also the password goes unencrypted.");
+        .doc("Connects by TLS and checks the certificate of the broker. When off, the password is sent unencrypted, too.");
     t.in(&In::ca_file, "ca_file")
         .doc(
-            "File with the certificates that vouch for the broker's own, in PEM form, beside the scene; empty for those that "
-            "this "
-            "computer trusts.");
+            "PEM file beside the scene with the certificates that the broker's certificate is checked against; empty for those "
+            "that this computer trusts.");
     t.out(&Out::message, "message").doc("What is wrong with these settings, as a sentence; empty where nothing is.");
   }
 

@@ -1,4 +1,4 @@
-// A plot with its rules: how much may be built on it, and by how much the volumes on it go beyond that.
+// A plot with its building rules, and by how much the volumes on it exceed them.
 #include <algorithm>
 #include <cmath>
 
@@ -40,9 +40,7 @@ struct Plot {
         "FSI is floor area over land, GSI built ground over land, OSR open ground over floor area, L floor area over built "
         "ground "
         "(Berghauser Pont and Haupt 2010).");
-    t.in(&In::polygon, "polygon")
-        .unit(Unit::metre)
-        .doc("Corners of the plot, in order around it; their heights count for nothing.");
+    t.in(&In::polygon, "polygon").unit(Unit::metre).doc("Corners of the plot, in order around it; their heights are ignored.");
     t.in(&In::volumes, "volumes").doc("The volumes that may stand on the plot; those outside its polygon are left out.");
     t.in(&In::ground, "ground").unit(Unit::metre).range(-1e4, 1e5).soft(-20, 50).doc("Height of the ground above the origin.");
     t.in(&In::fsi_max, "fsi_max")
@@ -57,12 +55,12 @@ struct Plot {
         .range(0, 10000)
         .soft(3, 200)
         .combine(CombineRule::min)
-        .doc("How high above the ground anything may reach.");
+        .doc("The largest height above the ground allowed.");
     t.in(&In::setback, "setback")
         .unit(Unit::metre)
         .range(0, 1000)
         .soft(0, 20)
-        .doc("How far from the sides of the plot volumes have to stay.");
+        .doc("Least distance of volumes from the sides of the plot.");
     declare_results(t);
     auto set = t.set("volumes", &Sets::volumes);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
@@ -82,13 +80,13 @@ struct Plot {
     t.out(&Out::footprint, "footprint")
         .unit(Unit::square_metre)
         .doc(
-            "Built ground: the footprints of the volumes that begin within the lowest storey, since others stand on these. What "
-            "begins in the upper half of it counts less and less.");
+            "Built ground: the footprints of the volumes that begin within the lowest storey; other volumes stand on these. A "
+            "volume that begins in the upper half of that storey counts less, the higher it begins.");
     t.out(&Out::fsi, "fsi").unit(Unit::ratio).doc("Floor space index: floor area over the area of the plot.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).soft(0, 1).doc("Ground space index: built ground over the area of the plot.");
     t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
     t.out(&Out::layers, "layers").unit(Unit::ratio).doc("Mean number of storeys, FSI / GSI; 0 where no ground is built on.");
-    t.out(&Out::top, "top").unit(Unit::metre).doc("How high above the ground the highest volume reaches.");
+    t.out(&Out::top, "top").unit(Unit::metre).doc("Height of the highest volume above the ground.");
     t.out(&Out::floor_overshoot, "floor_overshoot").unit(Unit::square_metre).doc("Floor area beyond the largest FSI.");
     t.out(&Out::footprint_overshoot, "footprint_overshoot").unit(Unit::square_metre).doc("Built ground beyond the largest GSI.");
     t.out(&Out::height_overshoot, "height_overshoot")
@@ -96,7 +94,7 @@ struct Plot {
         .doc("Height of the highest volume beyond the largest height.");
     t.out(&Out::setback_overshoot, "setback_overshoot")
         .unit(Unit::metre)
-        .doc("How deep the worst volume stands in the setback, taken as a disc of the area of its footprint.");
+        .doc("Largest depth of a volume in the setback, with the volume taken as a disc of the area of its footprint.");
     t.out(&Out::overshoot, "overshoot")
         .unit(Unit::ratio)
         .doc("The worst overshoot of FSI, GSI and height, as a share of what is allowed.");
@@ -104,14 +102,14 @@ struct Plot {
         .doc("Volumes that no smaller demand brings below the largest height; empty where there are none.");
   }
 
-  // How much of what is allowed is exceeded; what is forbidden altogether counts as exceeded once.
+  // The excess as a share of what is allowed; where nothing is allowed, any excess counts as 1.
   static double share(double overshoot, double allowed) {
     constexpr double kMost = 1e6;
     return overshoot <= 0 ? 0 : allowed > 0 ? std::min(overshoot / allowed, kMost) : 1;
   }
 
-  // How much of a footprint is built ground. A volume that shrinks lifts off little by little, and so does its footprint: a step
-  // would make links that hold the GSI swing.
+  // The share of a footprint that counts as built ground. A volume that shrinks lifts off gradually, and its share falls
+  // gradually as well: a step would make links that hold the GSI oscillate.
   static double grounded(const In& in, const Member& member) {
     return std::clamp(2 * (in.ground + member.storey_height - member.bottom) / member.storey_height, 0.0, 1.0);
   }

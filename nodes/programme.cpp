@@ -1,4 +1,4 @@
-// The programme of a project: how much floor area of each use is wanted, and what it adds up to.
+// The programme of a project: the wanted floor area of each use, and the totals.
 #include <cmath>
 #include <set>
 
@@ -25,8 +25,8 @@ struct Programme {
     t.id("programme").label("Programme");
     t.column(CanvasColumn::first).icon(Icon::file);
     t.doc(
-        "A brief as a table: one row for each use, with the floor area of one item and the number of items. "
-        "It holds the demands; links deal them out to SmartVolumes of the same use.");
+        "A brief as a table: one row for each use, with the floor area of one item and the number of items. Links divide these "
+        "demands among the SmartVolumes of the same use.");
     const std::string area = "Floor area of one item";
     t.in(&In::rows, "rows")
         .column({.id = "use",
@@ -34,7 +34,7 @@ struct Programme {
                  .is_required = true,
                  .is_key = true,
                  .default_value = std::string(),
-                 .doc = "What the row is about, such as `housing`."})
+                 .doc = "The use, such as `housing`."})
         .column({.id = "floor_area",
                  .is_required = true,
                  .unit = Unit::square_metre,

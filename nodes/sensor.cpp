@@ -18,7 +18,7 @@ constexpr std::int64_t kNever = -1;  // the tick of a reading that has not come
 struct Sensor {
   enum class WhenStale { hold, fallback };
   enum class Quality { never, good, stale, invalid };
-  // The last good value behind the low-pass filter; what a reading that is out of range must not take away.
+  // The last good value after the low-pass filter; a reading that is out of range must not change it.
   struct Memory {
     double held = 0;
     bool is_held = false;
@@ -45,43 +45,49 @@ struct Sensor {
   static void declare(TypificationBuilder<Sensor>& t) {
     t.id("sensor").label("Sensor");
     t.doc(
-        "The last reading of a device: by MQTT, OSC or HTTP where the scene runs live, or out of a recorded CSV table. Readings "
-        "come as entries of the log, so that a replay gives the same without the device.");
+        "The last reading of a device: by MQTT, OSC or HTTP while the scene runs live, or from a recorded CSV table. Readings "
+        "are entries of the log, so that a replay gives the same result without the device.");
     t.in(&In::address, "address")
         .shown_first()
         .doc(
-            "Where readings come from: `mqtt://host:1883/topic`, `osc://9000/path`, `http://host/page`, or "
+            "Address of the readings: `mqtt://host:1883/topic`, `osc://9000/path`, `http://host/page`, or "
             "`replay:table.csv#column`, where `replay:table.csv?site=7&time=date+hour#count` takes the rows of site 7 only.");
     t.in(&In::field, "field")
         .doc(
-            "Which part of a message is the number: a name or a JSON pointer such as `/main/temp`, or the number of an OSC "
+            "The part of a message that holds the number: a name, a JSON pointer such as `/main/temp`, or the index of an OSC "
             "argument, from 0; empty where the whole message is a number.");
     t.in(&In::unit, "unit").doc("Unit of the scaled number as a symbol such as `m`, `cm` or `dB`; empty for a plain number.");
-    t.in(&In::scale, "scale").doc("What the number that came is multiplied with.");
-    t.in(&In::offset, "offset").doc("What is added after that, in the unit given.");
+    t.in(&In::scale, "scale").doc("Factor that the received number is multiplied with.");
+    t.in(&In::offset, "offset").doc("Number that is added afterwards, in the unit given.");
     t.in(&In::has_range, "has_range").doc("When on, readings outside the range are invalid.");
-    t.in(&In::lowest, "lowest").unit_from("unit").doc("Lower end of the range that can be true.");
-    t.in(&In::highest, "highest").unit_from("unit").doc("Upper end of the range that can be true.");
+    t.in(&In::lowest, "lowest").unit_from("unit").doc("Lower end of the plausible range.");
+    t.in(&In::highest, "highest").unit_from("unit").doc("Upper end of the plausible range.");
     t.in(&In::smoothing, "smoothing")
         .unit(Unit::second)
         .min(0)
         .soft(0, 600)
-        .doc("Time constant of the low-pass filter: after it, 63 % of a step have come through. 0: not filtered.");
-    t.in(&In::timeout, "timeout").unit(Unit::second).min(0).soft(0, 3600).doc("Older readings are stale. 0: they never are.");
+        .doc("Time constant of the low-pass filter, after which the value has followed 63 % of a step. 0: not filtered.");
+    t.in(&In::timeout, "timeout")
+        .unit(Unit::second)
+        .min(0)
+        .soft(0, 3600)
+        .doc("Age beyond which readings are stale. 0: they never become stale.");
     t.in(&In::tick_length, "tick_length")
         .unit(Unit::second)
         .min(0.001)
         .soft(0.01, 3600)
-        .doc("What one tick stands for. Live, that is the pace; in a recording it says which row belongs to which tick.");
-    t.in(&In::period, "period").unit(Unit::second).min(0.1).soft(0.5, 600).doc("Pause between two questions to an HTTP server.");
+        .doc("Duration of one tick. Live, it sets the pace; in a recording it assigns rows to ticks.");
+    t.in(&In::period, "period").unit(Unit::second).min(0.1).soft(0.5, 600).doc("Time between two requests to an HTTP server.");
     t.in(&In::when_stale, "when_stale",
-         {{WhenStale::hold, "hold", "The last good value stays."}, {WhenStale::fallback, "fallback", "The fallback counts."}})
-        .doc("What the value is while there is no good reading.");
-    t.in(&In::fallback, "fallback").unit_from("unit").doc("The value before the first reading, and while stale where chosen.");
-    t.in(&In::reading, "reading").doc("The number as it came last.");
-    t.in(&In::reading_time, "reading_time").doc("When that was, as a text.");
+         {{WhenStale::hold, "hold", "The last good value stays."}, {WhenStale::fallback, "fallback", "The fallback is used."}})
+        .doc("The value while there is no good reading.");
+    t.in(&In::fallback, "fallback")
+        .unit_from("unit")
+        .doc("The value before the first reading. Where chosen, it is also the value while readings are stale.");
+    t.in(&In::reading, "reading").doc("The last received number, not scaled.");
+    t.in(&In::reading_time, "reading_time").doc("Time of the last reading, as a text.");
     t.in(&In::reading_problem, "reading_problem").doc("Why the last message holds no number; empty where it does.");
-    t.in(&In::connection, "connection").doc("What is wrong with the connection; empty where nothing is known to be.");
+    t.in(&In::connection, "connection").doc("What is wrong with the connection; empty where no fault is known.");
     t.in(&In::reading_tick, "reading_tick")
         .min(-1e15)
         .doc("The tick of the last reading; -1 before the first one, and below it where it was measured before the clock began.");
@@ -91,11 +97,11 @@ struct Sensor {
           {{Quality::never, "never", "Nothing has come yet."},
            {Quality::good, "good", "The reading can be relied on."},
            {Quality::stale, "stale", "The reading is older than allowed."},
-           {Quality::invalid, "invalid", "The last message is no number, or one that cannot be true."}})
-        .doc("Whether the reading can be relied on.");
+           {Quality::invalid, "invalid", "The last message is no number, or one outside the plausible range."}})
+        .doc("Quality of the reading.");
     t.out(&Out::is_good, "is_good").doc("On where the quality is `good`.");
     t.out(&Out::message, "message").doc("What is wrong, as a sentence; empty where nothing is.");
-    t.memory(&Out::kept, &In::last, &Memory::held, "held").unit_from("unit").doc("The last good value behind the filter.");
+    t.memory(&Out::kept, &In::last, &Memory::held, "held").unit_from("unit").doc("The last good value after the filter.");
     t.memory(&Out::kept, &In::last, &Memory::is_held, "is_held").doc("On after the first good reading.");
   }
 
@@ -124,7 +130,7 @@ struct Sensor {
     const double value = (in.reading * in.scale + in.offset) * (unit != nullptr ? unit->scale : 1);
     const std::string problem = problem_of(in, value);
     const bool has_reading = in.reading_tick != kNever;
-    // A clock that was set back meets readings of its future: they are as young as can be.
+    // After the clock was set back, readings may lie in its future: their age counts as 0.
     if (has_reading) out.age = static_cast<double>(std::max<std::int64_t>(0, tick.index - in.reading_tick)) * in.tick_length;
     const bool is_stale = has_reading && in.timeout > 0 && out.age > in.timeout;
     out.quality = !problem.empty() ? Quality::invalid : !has_reading ? Quality::never : is_stale ? Quality::stale : Quality::good;

@@ -1,4 +1,4 @@
-// A shadow receiver: a rectangle that wants sun, level or on a façade, and the record of the sun that it has.
+// A shadow receiver: a rectangle that needs sun, level or on a façade, with the sun that it gets.
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -27,9 +27,8 @@ struct ShadowReceiver {
   static void declare(TypificationBuilder<ShadowReceiver>& t) {
     t.id("shadow_receiver").label("Shadow receiver");
     t.doc(
-        "A rectangle around the node's position that wants direct sun: a playground, a roof, a façade. A sun study measures it "
-        "on "
-        "a grid of points, and tells who takes how much.");
+        "A rectangle around the node's position that needs direct sun: a playground, a roof, a façade. A sun study measures the "
+        "sun on a grid of points, and lists how much each caster takes.");
     declare_settings(t);
     declare_rectangle(t);
     declare_sun(t);
@@ -44,28 +43,28 @@ struct ShadowReceiver {
         .unit(Unit::degree)
         .range(-360, 360)
         .soft(0, 360)
-        .doc("Where an upright rectangle looks to: clockwise from the scene's y axis. Used where it is upright.");
+        .doc("Azimuth that an upright rectangle faces, clockwise from the scene's y axis. Used where it is upright.");
     t.in(&In::width, "width").unit(Unit::metre).range(0.01, 1e4).soft(1, 100).doc("Extent along the rectangle's lower side.");
     t.in(&In::depth, "depth")
         .unit(Unit::metre)
         .range(0.01, 1e4)
         .soft(1, 100)
-        .doc("Extent of a level rectangle across its width; height of an upright one.");
+        .doc("Depth of a level rectangle; height of an upright one.");
     t.in(&In::rotation, "rotation")
         .unit(Unit::degree)
         .range(-360, 360)
         .soft(-90, 90)
-        .doc("Turn of a level rectangle, counter-clockwise seen from above. Used where it is level.");
+        .doc("Rotation of a level rectangle, counter-clockwise seen from above. Used where it is level.");
     t.in(&In::raised, "raised")
         .unit(Unit::metre)
         .range(-1e4, 1e4)
         .soft(0, 30)
-        .doc("How far the middle of the rectangle lies above the node's position.");
+        .doc("Height of the middle of the rectangle above the node's position.");
     t.in(&In::spacing, "spacing")
         .unit(Unit::metre)
         .range(0.05, 1000)
         .soft(0.5, 10)
-        .doc("Greatest distance between the points of the grid; it grows where there would be more than 4096 points.");
+        .doc("Largest distance between the points of the grid; it grows where there would be more than 4096 points.");
     t.in(&In::required_sun, "required_sun")
         .unit(Unit::second)
         .range(0, 86400)
@@ -74,37 +73,41 @@ struct ShadowReceiver {
         .doc("Direct sun per day that each point should have.");
     t.in(&In::casters, "casters")
         .collect()
-        .doc("Ids of the casters that count here; all count where none is named. Links that say who casts shadow propose here.");
+        .doc(
+            "Ids of the casters that count here; all count where none is named. Links of the kind `casts_shadow_on` add to "
+            "them.");
   }
 
   static void declare_rectangle(TypificationBuilder<ShadowReceiver>& t) {
     t.out(&Out::half_across, "half_across").unit(Unit::metre).doc("From the middle of the rectangle to the middle of a side.");
     t.out(&Out::half_up, "half_up")
         .unit(Unit::metre)
-        .doc("From the middle to the middle of the next side; the rectangle looks to where a right-handed screw then moves.");
+        .doc("From the middle to the middle of the next side; the rectangle faces the cross product of the two vectors.");
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of the rectangle.");
   }
 
   static void declare_sun(TypificationBuilder<ShadowReceiver>& t) {
-    t.out(&Out::sun_min, "sun_min").unit(Unit::second).doc("Direct sun per day at the point that has least.");
+    t.out(&Out::sun_min, "sun_min").unit(Unit::second).doc("Direct sun per day at the point with the least.");
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over all points.");
-    t.out(&Out::sun_max, "sun_max").unit(Unit::second).doc("Direct sun per day at the point that has most.");
-    t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The mean that it would have without any caster.");
+    t.out(&Out::sun_max, "sun_max").unit(Unit::second).doc("Direct sun per day at the point with the most.");
+    t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("Mean direct sun per day without any caster.");
     t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of the area that has at least the required sun.");
     t.out(&Out::deficit, "deficit")
         .unit(Unit::second)
-        .doc("What the points are short of the required sun, as the mean over all points: 0 where each has enough.");
+        .doc("Sun that the points lack to the required sun, as the mean over all points; 0 where each point has enough.");
     t.out(&Out::losses, "losses")
         .column({.id = "node", .is_text = true, .default_value = std::string(), .doc = "Id of the caster."})
-        .column({.id = "lost", .unit = Unit::second, .doc = "Mean sun per day that there would be more without this one caster."})
         .column(
-            {.id = "shared", .unit = Unit::second, .doc = "The caster's part of all sun per day that is missing; they add up."})
-        .doc("Who takes how much, in ascending id; casters that take nothing are left out.");
+            {.id = "lost", .unit = Unit::second, .doc = "Mean sun per day that the receiver would gain without this one caster."})
+        .column({.id = "shared",
+                 .unit = Unit::second,
+                 .doc = "The caster's part of all sun per day that is lost; the parts add up to the whole loss."})
+        .doc("The sun that each caster takes, in ascending id; casters that take nothing are left out.");
     t.out(&Out::columns, "columns").unit(Unit::count).doc("Points along the width.");
     t.out(&Out::rows, "rows").unit(Unit::count).doc("Points along the depth.");
     t.out(&Out::map, "map")
-        .column({.id = "x", .unit = Unit::metre, .doc = "East of the point."})
-        .column({.id = "y", .unit = Unit::metre, .doc = "North of the point."})
+        .column({.id = "x", .unit = Unit::metre, .doc = "East coordinate of the point."})
+        .column({.id = "y", .unit = Unit::metre, .doc = "North coordinate of the point."})
         .column({.id = "z", .unit = Unit::metre, .doc = "Height of the point."})
         .column({.id = "sun", .unit = Unit::second, .doc = "Direct sun per day there."})
         .doc("The points of the grid, row by row, with the sun of each.");

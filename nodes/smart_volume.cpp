@@ -1,4 +1,4 @@
-// A SmartVolume: a node that wants space, and the record of the space it has been given.
+// A SmartVolume: a node that wants a certain volume, with the volume and shape that it got.
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -36,53 +36,52 @@ struct SmartVolume {
     t.id("smart_volume").label("SmartVolume");
     t.column(CanvasColumn::field).icon(Icon::cube);
     t.doc(
-        "A volume that wants a certain amount of space around its position. A SmartVolumes solver gives it a cell of the "
-        "bounded power diagram, shrink-wrapped onto a ball, and adapts its weight until the cell has the wanted volume.");
+        "A building volume that wants a certain amount of space around its position. A SmartVolumes solver gives it a cell of "
+        "the bounded power diagram, cut to a ball, and adapts its weight until the shape has the wanted volume.");
     declare_settings(t);
     declare_shape(t);
     declare_standing(t);
   }
 
   static void declare_settings(TypificationBuilder<SmartVolume>& t) {
-    t.in(&In::use, "use").doc("What the volume is for, such as `housing`; a programme addresses volumes by it.");
+    t.in(&In::use, "use").doc("The use of the volume, such as `housing`; a programme finds its volumes by their use.");
     t.in(&In::demand, "demand")
         .unit(Unit::cubic_metre)
         .range(0, 1e9)
         .soft(0, 20000)
         .combine(CombineRule::blend)
-        .doc("The volume that is asked for. Links propose to it, and their proposals are blended with what people set.");
+        .doc("The volume that is asked for. Proposals of links are blended with the value that people set.");
     t.in(&In::demand_limit, "demand_limit")
         .unit(Unit::cubic_metre)
         .range(0, 1e9)
         .soft(0, 20000)
         .combine(CombineRule::min)
-        .doc("The most that the volume may ask for. Caps of a set propose here, and the lowest of them holds.");
+        .doc("The largest demand allowed. Links that set limits propose here, and the lowest limit applies.");
     t.in(&In::demand_min, "demand_min")
         .unit(Unit::cubic_metre)
         .range(0, 1e9)
         .soft(0, 20000)
         .combine(CombineRule::max)
-        .doc("What the brief insists on: no cap brings the wanted volume below it.");
+        .doc("The least volume that the brief insists on. No limit brings the wanted volume below it.");
     t.in(&In::storey_height, "storey_height")
         .unit(Unit::metre)
         .range(1, 50)
         .soft(2.4, 6)
         .combine(CombineRule::blend)
-        .doc("Height from floor to floor, by which the floor area is counted.");
+        .doc("Height from floor to floor, used to compute the floor area.");
     t.in(&In::standing, "standing",
          {{Standing::ground, "ground", "It has to stand on the ground, as a garage or a supermarket does."},
           {Standing::stack, "stack", "It may also stand on other volumes, as flats do on shops."},
           {Standing::bridge, "bridge", "It may also hang between two or more volumes that stand and touch it."}})
         .doc(
-            "What the volume may stand on. One that stands on nothing of it is named among the problems. It stands on another "
-            "one "
-            "where the way up from that one's position is steep, by 27° or more.");
+            "What the volume may stand on. A volume that stands on nothing allowed is listed among the problems. It stands on "
+            "another volume where the direction from that volume's position to its own rises by 27° or more.");
   }
 
   static void declare_shape(TypificationBuilder<SmartVolume>& t) {
     t.out(&Out::wanted, "wanted")
         .unit(Unit::cubic_metre)
-        .doc("What the solver aims at: the demand, no more than its limit, and no less than its minimum.");
+        .doc("The volume that the solver aims at: the demand, at most its limit and at least its minimum.");
     t.out(&Out::weight, "weight")
         .means()
         .unit(Unit::square_metre)
@@ -116,19 +115,18 @@ struct SmartVolume {
         .doc("Centre of gravity of the shape; the node's position where the shape is empty.");
     t.out(&Out::mesh, "mesh")
         .doc(
-            "The shape as a closed triangle mesh, for the eye and for export. It lies within the shape and is the nearer to it, "
-            "the "
-            "deeper the solver tessellates.");
+            "The shape as a closed triangle mesh, for display and export. The mesh lies within the shape, and approximates it "
+            "better with a deeper tessellation of the solver.");
   }
 
   static void declare_standing(TypificationBuilder<SmartVolume>& t) {
     t.out(&Out::error, "error")
         .unit(Unit::ratio)
         .residual()
-        .doc("How far the volume is from the wanted one, as a share of the wanted one.");
+        .doc("Difference between the volume and the wanted one, as a share of the wanted one.");
     t.out(&Out::state, "state")
         .doc(
-            "What became of the volume: `alive`, `hidden`, `outside`, `coincident` or `starved`; `idle` before a solver has seen "
+            "State of the site: `alive`, `hidden`, `outside`, `coincident` or `starved`; `idle` before a solver has evaluated "
             "it.");
     t.out(&Out::reason, "reason").doc("Why the volume is not alive, as a sentence; empty where it is.");
     t.out(&Out::neighbours, "neighbours")
@@ -138,23 +136,22 @@ struct SmartVolume {
     t.out(&Out::last_step, "last_step")
         .means()
         .unit(Unit::cubic_metre)
-        .doc("The last change of the cube of the radius: what the solver remembers of this volume from tick to tick.");
+        .doc("The last change of the cube of the radius, which the solver keeps from tick to tick.");
     t.out(&Out::last_direction, "last_direction")
         .means()
         .unit(Unit::cubic_metre)
-        .doc("The step that Newton's method is trying, which the next tick judges.");
+        .doc("The step that Newton's method is trying; the next tick accepts or rejects it.");
     t.out(&Out::stands_on, "stands_on").doc("What carries the volume: `the ground`, the id of a volume below it, or nothing.");
     t.out(&Out::hang, "hang")
         .unit(Unit::metre)
-        .doc("Height of the lowest point above the ground where the volume stands on nothing that it may stand on; else 0.");
+        .doc("Height of the lowest point above the ground, for a volume that stands on nothing allowed; else 0.");
     t.out(&Out::drop, "drop")
         .unit(Unit::metre)
         .doc(
-            "How far the ball can sink until it touches what it may stand on; negative where it has sunk in by so much. What it "
-            "comes down on lies at 30° or more below it; once there it is carried down to 27°, so that who rests at the limit "
-            "does "
-            "not come and go. What still hangs though its ball has sunk in goes down by a quarter of what is missing, and by no "
-            "more than a tenth of its radius.");
+            "Distance that the ball can sink until it touches what it may stand on; negative where it has sunk in by that much. "
+            "A volume below can carry it from 30° of slope on, and stops carrying it below 27°, so that support at the limit "
+            "does not alternate. A volume that still hangs although its ball has sunk in goes down by a quarter of what is "
+            "missing, at most by a tenth of its radius.");
   }
 };
 

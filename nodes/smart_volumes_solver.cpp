@@ -1,4 +1,4 @@
-// The SmartVolumes solver: each tick it adapts the weights of its members and gives each its cell of the diagram.
+// The SmartVolumes solver: in each tick it adapts the weights of its members and computes their power cells.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -67,50 +67,48 @@ struct SmartVolumesSolver {
     t.id("smart_volumes_solver").label("SmartVolumes solver");
     t.column(CanvasColumn::second).icon(Icon::cycle);
     t.doc(
-        "Divides a boundary among SmartVolumes: a bounded power diagram, shrink-wrapped onto balls, whose weights are adapted "
-        "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and "
+        "Divides a boundary among SmartVolumes by a bounded power diagram whose cells are cut to balls. It adapts the weights in "
+        "every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and "
         "boundary.");
     t.in(&In::members, "members")
         .doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
-    t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node has to result.");
+    t.in(&In::boundary, "boundary").doc("The boundary that is divided. The selection must give exactly one node.");
     t.in(&In::method, "method",
          {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
-          {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
+          {Method::newton, "newton", "Newton's method on the exact response of all volumes; few steps at any fill."}})
         .doc("How the weights are adapted.");
     t.in(&In::metric, "metric",
-         {{geometry::Metric::power, "power", "Squared distance less squared radius: flat walls, measured exactly."},
-          {geometry::Metric::additive, "additive", "Distance less radius: walls are hyperboloids. Sampled, without meshes."},
+         {{geometry::Metric::power, "power", "Squared distance minus squared radius: walls are flat, measured exactly."},
+          {geometry::Metric::additive, "additive", "Distance minus radius: walls are hyperboloids. Sampled, without meshes."},
           {geometry::Metric::multiplicative, "multiplicative",
-           "Distance over radius: walls are spheres. Sampled, without meshes."}})
-        .doc("The distance that divides the boundary. Other metrics than the power distance are sampled, and take Newton steps.");
+           "Distance divided by radius: walls are spheres. Sampled, without meshes."}})
+        .doc("The distance that divides the boundary. All but the power distance are sampled, and use Newton's method.");
     t.in(&In::resolution, "resolution")
         .range(8, 256)
         .soft(32, 128)
-        .doc("Sample lines along the longest side of the boundary, for metrics that are sampled.");
+        .doc("Number of sample lines along the longest side of the boundary, for metrics that are sampled.");
     t.in(&In::gain, "gain")
         .unit(Unit::per_metre)
         .range(0, 1000)
         .soft(0, 1)
         .doc(
-            "Change of weight per missing volume, the same for all, as in 2007; 0 lets each volume find its own from its free "
+            "Change of weight per missing volume, the same for all, as in 2007; 0 derives it for each volume from its free "
             "surface.");
     t.in(&In::steps, "steps")
         .range(1, 50)
         .soft(1, 20)
-        .doc("Steps of adaptation in one tick: more steps settle in fewer, slower ticks.");
+        .doc("Steps of adaptation in one tick. With more steps the scene settles in fewer, slower ticks.");
     t.in(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
         .range(1e-9, 1)
         .soft(0.001, 0.1)
-        .doc("The weights rest while every volume is within this share of what it wants.");
+        .doc("Tolerance: the weights stay as they are while the error of every volume is within this share of what it wants.");
     t.in(&In::tessellation_depth, "tessellation_depth")
         .range(0, 4)
         .doc(
-            "Fineness of the meshes that are shown and exported: each face is split in four so many times. Volumes, areas and "
-            "sun "
-            "do not follow it, but the mesh's own volume does: it lies below that of the shape, by a tenth on average at 1 and "
-            "by "
-            "less than a hundredth at 4.");
+            "How often each face of the displayed and exported meshes is split in four. Volumes, areas and sun do not depend on "
+            "it. The volume of the mesh itself does: it is below that of the shape, by a tenth on average at 1 and by less than "
+            "a hundredth at 4.");
     declare_results(t);
     declare_sets(t);
   }
@@ -130,13 +128,13 @@ struct SmartVolumesSolver {
     t.out(&Out::worst, "worst").shown_first().doc("Id of the member with the largest error; empty where all volumes are exact.");
     t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Sum of the floor areas of the members.");
     t.out(&Out::message, "message")
-        .doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");
+        .doc("Which demands cannot be met, by how much, and for which volumes; empty where every demand can be met.");
     memory(t, &Memory::momentum, "momentum", "Counter of the acceleration of the feedback; 1 is a fresh start.");
     memory(t, &Memory::residual, "residual",
-           "How far Newton's last step started from the demands; negative: no step to be judged.");
+           "Distance from the demands at which Newton's last step started; negative where there is no step to judge.");
     memory(t, &Memory::share, "share", "Share of Newton's full step that was taken last.");
     memory(t, &Memory::least_ratio, "least_ratio", "Smallest share of a demand that Newton's steps may lead to.");
-    memory(t, &Memory::problem, "problem", "Hash of the problem that the last step belongs to; another problem starts afresh.");
+    memory(t, &Memory::problem, "problem", "Hash of the problem that the last step belongs to; another problem starts anew.");
   }
 
   static void declare_sets(TypificationBuilder<SmartVolumesSolver>& t) {

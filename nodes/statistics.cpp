@@ -31,12 +31,12 @@ struct Statistics {
     t.doc(
         "Adds up one port over a set of nodes, so that links can react to the whole. The numbers are those of the tick before.");
     t.in(&In::nodes, "nodes")
-        .doc("The nodes that count. Of all nodes with a typification or tag, those without the port are left out.");
-    t.in(&In::port, "port").doc("The port that is looked at, written `typification.port`; it has to hold a number.");
+        .doc("The nodes that are counted. Of nodes selected by typification or tag, those without the port are left out.");
+    t.in(&In::port, "port").doc("The port that is evaluated, written `typification.port`; it must hold a number.");
     t.out(&Out::sum, "sum").traced().shown_first().unit_from("port").doc("Sum of the values.");
     t.out(&Out::mean, "mean").shown_first().unit_from("port").doc("Mean of the values; 0 where there are none.");
-    t.out(&Out::minimum, "minimum").unit_from("port").doc("Least of the values; 0 where there are none.");
-    t.out(&Out::maximum, "maximum").unit_from("port").doc("Greatest of the values; 0 where there are none.");
+    t.out(&Out::minimum, "minimum").unit_from("port").doc("Smallest value; 0 where there are none.");
+    t.out(&Out::maximum, "maximum").unit_from("port").doc("Largest value; 0 where there are none.");
     t.out(&Out::spread, "spread")
         .unit_from("port")
         .doc("Standard deviation: the root of the mean squared distance from the mean.");
@@ -46,7 +46,7 @@ struct Statistics {
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
     if (in.port.path.empty())
-      return Error{ErrorCode::missing, "port", "choose the port to look at, such as `smart_volume.volume`"};
+      return Error{ErrorCode::missing, "port", "no port is chosen: choose one, such as `smart_volume.volume`"};
     Out out;
     out.count = static_cast<std::int64_t>(sets.nodes.size());
     if (sets.nodes.empty()) return out;

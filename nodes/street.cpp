@@ -20,16 +20,14 @@ struct Street {
 
   static void declare(TypificationBuilder<Street>& t) {
     t.id("street").label("Street segment");
-    t.doc(
-        "A street from one junction to another. It takes the longer, the more its capacity is used; a traffic network puts the "
-        "trips of its zones on it.");
-    t.in(&In::start, "start").doc("The one junction where it begins.");
-    t.in(&In::end, "end").doc("The one junction where it ends.");
+    t.doc("A street from one junction to another. A traffic network assigns trips to it; its travel time grows with its flow.");
+    t.in(&In::start, "start").doc("The junction where it begins; exactly one.");
+    t.in(&In::end, "end").doc("The junction where it ends; exactly one.");
     t.in(&In::course, "course")
         .unit(Unit::metre)
         .doc(
-            "The points that it passes between its ends, in order; empty: it runs straight. They stay where they are when a "
-            "junction moves. Their heights count for nothing: a street rises evenly from end to end.");
+            "The points between its ends, in order; empty for a straight street. They stay where they are when a junction moves. "
+            "Their heights are ignored: a street rises evenly from end to end.");
     t.in(&In::lanes, "lanes")
         .unit(Unit::count)
         .range(0, 20)
@@ -53,19 +51,19 @@ struct Street {
         .unit(Unit::metre)
         .range(0, 1e6)
         .soft(0, 1000)
-        .doc("Length; 0 takes that of its line from end to end, by its course.");
+        .doc("Length; 0 takes the length of its line from end to end, along its course.");
     t.in(&In::open, "open")
         .unit(Unit::ratio)
         .range(0, 1)
         .combine(CombineRule::min)
-        .doc("Share of its capacity that is open: 1 all of it, 0 closes the street. The lowest of all proposals holds.");
+        .doc("Share of its capacity that is open: 1 for all of it, 0 closes the street. The lowest of all proposals applies.");
     t.in(&In::one_way, "one_way").doc("Leads from start to end only.");
-    t.in(&In::for_cars, "for_cars").doc("When off, it is for people on foot only, and no car trip passes.");
+    t.in(&In::for_cars, "for_cars").doc("When off, only people on foot may use it, and no car trip passes.");
     t.in(&In::toll, "toll")
         .unit(Unit::euro)
         .range(0, 1e6)
         .soft(0, 10)
-        .doc("What one passage costs; the network says what it counts in time.");
+        .doc("Toll for one passage; the network converts it to time.");
     declare_traffic(t);
   }
 
@@ -76,12 +74,12 @@ struct Street {
     t.out(&Out::time_back, "time_back").unit(Unit::second).doc("Time from end to start at this flow.");
     t.out(&Out::delay, "delay")
         .unit(Unit::second)
-        .doc("What the traffic costs everybody here, against an empty street; the larger of both directions.");
+        .doc("Time that each trip loses here against an empty street; the larger of both directions.");
     t.out(&Out::volume_over_capacity, "volume_over_capacity")
         .unit(Unit::ratio)
         .doc("Flow over open capacity, the larger of both directions; above 1 the street is overloaded.");
-    t.out(&Out::used_length, "used_length").unit(Unit::metre).doc("The length that counts: as set, or that of its line.");
-    t.out(&Out::reason, "reason").doc("Why nobody drives here, as a sentence; empty where one may.");
+    t.out(&Out::used_length, "used_length").unit(Unit::metre).doc("The length that is used: the set one, or that of its line.");
+    t.out(&Out::reason, "reason").doc("Why no car can drive here, as a sentence; empty where cars can.");
   }
 };
 

@@ -1,4 +1,4 @@
-// The sun over a place: where it stands at a date and time, when it rises and sets, and the moments that studies look at.
+// The sun over a place: its position at a date and time, its rise and set, and the moments of sun studies.
 #include <algorithm>
 #include <cmath>
 
@@ -36,8 +36,8 @@ struct SunAndSky {
   static void declare(TypificationBuilder<SunAndSky>& t) {
     t.id("sun_and_sky").label("Sun and sky");
     t.doc(
-        "The sun over a place on earth, to a few ten-thousandths of a degree. It holds what depends on the place: coordinates, "
-        "true north and the clock. Its period says which moments sun studies look at.");
+        "The position of the sun over a place on earth, accurate to a few ten-thousandths of a degree. The node holds the "
+        "coordinates, true north and the clock of the place. Its period sets the moments of sun studies.");
     declare_place(t);
     declare_moment(t);
     declare_period(t);
@@ -45,18 +45,23 @@ struct SunAndSky {
   }
 
   static void declare_place(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).of_scene(OfScene::unless_set, 0.1).doc("North is positive.");
-    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).of_scene(OfScene::unless_set, 0.1).doc("East is positive.");
+    t.in(&In::latitude, "latitude")
+        .unit(Unit::degree)
+        .range(-90, 90)
+        .of_scene(OfScene::unless_set, 0.1)
+        .doc("North is positive.");
+    t.in(&In::longitude, "longitude")
+        .unit(Unit::degree)
+        .range(-180, 180)
+        .of_scene(OfScene::unless_set, 0.1)
+        .doc("East is positive.");
     t.in(&In::elevation, "elevation").unit(Unit::metre).range(-500, 9000).soft(0, 2000).doc("Height above the sea.");
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
         .of_scene(OfScene::always)
-        .doc("Where true north lies in the scene: clockwise from its y axis.");
-    t.in(&In::utc_offset, "utc_offset")
-        .unit(Unit::second)
-        .range(-50400, 50400)
-        .doc("By how much the zone's standard time is ahead of universal time.");
+        .doc("Direction of true north, clockwise from the scene's y axis.");
+    t.in(&In::utc_offset, "utc_offset").unit(Unit::second).range(-50400, 50400).doc("Standard time minus universal time.");
     t.in(&In::daylight_saving, "daylight_saving",
          {{sun::DaylightSaving::none, "none", "Standard time all the year."},
           {sun::DaylightSaving::europe, "europe", "From the last Sunday of March to the last Sunday of October, at 01:00 UTC."},
@@ -64,66 +69,60 @@ struct SunAndSky {
            "From the second Sunday of March to the first of November, at 02:00."},
           {sun::DaylightSaving::australia, "australia",
            "From the first Sunday of October to the first of April, at 02:00 and 03:00."}})
-        .doc("When clocks are an hour ahead of standard time; the rule of today for all years.");
+        .doc("The period in which clocks are an hour ahead of standard time. Today's rule is used for all years.");
   }
 
   static void declare_moment(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::date, "date").doc("The day that is looked at, as 2026-03-21; years 1900 to 2100.");
+    t.in(&In::date, "date").doc("The day, such as 2026-03-21; years 1900 to 2100.");
     t.in(&In::days, "days")
         .range(-36600, 36600)
         .soft(0, 365)
         .combine(CombineRule::blend)
-        .doc("Days that are added to the date, for sliders and links; parts of a day do not count.");
-    t.in(&In::time, "time")
-        .unit(Unit::second)
-        .range(0, 86400)
-        .combine(CombineRule::blend)
-        .doc("Time by the local clock, since midnight.");
-    t.in(&In::refraction, "refraction").doc("When on, altitudes include how the air lifts the sun, as it is seen.");
-    t.in(&In::pressure, "pressure").range(0, 110000).doc("Mean air pressure in pascals; counts for refraction only.");
-    t.in(&In::temperature, "temperature")
-        .range(-90, 60)
-        .doc("Mean temperature of the air in degrees Celsius; for refraction only.");
+        .doc("Days that are added to the date, for sliders and links; parts of a day are ignored.");
+    t.in(&In::time, "time").unit(Unit::second).range(0, 86400).combine(CombineRule::blend).doc("Local time since midnight.");
+    t.in(&In::refraction, "refraction").doc("When on, altitudes include refraction by the air.");
+    t.in(&In::pressure, "pressure").range(0, 110000).doc("Mean air pressure in pascals; used for refraction only.");
+    t.in(&In::temperature, "temperature").range(-90, 60).doc("Mean temperature in degrees Celsius; used for refraction only.");
     t.in(&In::delta_t, "delta_t")
         .unit(Unit::second)
         .range(-100, 300)
-        .doc("Terrestrial time less universal time: 69 s in the 2020s, 64 s in 2000.");
+        .doc("Terrestrial time minus universal time: 69 s in the 2020s, 64 s in 2000.");
   }
 
   static void declare_period(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::first_date, "first_date").doc("First day of the period of studies; empty: the day that is looked at.");
+    t.in(&In::first_date, "first_date").doc("First day of the period of studies; empty for the day set above.");
     t.in(&In::last_date, "last_date").doc("Last day of the period; empty: the first one.");
-    t.in(&In::day_step, "day_step").range(1, 366).doc("Every so many days of the period count.");
+    t.in(&In::day_step, "day_step").range(1, 366).doc("Step in days through the period: 1 takes every day.");
     t.in(&In::step, "step").unit(Unit::second).range(10, 21600).soft(300, 3600).doc("Time between two moments of a day.");
-    t.in(&In::from_time, "from_time").unit(Unit::second).range(0, 86400).doc("Sun before this time of the day does not count.");
-    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time, the later one, does not count.");
+    t.in(&In::from_time, "from_time").unit(Unit::second).range(0, 86400).doc("Time of the day before which sun does not count.");
+    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Time of the day after which sun does not count.");
     t.in(&In::min_altitude, "min_altitude")
         .unit(Unit::degree)
         .range(0, 90)
         .soft(0, 30)
         .combine(CombineRule::blend)
-        .doc("Sun lower than this does not count.");
+        .doc("Altitude below which sun does not count.");
   }
 
   static void declare_results(TypificationBuilder<SunAndSky>& t) {
-    t.out(&Out::day, "day").doc("The day that is looked at, with the added days.");
-    t.out(&Out::altitude, "altitude").unit(Unit::degree).doc("Height of the middle of the sun above the horizon.");
-    t.out(&Out::geometric_altitude, "geometric_altitude").unit(Unit::degree).doc("The same without refraction.");
-    t.out(&Out::azimuth, "azimuth").unit(Unit::degree).doc("Where the sun stands, clockwise from true north.");
-    t.out(&Out::direction, "direction").doc("Unit vector of the scene that points to the sun.");
+    t.out(&Out::day, "day").doc("The day with the added days.");
+    t.out(&Out::altitude, "altitude").unit(Unit::degree).doc("Angle of the centre of the sun above the horizon.");
+    t.out(&Out::geometric_altitude, "geometric_altitude").unit(Unit::degree).doc("Altitude without refraction.");
+    t.out(&Out::azimuth, "azimuth").unit(Unit::degree).doc("Azimuth of the sun, clockwise from true north.");
+    t.out(&Out::direction, "direction").doc("Unit vector to the sun, in the scene's coordinates.");
     t.out(&Out::sunrise, "sunrise").unit(Unit::second).doc("Local time at which the sun rises; 0 where it does not.");
-    t.out(&Out::transit, "transit").unit(Unit::second).doc("Local time at which it stands highest.");
-    t.out(&Out::sunset, "sunset").unit(Unit::second).doc("Local time at which it sets; 0 where it does not.");
-    t.out(&Out::day_length, "day_length").unit(Unit::second).doc("How long it is above the horizon on that day.");
-    t.out(&Out::transit_altitude, "transit_altitude").unit(Unit::degree).doc("Its height at the transit.");
-    t.out(&Out::note, "note").doc("Says so where the sun does not rise or not set, or none of the period counts; else empty.");
-    t.out(&Out::possible, "possible").unit(Unit::second).doc("Sun per day of the period on open ground: the mean of its days.");
+    t.out(&Out::transit, "transit").unit(Unit::second).doc("Local time at which the sun is highest.");
+    t.out(&Out::sunset, "sunset").unit(Unit::second).doc("Local time at which the sun sets; 0 where it does not.");
+    t.out(&Out::day_length, "day_length").unit(Unit::second).doc("Time that the sun is above the horizon on that day.");
+    t.out(&Out::transit_altitude, "transit_altitude").unit(Unit::degree).doc("Altitude of the sun at the transit.");
+    t.out(&Out::note, "note").doc("Says if the sun does not rise or set, or no sun of the period counts; else empty.");
+    t.out(&Out::possible, "possible").unit(Unit::second).doc("Mean sun per day of the period on open ground.");
     t.out(&Out::moments, "moments")
         .column({.id = "x", .doc = "First component of the unit vector to the sun."})
         .column({.id = "y", .doc = "Second component of the unit vector to the sun."})
         .column({.id = "z", .doc = "Third component of the unit vector to the sun."})
-        .column({.id = "seconds", .unit = Unit::second, .doc = "What the moment counts for; together a mean day."})
-        .doc("The moments of the period at which studies look at the sun, day by day.");
+        .column({.id = "seconds", .unit = Unit::second, .doc = "Time that the moment stands for; their sum is a mean day."})
+        .doc("The moments of the period that studies evaluate, day by day.");
   }
 
   static sun::SunPlace place_of(const In& in) {

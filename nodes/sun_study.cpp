@@ -1,4 +1,4 @@
-// A sun study: measures the receivers of a scene among its casters, and writes to both who takes how much sun from whom.
+// A sun study: measures the sun of receivers among casters, and writes to both how much each caster takes.
 #include <map>
 #include <optional>
 
@@ -42,7 +42,7 @@ struct SunStudyNode {
     std::vector<Caster> volumes, buildings;
     std::vector<Receiver> receivers;
   };
-  // Nothing for who is answered as a member of the other set.
+  // Nothing for a node that gets its reply as a member of the other set.
   struct CasterReply {
     std::optional<double> lost, shared;
     std::optional<std::string> worst;
@@ -66,11 +66,11 @@ struct SunStudyNode {
   static void declare(TypificationBuilder<SunStudyNode>& t) {
     t.id("sun_study").label("Sun study");
     t.doc(
-        "Follows rays from the points of all receivers to the sun, at the moments of the sun's period, and tells each receiver "
-        "what sun it has and who takes it, and each caster what it takes. Receivers for which nothing has changed keep their "
-        "figures; studies of more than 200 million rays are refused. SmartVolumes cast "
-        "the shadow of a mesh whose faces are split in four once, however finely a solver shows them.");
-    t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
+        "Follows rays from the points of all receivers to the sun, at the moments of the sun's period. It writes to each "
+        "receiver the sun that it gets and the casters that take it, and to each caster the sun that it takes. Receivers for "
+        "which nothing has changed keep their figures. Studies of more than 200 million rays are refused. SmartVolumes cast the "
+        "shadow of a mesh whose faces are split in four once, whatever the tessellation of their solver.");
+    t.in(&In::sun, "sun").doc("The sun whose period is studied. The selection must give exactly one node.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
     t.in(&In::buildings, "buildings")
@@ -80,22 +80,19 @@ struct SunStudyNode {
         .unit(Unit::metre)
         .range(-1e5, 1e5)
         .soft(-10, 50)
-        .doc("Height of the plane that outlines of shadows are drawn on.");
+        .doc("Height of the plane for the outlines of shadows.");
     t.latency(&In::latency, "latency")
-        .doc("After how many ticks a result counts; the loop goes on meanwhile. More for large studies, 0 to wait for each.");
-    t.out(&Out::caster_count, "caster_count").unit(Unit::count).doc("Number of casters that have a shape and cast.");
+        .doc("Number of ticks until a result counts; ticks go on meanwhile. Set more for large studies, 0 to wait for each.");
+    t.out(&Out::caster_count, "caster_count").unit(Unit::count).doc("Number of casters that have a shape and are switched on.");
     t.out(&Out::receiver_count, "receiver_count").unit(Unit::count).doc("Number of receivers.");
-    t.out(&Out::moment_count, "moment_count").unit(Unit::count).doc("Number of moments at which the sun is looked at.");
+    t.out(&Out::moment_count, "moment_count").unit(Unit::count).doc("Number of moments that are evaluated.");
     t.out(&Out::ray_count, "ray_count").unit(Unit::count).doc("Number of pairs of points and moments.");
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of all receivers.");
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over that area.");
-    t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The same if there were no casters.");
-    t.out(&Out::share_met, "share_met")
-        .unit(Unit::ratio)
-        .soft(0, 1)
-        .doc("Share of that area that has the sun that is required of it.");
+    t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("Mean direct sun per day without any caster.");
+    t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of that area that gets its required sun.");
     t.out(&Out::message, "message")
-        .doc("Who takes most from whom, names that no caster bears, and whether any sun counts; empty where there is nothing.");
+        .doc("The largest loss and its caster, names that belong to no caster, and whether any sun counts; else empty.");
     t.set("sun", &Sets::suns)
         .reads(&Sun::id, "node.id")
         .reads(&Sun::direction, "sun_and_sky.direction")
@@ -140,9 +137,9 @@ struct SunStudyNode {
     return sun::moments_in(*suns.front().moments);
   }
 
-  // All that casts, each node once: one may be a SmartVolume and an existing building, and casts with both shapes.
+  // All casters, each node once. A node that is both a SmartVolume and an existing building casts with both shapes.
   struct Casters {
-    std::vector<sun::SunCaster> list;  // as the volumes stand, then the buildings that are none of them
+    std::vector<sun::SunCaster> list;  // the volumes in their order, then the buildings that are not volumes
     std::vector<std::size_t> of_buildings;
     std::map<std::string, std::size_t> index;
 
@@ -211,7 +208,7 @@ struct SunStudyNode {
     return reply;
   }
 
-  // What each caster takes, from all receivers; returns the largest single loss as a sentence.
+  // Writes the sun that each caster takes from all receivers; returns the largest single loss as a sentence.
   static std::string deal_out(const std::vector<sun::SunRecord>& records, const std::vector<Receiver>& receivers,
                               const std::vector<sun::SunCaster>& casters, Out& out, std::vector<CasterReply>& replies) {
     std::string sentence;

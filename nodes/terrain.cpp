@@ -1,4 +1,4 @@
-// The ground: heights on a regular grid, kept as rows of text, and what links and people want to know about them.
+// The ground: heights on a regular grid, kept as rows of text, with the figures that links and people need.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ struct Terrain {
 
   static void declare(TypificationBuilder<Terrain>& t) {
     t.id("terrain").label("Terrain");
-    t.doc("The ground as heights on a regular grid. It stands where its grid says, wherever the node is drawn.");
+    t.doc("The ground as heights on a regular grid. The coordinates of the grid place it; the node's position has no effect.");
     t.in(&In::rows, "rows")
         .column({.id = "heights",
                  .is_text = true,
@@ -34,32 +34,32 @@ struct Terrain {
                  .doc = "One row of the grid from west to east: three characters for each height, digits of base 64 from `A` to "
                         "`/` that "
                         "count steps above the lowest height, or `...` where there is none."})
-        .doc("The grid, the northernmost row first; all rows have one length. A million cells take three megabytes.");
+        .doc("The grid, with the northernmost row first. All rows have the same length. A million cells take three megabytes.");
     t.in(&In::west, "west")
         .unit(Unit::metre)
         .range(-1e7, 1e7)
-        .doc("East of the origin of the first cell of each row: its centre.");
+        .doc("East coordinate of the centre of the first cell of each row.");
     t.in(&In::north, "north")
         .unit(Unit::metre)
         .range(-1e7, 1e7)
-        .doc("North of the origin of the first row: the centres of its cells.");
+        .doc("North coordinate of the centres of the cells of the first row.");
     t.in(&In::cell, "cell")
         .unit(Unit::metre)
         .range(0.01, 1e5)
         .soft(1, 100)
         .doc("Distance between the centres of neighbouring cells.");
     t.in(&In::lowest, "lowest").unit(Unit::metre).range(-1e5, 1e5).doc("The height that `AAA` stands for.");
-    t.in(&In::step, "step").unit(Unit::metre).range(1e-4, 10).soft(0.001, 1).doc("How much higher each following number stands.");
-    t.in(&In::origin, "origin").doc("Where the grid comes from: file, source and licence.");
+    t.in(&In::step, "step").unit(Unit::metre).range(1e-4, 10).soft(0.001, 1).doc("Height of one step of the numbers.");
+    t.in(&In::origin, "origin").doc("Origin of the data: file, source and licence.");
     t.out(&Out::columns, "columns").unit(Unit::count).doc("Cells from west to east.");
     t.out(&Out::row_count, "row_count").unit(Unit::count).doc("Cells from north to south.");
     t.out(&Out::without_height, "without_height").unit(Unit::count).doc("Cells that have no height.");
-    t.out(&Out::width, "width").unit(Unit::metre).doc("Distance from the westernmost to the easternmost centres.");
-    t.out(&Out::depth, "depth").unit(Unit::metre).doc("Distance from the northernmost to the southernmost centres.");
+    t.out(&Out::width, "width").unit(Unit::metre).doc("Distance between the centres of the westernmost and easternmost cells.");
+    t.out(&Out::depth, "depth").unit(Unit::metre).doc("Distance between the centres of the northernmost and southernmost cells.");
     t.out(&Out::minimum, "minimum").unit(Unit::metre).doc("Height of the lowest cell; 0 where there is none.");
     t.out(&Out::maximum, "maximum").unit(Unit::metre).doc("Height of the highest cell; 0 where there is none.");
     t.out(&Out::mean, "mean").unit(Unit::metre).doc("Mean height of all cells that have one.");
-    t.out(&Out::mesh, "mesh").doc("The ground as an open mesh, of at most some ten thousand cells, for the eye and for export.");
+    t.out(&Out::mesh, "mesh").doc("The ground as an open mesh of at most some ten thousand cells, for display and export.");
   }
 
   static Result<geometry::HeightGrid> grid_of(const In& in) {
@@ -68,7 +68,8 @@ struct Terrain {
       const std::string& text = in.rows->text(row, "heights");
       const std::string place = "rows/" + std::to_string(row) + "/heights";
       if (text.size() % 3 != 0 || text.size() != in.rows->text(0, "heights").size() || text.empty())
-        return Error{ErrorCode::parse, place, "a row has three characters for each cell, and as many cells as the first row"};
+        return Error{ErrorCode::parse, place,
+                     "a row needs three characters for each cell, and as many cells as the first row: import the grid again"};
       if (const std::size_t wrong = geometry::first_wrong_character(text); wrong < text.size())
         return Error{ErrorCode::parse, place,
                      "character " + std::to_string(wrong + 1) + " is no digit of base 64: import the grid again"};

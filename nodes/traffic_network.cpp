@@ -1,4 +1,4 @@
-// The traffic network: puts the trips of its zones on its streets, tick by tick, until nobody gains by another way.
+// The traffic network: assigns the trips of its zones to its streets, tick by tick, towards user equilibrium.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,7 +12,7 @@ namespace bl {
 namespace {
 
 struct TrafficNetworkNode {
-  // What the next tick starts from: where the trips of each zone are and go, and the names of the links.
+  // The start of the next tick: the routes and destinations of the trips of each zone, and the names of the links.
   struct Memory {
     Shared<Table> links{Table{{"link"}, {}}}, ways{Table{{"zone", "links", "flows", "trips"}, {}}};
     bool operator==(const Memory&) const = default;
@@ -64,14 +64,12 @@ struct TrafficNetworkNode {
   static void declare(Builder& t) {
     t.id("traffic_network").label("Traffic network");
     t.doc(
-        "Streets, junctions and zones as one network. In every tick it deals the trips of the zones out to each other by travel "
-        "time, "
-        "and shifts them between ways towards user equilibrium: the state in which nobody gets there cheaper by another way. "
-        "Cost is "
-        "time, with tolls and distance as time where factors say so; all that is called a time is time alone.");
+        "Streets, junctions and zones as one network. In every tick it distributes the trips over destinations by travel time, "
+        "and shifts them between routes towards user equilibrium, where no trip has a cheaper route. Cost is time plus tolls and "
+        "distance, converted by their factors. Figures called time contain time alone.");
     t.in(&In::streets, "streets").doc("The streets of this network; a street belongs to one network only.");
-    t.in(&In::junctions, "junctions").doc("The junctions where they meet.");
-    t.in(&In::zones, "zones").doc("The zones whose trips it carries.");
+    t.in(&In::junctions, "junctions").doc("The junctions of these streets.");
+    t.in(&In::zones, "zones").doc("The zones whose trips use the network.");
     declare_settings(t);
     declare_results(t);
     declare_sets(t);
@@ -82,23 +80,21 @@ struct TrafficNetworkNode {
         .unit(Unit::ratio)
         .range(0, 100)
         .soft(0.05, 1)
-        .doc("By which share a street takes longer when its flow equals its capacity (Bureau of Public Roads).");
-    t.in(&In::beta, "beta").range(0, 20).soft(1, 8).doc("How steeply it grows beyond: the power of volume over capacity.");
+        .doc("Share by which the travel time of a street grows when its flow equals its capacity (Bureau of Public Roads).");
+    t.in(&In::beta, "beta").range(0, 20).soft(1, 8).doc("Exponent of volume over capacity: how steeply the travel time grows.");
     t.in(&In::peak_share, "peak_share")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.05, 0.2)
-        .doc("Share of a day's trips in the hour looked at. Links that request traffic count with it.");
+        .doc("Share of a day's trips in the hour studied. Links of the kind `request_traffic` use it.");
     t.in(&In::toll_factor, "toll_factor")
         .range(0, 1e6)
         .soft(0, 600)
-        .doc(
-            "Seconds that people would drive longer to save one euro. Ways and destinations follow it; times are told without "
-            "it.");
+        .doc("Seconds of driving that are worth one euro. It affects routes and destinations; reported times are without it.");
     t.in(&In::distance_factor, "distance_factor")
         .range(0, 1e3)
         .soft(0, 0.5)
-        .doc("Seconds that one metre of street counts besides its time, for ways and destinations; times are told without it.");
+        .doc("Seconds that one metre costs besides its time. It affects routes and destinations; reported times are without it.");
     t.in(&In::walking_speed, "walking_speed")
         .unit(Unit::metre_per_second)
         .range(0.1, 10)
@@ -108,83 +104,83 @@ struct TrafficNetworkNode {
         .unit(Unit::second)
         .range(10, 36000)
         .soft(60, 900)
-        .doc("Time from isochrone to isochrone.");
-    t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
+        .doc("Time from one isochrone to the next.");
+    t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Number of isochrones that are drawn around a selected node.");
     t.in(&In::distribution, "distribution",
          {{traffic::TripConstraint::origins, "singly",
-           "What leaves each zone holds; what ends where follows attraction and time."},
+           "The trips that leave each zone are kept; their destinations follow from attraction and time."},
           {traffic::TripConstraint::both, "doubly",
-           "What ends in each zone holds as well, in proportion; what cannot be met is told in `arrivals`."}})
-        .doc("Which sums of trips hold.");
+           "The trips that end in each zone are kept as well, in proportion; the table `arrivals` lists what cannot be met."}})
+        .doc("Which sums of trips are kept.");
     t.in(&In::fade, "fade")
         .unit(Unit::second)
         .range(1, 1e6)
         .soft(60, 3600)
-        .doc("So much farther away, a zone attracts only a third as much (1/e), and counts so for accessibility.");
+        .doc("Additional travel time at which a zone attracts only a third as much (1/e). Accessibility uses it as well.");
     t.in(&In::haste, "haste")
         .unit(Unit::ratio)
         .range(0.01, 1)
-        .doc("Share of the trips that want another destination and find it in one tick; less is slower and calmer.");
+        .doc("Share of the trips with another best destination that change to it in one tick; less is slower and calmer.");
     t.in(&In::gap, "gap")
         .unit(Unit::ratio)
         .range(1e-12, 0.1)
         .soft(1e-6, 1e-2)
-        .doc("Relative gap at which the ways rest: the share of all cost that vanished if everybody took today's cheapest way.");
-    t.in(&In::steps, "steps").range(1, 100).soft(1, 20).doc("Iterations of the assignment in one tick at most.");
+        .doc("Relative gap at which the assignment stops: the share of cost saved if every trip took its cheapest route.");
+    t.in(&In::steps, "steps").range(1, 100).soft(1, 20).doc("Largest number of iterations of the assignment in one tick.");
   }
 
   static void declare_results(Builder& t) {
-    t.out(&Out::relative_gap, "relative_gap").means().unit(Unit::ratio).doc("The gap that was reached.");
+    t.out(&Out::relative_gap, "relative_gap").means().unit(Unit::ratio).doc("The relative gap that was reached.");
     t.out(&Out::unrest, "unrest")
         .unit(Unit::ratio)
         .residual()
-        .doc("The gap while above the wanted one, or the share of trips that want another destination, if that is larger.");
+        .doc("The gap while it is above the wanted one, or the share of trips with another best destination, if that is larger.");
     t.out(&Out::trips, "trips").unit(Unit::per_hour).doc("Trips on the streets.");
-    t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no way to go; their zones say why.");
+    t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no route; their zones say why.");
     t.out(&Out::trips_missing, "trips_missing")
         .unit(Unit::per_hour)
-        .doc("Trips that should end in zones and do not, where what ends in each zone holds; `arrivals` says why.");
+        .doc("Trips that should end in zones and do not, where the trips that end in each zone are kept; `arrivals` says why.");
     t.out(&Out::mean_travel_time, "mean_travel_time")
         .unit(Unit::second)
-        .doc("Mean time of all trips, with the walk at both ends, without what tolls and distance count.");
+        .doc("Mean time of all trips, with the walk at both ends, without tolls and distance.");
     t.out(&Out::total_time, "total_time")
         .unit(Unit::second)
-        .doc("Time of all trips of one hour together, without what tolls and distance count.");
+        .doc("Total time of all trips of one hour, without tolls and distance.");
     t.out(&Out::objective, "objective")
-        .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. Equilibrium is its least.");
+        .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. User equilibrium is its minimum.");
     t.out(&Out::largest_load, "largest_load").unit(Unit::ratio).doc("The largest volume over capacity of all streets.");
-    t.out(&Out::message, "message").doc("Which streets, zones and turn rules are left out, and why; empty where none are.");
+    t.out(&Out::message, "message").doc("Streets, zones and turn rules that are left out, and why; empty where none are.");
     t.out(&Out::loads, "loads")
         .column({.id = "junction", .is_text = true, .default_value = std::string(), .doc = "Id of the junction."})
-        .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "The largest of the streets there."})
-        .doc("How far the streets at each junction are used, in ascending id.");
+        .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "Largest volume over capacity of the streets there."})
+        .doc("Load of the streets at each junction, in ascending id.");
     t.out(&Out::arrivals, "arrivals")
         .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "Id of the zone."})
         .column({.id = "wanted", .unit = Unit::per_hour, .doc = "Trips that should end there."})
-        .column({.id = "missing", .unit = Unit::per_hour, .doc = "How many of them do not; below 0 where more end there."})
+        .column({.id = "missing", .unit = Unit::per_hour, .doc = "Number of these that do not; below 0 where more end."})
         .column({.id = "reason", .is_text = true, .default_value = std::string(), .doc = "Why, as a sentence."})
-        .doc("Zones where another number of trips ends than should, where what ends in each zone holds; in ascending id.");
+        .doc("Zones with another number of trips than should end there, in ascending id, where the trips that end are kept.");
     t.memory(&Out::memory, &In::last, &Memory::links, "links")
         .column({.id = "link",
                  .is_text = true,
                  .default_value = std::string(),
                  .doc = "Street and direction, zone and access, or turn."})
-        .doc("What trips can be on, in ascending id; the rows of `ways` count from 0 in this list.");
+        .doc("The links of the network in ascending id; `ways` refers to their row numbers, counted from 0.");
     t.memory(&Out::memory, &In::last, &Memory::ways, "ways")
         .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
         .column({.id = "links",
                  .list = ListOf::indices,
                  .default_value = Indices(),
-                 .doc = "The links that its trips are on: rows of `links`."})
+                 .doc = "The links that its trips use, as row numbers of `links`."})
         .column(
             {.id = "flows", .list = ListOf::numbers, .default_value = Numbers(), .doc = "Trips per hour on each of these links."})
         .column({.id = "trips",
                  .list = ListOf::numbers,
                  .default_value = Numbers(),
                  .doc = "Trips per hour to each zone, in the order of these rows."})
-        .doc("Where the trips of each zone are, and how many go to each other zone: what the next tick starts from.");
+        .doc("Flows of the trips of each zone, and how many go to each other zone: the start of the next tick.");
     t.made("trip_flows", {"links", "ways"}, &traffic::read_flows<Shared<Table>>)
-        .doc("Where the trips of each zone are, for views and exporters.");
+        .doc("The flows of the trips of each zone, for views and exporters.");
   }
 
   static void declare_sets(Builder& t) {
@@ -225,7 +221,7 @@ struct TrafficNetworkNode {
 
   static std::string one_of(const Selection& selection) { return selection.ids.size() == 1 ? selection.ids.front() : ""; }
 
-  // Larger ones come from a broken file: the list is as none, and its zone starts anew.
+  // Larger ones come from a damaged file: the list is dropped, and its zone starts anew.
   static std::vector<double> recalled(const Numbers& numbers) {
     constexpr double kLargest = 1e15;
     const bool is_sound = std::all_of(numbers->begin(), numbers->end(), [](double x) { return std::abs(x) <= kLargest; });
@@ -272,7 +268,7 @@ struct TrafficNetworkNode {
     Memory last;
     bool operator==(const Step&) const = default;
   };
-  // A network at rest is asked the same in every tick, and one that moves starts from what it has just said.
+  // A network at rest has the same input in every tick, and a moving one starts from its last result.
   struct Cache {
     Step step;
     std::optional<Out> out;  // of that step, where it ended at rest

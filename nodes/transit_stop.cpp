@@ -1,4 +1,4 @@
-// A stop of public transport: how often it is served, and how far people walk to it.
+// A stop of public transport: its headway, and the radius of its catchment.
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -22,7 +22,7 @@ struct TransitStop {
         .range(30, 86400)
         .soft(120, 3600)
         .combine(CombineRule::blend)
-        .doc("Time from one departure to the next.");
+        .doc("Headway: time from one departure to the next.");
     t.in(&In::radius, "radius")
         .unit(Unit::metre)
         .range(0, 10000)
@@ -30,7 +30,9 @@ struct TransitStop {
         .combine(CombineRule::blend)
         .doc("Radius of the catchment: 400 m for a bus, 800 m for a train.");
     t.out(&Out::departures, "departures").unit(Unit::per_hour).doc("Departures per hour.");
-    t.out(&Out::mean_wait, "mean_wait").unit(Unit::second).doc("Mean wait of people who come at any time: half the headway.");
+    t.out(&Out::mean_wait, "mean_wait")
+        .unit(Unit::second)
+        .doc("Mean wait of people who arrive at random times: half the headway.");
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) { return Out{3600 / in.headway, in.headway / 2}; }

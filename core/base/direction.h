@@ -1,4 +1,4 @@
-// A direction for two things that stand on one point, from their names alone.
+// A direction for two things on one point, from their names alone.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace bl {
 
-/// A level unit vector that points from the one to the other; the other way round it is the opposite. Depends on the two names
-/// only, so that whoever is asked first, and on which machine, the two part in the same way.
+/// A horizontal unit vector from the one to the other; with the names exchanged it is the opposite. It depends on the two names
+/// only, so that the two separate in the same way in any order and on every machine.
 Vector3 direction_by_name(std::string_view from, std::string_view to);
 
 }  // namespace bl

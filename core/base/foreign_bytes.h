@@ -1,4 +1,4 @@
-// Bytes that are none of the text that a reader wants: what they are instead, in words, and never the bytes themselves.
+// Recognises bytes that are not the expected text, and names their format; the bytes themselves are never quoted.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Objects of any type that one part makes from its data and others read.
+// Made objects of any type: one part computes them from its data, and others read them.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace bl {
 
-/// A type of made objects: in code, and as people are told of it ("a domain").
+/// A type of made objects, with its name for people ("a domain").
 struct MadeType {
   const std::type_info* type = nullptr;  ///< nullptr: none
   std::string_view name;
@@ -24,8 +24,8 @@ MadeType made_type() {
   return {&typeid(T), T::kMadeName};
 }
 
-/// An immutable object with its type. It is made when somebody asks for it first, and shared by all who do; so whoever offers it
-/// pays nothing where nobody reads. Equal is only what is the same object.
+/// An immutable object with its type. It is made on the first read and shared by all readers, so that an unread object costs
+/// nothing. Only the same object is equal.
 class Made {
  public:
   Made() = default;

@@ -1,4 +1,4 @@
-// What somebody may have meant who names what is not there, at a cost that does not grow with what is there.
+// Suggests near names for an unknown one, at a cost that does not grow with the number of names.
 #pragma once
 
 #include <span>

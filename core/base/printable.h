@@ -1,4 +1,4 @@
-// Text by others as it may go to a terminal.
+// Makes foreign text safe for a terminal.
 #pragma once
 
 #include <string>

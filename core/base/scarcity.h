@@ -1,4 +1,4 @@
-// What the program says when the system has no more memory or no more threads for it: a sentence, never an abort.
+// Ends the program with a sentence, not an abort, when the system has no more memory or threads for it.
 #pragma once
 
 #include <string>

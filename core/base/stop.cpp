@@ -1,4 +1,4 @@
-// One wish for each thread.
+// One stop request for each thread.
 #include "core/base/stop.h"
 
 #include <utility>

@@ -1,15 +1,15 @@
-// How long work learns that nobody wants its result any more, without every function on the way knowing of it.
+// Stop requests for long computations, without an argument in every function in between.
 #pragma once
 
 #include <functional>
 
 namespace bl {
 
-/// True as soon as the work may be dropped. Asked from any thread, as long as the scope that it was given to lives.
+/// A stop request: returns true as soon as the work may be dropped. It is called from any thread while its scope exists.
 using StopWish = std::function<bool()>;
 
-/// What is begun on this thread while it lives may be stopped; scopes nest. Work that looks at the wish may end early with
-/// anything: whoever made the scope asks the wish again afterwards, and drops what came of it.
+/// While it exists, work on this thread may be stopped; scopes nest. Stopped work may return anything: the owner of the scope
+/// checks the request afterwards, and drops the result.
 class StopScope {
  public:
   explicit StopScope(StopWish wish);
@@ -22,11 +22,11 @@ class StopScope {
   const StopWish* outer_;
 };
 
-/// The wish of the innermost scope of this thread, or nullptr. Threads of a ThreadPool have that of the thread whose loop they
-/// help with; other threads fetch it before they begin.
+/// The stop request of the innermost scope of this thread, or nullptr. Threads of a ThreadPool use that of the thread whose loop
+/// they run; other threads take it over before they begin.
 const StopWish* stop_wish();
 
-/// While it lives, this thread stops by the wish of the thread that it works for (nullptr: by none).
+/// While it exists, this thread uses the stop request of the thread that it works for (nullptr: none).
 class InheritedStop {
  public:
   explicit InheritedStop(const StopWish* wish);

@@ -1,4 +1,4 @@
-// Waiting that ends when nobody wants what is waited for any more.
+// Waiting that ends with a stop request.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace bl {
 
-/// Waits until `is_over` is true or the work is not wanted any more, which is looked at twenty times a second.
+/// Waits until `is_over` is true or a stop is requested; both are checked twenty times a second.
 template <class Predicate>
 void wait_unless_stopped(std::condition_variable& changed, std::unique_lock<std::mutex>& lock, Predicate is_over) {
   constexpr std::chrono::milliseconds kBetweenLooks{50};

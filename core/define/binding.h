@@ -1,4 +1,4 @@
-// How a struct member of a C++ type becomes a port value: the one place that ties types to kinds.
+// Converts struct members of C++ types to port values and back: the only place that maps types to kinds.
 #pragma once
 
 #include <concepts>
@@ -12,13 +12,13 @@
 
 namespace bl {
 
-/// The id of a typification's port chosen by people, as a member type of its own.
+/// The id of a port that people choose, as a separate member type.
 struct PortChoice {
   std::string path;
   bool operator==(const PortChoice&) const = default;
 };
 
-/// The values of all nodes of an end (or of a table of replies) in ascending node id, where a plain T is one node's.
+/// The values of all nodes of an end (or of all replies) in ascending node id; a plain T is the value of one node.
 template <class T>
 struct All {
   std::vector<T> values;
@@ -27,7 +27,7 @@ struct All {
 template <class T>
 struct Binding;
 
-/// For members whose type is itself an alternative of Value.
+/// For members whose type is an alternative of Value.
 template <class T, ValueKind kKindOfT>
 struct DirectBinding {
   static constexpr ValueKind kKind = kKindOfT;
@@ -75,7 +75,7 @@ struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {
 template <>
 struct Binding<Numbers> : DirectBinding<Numbers, ValueKind::numbers> {};
 
-/// Objects that others make; nullptr where there is none. Meshes are a kind of their own.
+/// Made objects; nullptr where there is none. Meshes are a separate kind.
 template <class T>
 struct Binding<std::shared_ptr<const T>> {
   static constexpr ValueKind kKind = ValueKind::made;
@@ -107,7 +107,7 @@ struct Binding<PortChoice> {
   static PortChoice from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
 };
 
-/// Enumerations are kept as the text of the choice; the builder supplies the texts.
+/// Enumerations are stored as the text of the choice; the builder supplies the texts.
 template <class T>
 concept ChoiceMember = std::is_enum_v<T>;
 
@@ -119,7 +119,7 @@ struct is_optional_type : std::false_type {};
 template <class T>
 struct is_optional_type<std::optional<T>> : std::true_type {};
 
-/// A member that an evaluation may leave without a value: then it proposes or replies nothing.
+/// A member that may stay without a value; the evaluation then proposes or replies nothing.
 template <class T>
 std::optional<Value> offered(const T& member) {
   if constexpr (is_optional_type<T>::value) {
@@ -130,7 +130,7 @@ std::optional<Value> offered(const T& member) {
   }
 }
 
-/// Of which type a member's made object has to be; none for members of other kinds.
+/// The required type of a member's made object; none for members of other kinds.
 template <class M>
 struct made_type_of {
   static MadeType get() { return {}; }

@@ -1,4 +1,4 @@
-// One look at the brackets before the parser builds anything: a packed file of some kilobytes can unpack to gigabytes of them.
+// Checks the brackets before the parser builds anything: a packed file of some kilobytes can unpack to gigabytes of brackets.
 #include "core/define/bounded_json.h"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ Result<void> check_json_bounds(std::string_view text) {
   // The library's parser takes it for the end of the text, and what follows would be lost in silence.
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
     return Error{ErrorCode::parse, place_in_text(text, zero),
-                 "A zero byte stands here, which no text holds: the file is damaged. Get a whole copy of it."};
+                 "A zero byte stands here, which no text contains: the file is damaged. Get an intact copy of it."};
   std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
   scan(text, [&](char c, std::size_t at) {
     if (c == '[' || c == '{') {
@@ -96,7 +96,7 @@ Result<void> check_json_bounds(std::string_view text) {
   if (deep != std::string_view::npos)
     return Error{ErrorCode::out_of_range, place_in_text(text, deep),
                  "The text is nested deeper than " + std::to_string(kMostJsonDepth) +
-                     " levels from here on: no file of this kind is, and it is not read."};
+                     " levels from here on. No file of this kind needs that many: it is not read."};
   if (many != std::string_view::npos)
     return Error{ErrorCode::out_of_range, place_in_text(text, many),
                  "The text holds more than " + std::to_string(kMostJsonValues) + " values: cut out the part that you need."};

@@ -1,4 +1,4 @@
-// JSON of strangers: parsed only where it is neither nested too deeply nor made of more values than memory can be asked for.
+// Parses JSON from untrusted sources, within limits on nesting and on the number of values.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@
 
 namespace bl {
 
-/// Deeper than this no scene and no format of surroundings goes; a tree of that depth is also torn down without harm to the
-/// stack.
+/// The deepest nesting. Scenes and the formats of surroundings need less, and a tree of this depth is destroyed without a stack
+/// overflow.
 inline constexpr std::size_t kMostJsonDepth = 64;
-/// Some 80 bytes each in memory at worst.
+/// At most about 80 bytes each in memory.
 inline constexpr std::size_t kMostJsonValues = 40000000;
 
 /// "line 3, column 7" of the byte `at`, counted from 0.
 std::string place_in_text(std::string_view text, std::size_t at);
 
-/// Whether it is within both bounds and holds no zero byte, before a parser builds anything of it. The place of an error is its
-/// line and column.
+/// Checks that the text is within both limits and holds no zero byte, before it is parsed. The place of an error is its line and
+/// column.
 Result<void> check_json_bounds(std::string_view text);
 
-/// The one value of the text. `format` is what the text should be, for the sentence of an error, whose place is its line and
-/// column. A stop wish of this thread (`core/base/stop.h`) ends it early, as `cancelled`.
+/// The value of the text. `format` names the expected format in the message of an error, whose place is its line and column. A
+/// stop request of this thread (`core/base/stop.h`) ends it early with `cancelled`.
 Result<nlohmann::json> read_bounded_json(std::string_view text, std::string_view format);
 
-/// The end of the array or object that the text begins with; npos where it does not begin with one, or does not end it.
+/// The end of the array or object at the beginning of the text; npos where there is none, or where it does not end.
 std::size_t end_of_first_value(std::string_view text);
 
 }  // namespace bl

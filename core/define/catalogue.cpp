@@ -40,7 +40,7 @@ std::string default_of(const PortDefinition& port) {
   const std::string text = write_json_line(value_to_json(port.default_value, port));
   return text == "\"\"" || text == "[]"
              ? ""
-             : "`" + text + "`" + (port.of_scene == OfScene::unless_set ? ", or what the scene's settings say" : "");
+             : "`" + text + "`" + (port.of_scene == OfScene::unless_set ? ", or the scene's setting" : "");
 }
 
 std::string unit_of(const PortDefinition& port) {

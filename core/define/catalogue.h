@@ -7,11 +7,11 @@
 
 namespace bl {
 
-/// One page each: what the type is for, its ports or parameters with kind, unit, default and range, and which links fit.
+/// One page for each type: its purpose, its ports or parameters with kind, unit, default and range, and the links that fit.
 std::string catalogue_page(const TypificationDefinition& type, const Registry& registry);
 std::string catalogue_page(const LinkDefinition& kind, const Registry& registry);
 std::string catalogue_page(const CommandDefinition& command);
-/// The list of everything, with one line for each type.
+/// The list of all types, with one line each.
 std::string catalogue_index(const Registry& registry);
 
 }  // namespace bl

@@ -182,7 +182,7 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
     case ValueKind::mesh:
     case ValueKind::made: break;
   }
-  return Error{ErrorCode::wrong_kind, place, "meshes and made objects cannot be set; they are computed"};
+  return Error{ErrorCode::wrong_kind, place, "meshes and made objects are computed and cannot be set"};
 }
 
 Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
@@ -354,7 +354,7 @@ bool is_kept(const PortDefinition& port, const Value& value) {
 }
 
 std::string why_unsettable(const PortDefinition& port) {
-  if (port.of_scene == OfScene::always) return "`" + port.id + "` holds for the whole scene: it is set in the scene's settings";
+  if (port.of_scene == OfScene::always) return "`" + port.id + "` applies to the whole scene: set it in the scene's settings";
   return port.is_computed ? "`" + port.id + "` is computed and cannot be set" : "";
 }
 

@@ -1,4 +1,4 @@
-// Declares a command: arguments, and one function that changes a scene and returns what undoes it.
+// Declares a command: its arguments, and a function that changes a scene and returns the inverse commands.
 #pragma once
 
 #include <map>
@@ -16,18 +16,18 @@ class SceneEdit;
 struct Scene;
 struct Touch;
 
-/// One change that a person makes to a scene: the command's id and the arguments that differ from their defaults.
+/// One change of a scene: the id of the command, and the arguments that differ from their defaults.
 struct Command {
   std::string id;
   std::map<std::string, Value> arguments;
   bool operator==(const Command&) const = default;
 };
 
-/// A command kind. `apply` leaves the scene as it was when it returns an error.
+/// A kind of command. `apply` leaves the scene unchanged when it returns an error.
 struct CommandDefinition : TypeDefinition {
   std::function<Result<std::vector<Command>>(SceneEdit&, std::span<const Value>)> apply;
-  /// What is left of a command that may touch only some of its places, given the scene as all of it leaves it; empty where a
-  /// command goes as a whole or not at all.
+  /// Reduces a command to some of its places, given the scene after the whole command; empty where a command applies as a whole
+  /// or not at all.
   std::function<Command(const Scene& done, const std::set<Touch>& places)> narrow;
 };
 
@@ -59,7 +59,7 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
     return definition;
   }
 
-  /// The arguments as a command of this kind.
+  /// A command of this kind with these arguments.
   static Command command(const In& in) {
     static const CommandDefinition kDefinition = build();
     Command command{kDefinition.id, {}};

@@ -1,4 +1,4 @@
-// What a declaration leaves behind as plain data: ports, typifications, link kinds and commands.
+// Declarations as plain data: ports, typifications, link kinds and commands.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 
 namespace bl {
 
-/// Where an evaluation keeps what it has worked out: that of a set to work less in the next tick, a link's for the other pairs of
-/// the same tick. It is no state: it is neither saved nor hashed, and an evaluation has to give the same bits with an empty one.
+/// A cache for evaluations: of a set, for the next tick; of a link, for the other pairs of the same tick. It is no state: it is
+/// neither saved nor hashed, and an evaluation must give the same bits with an empty one.
 class Memo {
  public:
-  /// What was kept, or a new T.
+  /// The cached object, or a new T.
   template <class T>
   T& of() {
     static const char tag = 0;
@@ -37,13 +37,13 @@ class Memo {
 
 struct LinkRemarks;
 
-/// What an evaluation may know of the moment: the tick's number and the pool to compute with. No clock, no order.
+/// What an evaluation may read about the tick: its number and the thread pool. There is no clock and no order.
 struct Tick {
   std::int64_t index = 0;
   ThreadPool* pool = nullptr;      ///< only set evaluations (solvers) may use it; nullptr means one thread
-  Memo* memo = nullptr;            ///< only where somebody keeps it: a set's from tick to tick, a link's during one tick
-  bool is_recall = false;          ///< only the meshes of the values as they stand are wanted: no step is taken
-  LinkRemarks* remarks = nullptr;  ///< where a link says what else there is to say (link_remark.h); nullptr: nobody listens
+  Memo* memo = nullptr;            ///< may be null; a set's lasts from tick to tick, a link's for one tick
+  bool is_recall = false;          ///< only the meshes of the present values are needed: take no step
+  LinkRemarks* remarks = nullptr;  ///< receives remarks of a link (link_remark.h); nullptr: remarks are ignored
 };
 
 /// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of
@@ -60,7 +60,7 @@ struct ColumnDefinition {
   bool is_text = false;
   bool is_required = false;
   ListOf list = ListOf::nothing;
-  bool is_key = false;  ///< a text that names the row: people who change different rows do not get in each other's way
+  bool is_key = false;  ///< a text that names the row, so that people can change different rows at the same time
   Unit unit = Unit::none;
   Scalar default_value = 0.0;
   double minimum = -std::numeric_limits<double>::infinity(), maximum = std::numeric_limits<double>::infinity();
@@ -71,16 +71,15 @@ struct ChoiceDefinition {
   std::string id, doc;
 };
 
-/// Does a port stand for the scene's setting of the same id: where nobody has set it at the node, or always, so that it is said
-/// once for all nodes?
+/// Does a port stand for the scene's setting of the same id: only where it is not set at the node, or always?
 enum class OfScene { no, unless_set, always };
 
-/// Where a canvas lays nodes that nobody has placed. Of a node's typifications the one whose column stands first here decides.
+/// The column of the canvas for nodes without a place. Of a node's typifications, the one whose column comes first here decides.
 enum class CanvasColumn { field, first, second, any };
-/// The sign of a typification where there is no room for its label.
+/// The icon of a typification where there is no room for its label.
 enum class Icon { link, file, balance, cycle, cube, plus, step };
-/// What kinds of links do to what they join; links of one family look alike. `other`: none is declared, as in scripts and
-/// plugins; `brief`: they join no places.
+/// Families of link kinds by their effect; links of one family look alike. `other`: none is declared, as in scripts and plugins;
+/// `brief`: they connect no places.
 enum class LinkFamily { nearness, separation, distance, order, numbers, data, ground, traffic, sun, facades, other, brief };
 
 /// One declared datum of a typification, link kind or command.
@@ -90,14 +89,14 @@ struct PortDefinition {
   Unit unit = Unit::none;
   std::string unit_from;        ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
   bool is_computed = false;     ///< written by evaluations only; never set by people or links
-  bool keeps_default = false;   ///< to say the default is more than to say nothing: a place on the equator is one
+  bool keeps_default = false;   ///< a set value is kept even if it equals the default, such as latitude 0
   bool is_required = false;     ///< has no usable default (ids in commands)
   bool is_residual = false;     ///< a scene is settled when every residual is within its tolerance
-  bool is_means = false;        ///< how a solver gets to its result: it says nothing of the result, so nobody compares it
-  bool is_shown_first = false;  ///< where there is room for few results only; without any such port these are the first ones
-  bool is_traced = false;       ///< its course is drawn where there is room for one curve only
+  bool is_means = false;        ///< an inner quantity of a solver, which says nothing about the result: not compared
+  bool is_shown_first = false;  ///< shown where there is room for few results; without such ports the first ones are
+  bool is_traced = false;       ///< plotted where there is room for one curve only
   OfScene of_scene = OfScene::no;
-  double setting_tolerance = 0;  ///< of a port that stands for a setting unless set: a larger difference is told as a problem
+  double setting_tolerance = 0;  ///< of a port that stands for a setting unless set: a larger difference is a problem
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;
@@ -107,10 +106,10 @@ struct PortDefinition {
   std::vector<ColumnDefinition> columns;
   std::function<Value(const void*)> get;             ///< reads the bound member of its struct
   std::function<void(void*, const Value&)> set;      ///< writes it
-  std::function<void(void*, const Value&)> recall;   ///< of a computed port: gives its last value to the settings struct
-  MadeType made;                                     ///< of a port of made objects: of which type
-  std::vector<std::size_t> made_from;                ///< and the computed ports that they follow from
-  std::function<Made(std::span<const Value>)> make;  ///< the object that follows from all values of the typification, in order
+  std::function<void(void*, const Value&)> recall;   ///< of a memory port: gives its last value to the settings struct
+  MadeType made;                                     ///< of a port of made objects: their type
+  std::vector<std::size_t> made_from;                ///< and the computed ports that they depend on
+  std::function<Made(std::span<const Value>)> make;  ///< makes the object from all values of the typification, in order
 };
 
 /// `typification.port`, or the parameter that chooses it when `chosen_by` is set.
@@ -118,20 +117,20 @@ struct PortPath {
   std::string typification, port;
   std::string chosen_by;
 };
-/// "smart_volume.volume" as its two halves; nothing where there is no dot with text on both sides.
+/// "smart_volume.volume" split in two; nothing where there is no dot with text on both sides.
 std::optional<PortPath> parse_port_path(std::string_view text);
 
-/// A datum read from other nodes: where it stands, and what kind and unit the reader expects.
+/// A datum read from other nodes: its port, and the kind and unit that the reader expects.
 struct ReadDefinition {
   PortPath path;
   ValueKind kind = ValueKind::number;
-  MadeType made;             ///< of which type a made object has to be
+  MadeType made;             ///< the required type of a made object
   std::optional<Unit> unit;  ///< empty: any unit
   bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
 };
 
-/// Whole numbers and truth values can be read as numbers, and what people chose as a text.
+/// Whole numbers and truth values can be read as numbers, and choices as texts.
 bool can_read(ValueKind wanted, ValueKind held);
 
 /// A datum written to other nodes: a proposal of a link, or a reply of a set evaluation.
@@ -143,7 +142,7 @@ struct WriteDefinition {
   std::function<void(const void*, std::span<std::optional<Value>>)> extract;
 };
 
-/// The set of nodes that a typification evaluates together: which input port selects it, what is read and written back.
+/// The set of nodes that a typification evaluates together: the port that selects it, its reads, and its replies.
 struct SetDefinition {
   std::string selection;  ///< id of the selecting input port
   std::vector<ReadDefinition> reads;
@@ -175,10 +174,9 @@ struct TypeDefinition {
   std::size_t port_index(std::string_view port) const;  ///< ports.size() where there is none
 };
 
-/// "a number", and of made objects what they are: "a domain".
+/// The kind in words: "a number"; for made objects their type: "a domain".
 std::string_view kind_text(ValueKind kind, const MadeType& made);
-/// Makes the objects among `values` that follow from the others. One stays the same object where all that it follows from is as
-/// in `last`.
+/// Makes the objects among `values` from the other values. An object is reused where all that it depends on is as in `last`.
 void make_objects(const TypeDefinition& type, std::span<Value> values, std::span<const Value> last);
 
 /// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
@@ -186,7 +184,7 @@ struct TypificationDefinition : TypeDefinition {
   CanvasColumn column = CanvasColumn::any;
   Icon icon = Icon::link;
   std::vector<SetDefinition> sets;
-  /// Id of the port that holds how many ticks after its beginning a result counts; empty for what is worked out within a tick.
+  /// Id of the port with the number of ticks after which a result counts; empty for evaluations within a tick.
   std::string latency;
   /// Reads the settings in `values` (all ports, in order), writes the computed ones; `sets` as declared.
   std::function<Result<void>(std::span<Value> values, std::span<SetValues> sets, const Tick&)> evaluate;
@@ -197,13 +195,13 @@ std::string_view name_of(End end);
 
 struct LinkRead : ReadDefinition {
   End end = End::from;
-  bool is_lock = false;  ///< reads whether people have locked the port, not what stands there
+  bool is_lock = false;  ///< reads whether people have locked the port, not its value
 };
 struct LinkWrite : WriteDefinition {
   End end = End::to;
 };
 
-/// Values as a link evaluation sees them: per declared read one pointer, or one for each node of a whole end.
+/// The values for a link evaluation: one pointer per declared read, or one for each node of a whole end.
 struct LinkReads {
   std::vector<std::vector<const Value*>> values;
 };
@@ -211,14 +209,14 @@ struct LinkWrites {
   std::vector<std::vector<std::optional<Value>>> values;
 };
 
-/// Code on an edge. Evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
+/// A link kind. It is evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
 struct LinkDefinition : TypeDefinition {
   LinkFamily family = LinkFamily::other;
   std::vector<LinkRead> reads;
   std::vector<LinkWrite> proposes;
   std::vector<std::pair<std::string, std::string>> same_units;  ///< pairs of port parameters whose units must agree
-  std::string same_units_unless;                                ///< a boolean parameter that lifts that rule
-  /// Parameters as the struct that the evaluation takes; made once per change of the link.
+  std::string same_units_unless;                                ///< a boolean parameter that disables that rule
+  /// The parameters as a struct for the evaluation; made once per change of the link.
   std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
   std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;
 

@@ -17,11 +17,11 @@ using Json = nlohmann::ordered_json;
 /// to the text, whatever its shape.
 Result<Json> parse_json(std::string_view text);
 
-/// A new field at the end of an object, without a look at those that are there: an object of a hundred thousand nodes is filled
-/// in no time. Whoever calls knows that the key is new.
+/// Adds a field at the end of an object without searching for its key, so that an object of a hundred thousand nodes is filled
+/// fast. The caller must know that the key is new.
 Json& append_field(Json& object, std::string key);
 
-/// Moves the fields of an object behind those of another one. Whoever calls knows that no key stands in both.
+/// Moves the fields of an object behind those of another one. The caller must know that they share no key.
 void append_fields(Json& object, Json&& more);
 
 /// Writes with two-space indents; what fits into 120 columns stays on one line, but for the outermost `open_levels` levels, which

@@ -19,7 +19,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   using Ends = typename T::Ends;
   using Out = typename T::Out;
 
-  /// A hint for drawings, which nothing else follows.
+  /// A hint for drawings, with no other effect.
   LinkBuilder& family(LinkFamily family) {
     definition_->family = family;
     return *this;
@@ -44,7 +44,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     bind_read(read, member);
     return *this;
   }
-  /// Reads the port that people chose in `parameter`.
+  /// Reads the port that is chosen in `parameter`.
   template <class M>
   LinkBuilder& reads_chosen(M Ends::*member, End end, std::string parameter) {
     LinkRead& read = definition_->reads.emplace_back();

@@ -1,4 +1,4 @@
-// What a link that runs has to say beside its proposals: who goes without, or which rule is not kept.
+// Remarks of a running link besides its proposals: unmet demands, or rules that are not kept.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace bl {
 
-/// Whatever is remarked, the proposals stand. In ascending gravity.
+/// The proposals stay in force whatever is remarked. In ascending severity.
 enum class LinkRemark {
-  short_of,  ///< somebody goes without: shown as a problem; the scene settles nevertheless
-  /// What of a rule is not kept yet while the link is bringing it about: nothing is settled before it is, and it is a problem
+  short_of,  ///< a demand is not met: shown as a problem; the scene settles nevertheless
+  /// A rule is not kept yet, and the link is working on it: the scene does not settle before it is kept. It becomes a problem
   /// once nothing changes any more.
   at_work,
   unmet,  ///< a rule cannot be kept: shown as a problem, and the scene does not settle
 };
 
-/// What one link has remarked in one tick. The gravest of its pairs speaks; among equals the first.
+/// The remark of one link in one tick: the most severe of its pairs, among equals the first.
 struct LinkRemarks {
   LinkRemark kind = LinkRemark::short_of;
   std::optional<Error> said;
 };
 
-/// To be called from within evaluate(). Where nobody listens, nothing is said.
+/// Call it within evaluate(). Without a receiver it does nothing.
 inline void remark(const Tick& tick, LinkRemark kind, Error what) {
   if (tick.remarks == nullptr) return;
   LinkRemarks& remarks = *tick.remarks;

@@ -1,4 +1,4 @@
-// Arguments that hold more than a number or a text: JSON that was read once, and commands inside a command.
+// Structured arguments: JSON that was read once, and commands inside a command.
 #pragma once
 
 #include <memory>
@@ -18,14 +18,14 @@ class JsonValue {
  public:
   /// An object without content.
   JsonValue();
-  /// Reads a text. Where it is no JSON, read() tells why.
+  /// Reads a text. Where it is no JSON, read() gives the error.
   JsonValue(const std::string& text);                            // NOLINT: implicit on purpose
   JsonValue(const char* text) : JsonValue(std::string(text)) {}  // NOLINT: implicit on purpose
-  /// What a program has put together, as if it had been written and read.
+  /// JSON made by the program, as if it had been written and read.
   static JsonValue of(nlohmann::ordered_json json);
   static const JsonValue& null();
 
-  /// The value, or why the text that it came from is none. Good for as long as a copy of this lives.
+  /// The value, or why the text is no JSON. Valid as long as a copy of this exists.
   Result<const nlohmann::ordered_json*> read() const;
   bool is_null() const;
   /// On one line; `null` where there is no value.

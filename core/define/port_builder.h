@@ -26,15 +26,15 @@ class PortBuilder {
     port_->doc = std::move(text);
     return *this;
   }
-  /// The scene's setting of the same id, kind and unit is handed in: what holds for the whole scene is said in one place.
-  /// Where it stands for the setting unless set, values that differ by more than `tolerance` are told when a scene is checked.
+  /// The port gets the scene's setting of the same id, kind and unit. Where a set value replaces the setting, the check of a
+  /// scene reports values that differ from it by more than `tolerance`.
   PortBuilder& of_scene(OfScene when, double tolerance = 0) {
     port_->of_scene = when;
     port_->setting_tolerance = tolerance;
     port_->keeps_default = when == OfScene::unless_set;
     return *this;
   }
-  /// A value that equals the default is kept like any other: it differs from none at all.
+  /// A set value that equals the default is kept, since it differs from an unset one.
   PortBuilder& keeps_default() {
     port_->keeps_default = true;
     return *this;
@@ -62,7 +62,7 @@ class PortBuilder {
     return *this;
   }
   PortBuilder& range(double low, double high) requires NumericMember<M> { return min(low).max(high); }
-  /// What a slider spans; people may type values outside it, up to the hard range.
+  /// The range of a slider; people may type values outside it, up to the hard range.
   PortBuilder& soft(double low, double high) requires NumericMember<M> {
     port_->soft_minimum = low;
     port_->soft_maximum = high;
@@ -96,7 +96,7 @@ class PortBuilder {
     port_->is_shown_first = true;
     return *this;
   }
-  /// The one port of its type whose course people see at a glance.
+  /// The one port of its type that is plotted over time.
   PortBuilder& traced() requires NumericMember<M> {
     port_->is_traced = true;
     return *this;
@@ -110,7 +110,7 @@ class PortBuilder {
   PortDefinition* port_;
 };
 
-/// Binds `member` of Owner as a new port; the default is what a fresh Owner holds.
+/// Binds `member` of Owner as a new port; its default is the value in a new Owner.
 template <class Owner, class M>
 PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::*member, std::string id) {
   PortDefinition& port = ports.emplace_back();
@@ -122,7 +122,7 @@ PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::*member, st
   return PortBuilder<M>(port);
 }
 
-/// Binds an enumeration: files and values hold the text of the choice, the struct the enumerator.
+/// Binds an enumeration: files and values hold the text of the choice, the struct holds the enumerator.
 template <class Owner, ChoiceMember E>
 PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::*member, std::string id, std::vector<Choice<E>> choices) {
   PortDefinition& port = ports.emplace_back();
@@ -144,7 +144,7 @@ PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::*member, 
   return PortBuilder<E>(port);
 }
 
-/// What typifications, link kinds and commands declare alike.
+/// Declarations that typifications, link kinds and commands share.
 template <class Definition>
 class TypeBuilder {
  public:

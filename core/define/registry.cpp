@@ -85,12 +85,12 @@ struct BaseNode {
   struct Out {};
 
   static void declare(TypificationBuilder<BaseNode>& t) {
-    t.id(std::string(kBaseNode)).label("Node").doc("What every node is: an entity with a place and tags.");
+    t.id(std::string(kBaseNode)).label("Node").doc("Base of every node: an entity with a position and tags.");
     t.in(&In::position, "position")
         .unit(Unit::metre)
         .combine(CombineRule::sum)
         .step_limit(5)
-        .doc("Where the node stands. Links move it by at most 5 m in a tick.");
+        .doc("Position of the node. Links move it by at most 5 m in a tick.");
     t.in(&In::tags, "tags").doc("Words to group nodes by; links and statistics can address all nodes with a tag.");
   }
 };

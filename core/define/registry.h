@@ -18,7 +18,7 @@ class Registry {
   void add(LinkDefinition definition);
   void add(CommandDefinition definition);
 
-  /// The id or alias of a type from outside the program that is taken already; empty where it can be added.
+  /// The id or alias of an external type that exists already; empty where the type can be added.
   std::string taken(const TypificationDefinition& definition) const;
   std::string taken(const LinkDefinition& definition) const;
 
@@ -65,7 +65,7 @@ const Registry& full_registry();
 
 }  // namespace bl
 
-/// Each closes a file of its folder: makes the type known under the file's stem.
+/// The last line of each file in the folder: registers the type under the file's stem.
 #define BL_TYPIFICATION(stem, Type)                                                                           \
   namespace bl {                                                                                              \
   void register_typification_##stem(Registry& registry) { registry.add(TypificationBuilder<Type>::build()); } \

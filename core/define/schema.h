@@ -6,11 +6,11 @@
 
 namespace bl {
 
-/// Accepts exactly the files whose form the reader accepts. What needs the whole scene to judge (ids that point to nothing, ids
-/// given twice, units that do not meet, revisions) is the checker's alone.
+/// Accepts exactly the files whose form the reader accepts. Only the checker judges what needs the whole scene: ids of nothing,
+/// duplicate ids, units that differ, revisions.
 Json scene_schema(const Registry& registry, const TypeDefinition& settings, int version);
 
-/// The schema of one value as its declaration wants it.
+/// The schema of one value by its declaration.
 Json value_schema(const PortDefinition& port);
 
 }  // namespace bl

@@ -8,7 +8,7 @@
 
 namespace bl {
 
-/// Declares what is read from, and written back to, each node of a set.
+/// Declares the reads from, and the replies to, each node of a set.
 template <class Sets, class Out, class Member, class Reply>
 class SetBuilder {
  public:
@@ -55,7 +55,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   using In = typename T::In;
   using Out = typename T::Out;
 
-  /// Hints for views, which nothing else follows.
+  /// Hints for views, with no other effect.
   TypificationBuilder& column(CanvasColumn column) {
     definition_->column = column;
     return *this;
@@ -73,8 +73,9 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   PortBuilder<E> in(E In::*member, std::string id, std::vector<Choice<E>> choices) {
     return add_choice(definition_->ports, member, std::move(id), std::move(choices));
   }
-  /// The evaluation runs beside the loop: begun with the data of one tick, its result is taken in so many ticks later, whatever
-  /// time it takes. Its outputs hold no meshes. Only for typifications with sets; `Tick::pool` and `Tick::memo` are not there.
+  /// The evaluation runs beside the ticks: it starts with the data of one tick, and its result counts a given number of ticks
+  /// later, whatever time it takes. Its outputs hold no meshes. Only for typifications with sets; `Tick::pool` and `Tick::memo`
+  /// are null.
   PortBuilder<int> latency(int In::*member, std::string id) {
     definition_->latency = id;
     return in(member, std::move(id)).unit(Unit::count).range(0, 1000).soft(1, 30);
@@ -93,9 +94,9 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return builder;
   }
 
-  /// An output for code: an object that follows from other computed ports, `from`, and from nothing else. It is neither saved
-  /// nor hashed, since these are: after loading it is made again. `make` is asked when somebody reads the object, with the
-  /// values of these ports. Not for analyses, nor from what members of sets are given: they would not be followed.
+  /// An output for code: an object that depends on the computed ports `from` only. It is neither saved nor hashed, since these
+  /// ports are; after loading it is made again. `make` is called with their values when the object is first read. Not for
+  /// analyses, and not from replies to members of sets, since changes of these are not tracked.
   template <class Object, class... Sources>
   PortBuilder<Made> made(std::string id, std::vector<std::string> from,
                          std::shared_ptr<const Object> (*make)(const Sources&...)) {
@@ -114,8 +115,8 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return PortBuilder<Made>(port);
   }
 
-  /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
-  /// such members, `kept` and `last`. A typification with memory is evaluated in every tick, whether its settings change or not.
+  /// A memory port: an output that the next evaluation reads again, and that is saved. Out and In hold the same struct of such
+  /// members, `kept` and `last`. A typification with memory is evaluated in every tick, even if its settings do not change.
   template <class Memory, class M>
   PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string id) {
     PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));
@@ -128,14 +129,14 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return builder;
   }
 
-  /// The nodes that the selection port `selection` names are read into `members`, in ascending node id.
+  /// Reads the nodes of the selection port `selection` into `members`, in ascending node id.
   template <class Sets, class Member>
   SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, std::vector<Member> Sets::*members) {
     SetDefinition& set = add_set<Sets>(std::move(selection), members);
     replies_.emplace_back([](const Out&, const SetDefinition&, SetValues&) {});
     return SetBuilder<Sets, Out, Member, NoReply>(set);
   }
-  /// The same, and `replies` (one for each member, same order) is written back to them.
+  /// The same; `replies` (one for each member, in the same order) is written back to them.
   template <class Sets, class Member, class Reply>
   SetBuilder<Sets, Out, Member, Reply> set(std::string selection, std::vector<Member> Sets::*members,
                                            std::vector<Reply> Out::*replies) {

@@ -35,7 +35,7 @@ class Shared {
   std::shared_ptr<const T> content_;
 };
 
-/// A set of nodes: named ones, or all that carry a typification and/or a tag. Always walked in ascending node id.
+/// A set of nodes: named ones, or all that carry a typification and/or a tag. It is always used in ascending node id.
 struct Selection {
   std::vector<std::string> ids;
   std::string typification;
@@ -56,9 +56,9 @@ struct Table {
   std::vector<TableRow> rows;
   bool operator==(const Table&) const = default;
 
-  /// Index of a column, or the number of columns where there is none.
+  /// Index of a column, or the number of columns where it is missing.
   std::size_t column(std::string_view name) const;
-  /// The first row with that text in a column, or the number of rows where there is none.
+  /// The first row with that text in a column, or the number of rows where it is missing.
   std::size_t row_of(std::string_view column, std::string_view text) const;
   /// Nothing (0, an empty text) where row or column do not exist.
   double number(std::size_t row, std::string_view name) const;
@@ -92,23 +92,23 @@ enum class ValueKind {
   commands
 };
 
-/// Text, choice and port share std::string; the declared kind tells them apart. New kinds stand at the end: the place of a kind
-/// is a part of the hash.
+/// Text, choice and port share std::string; the declared kind distinguishes them. Add new kinds at the end: the index of a kind
+/// is part of the hash.
 using Value =
     std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>, Shared<std::vector<std::string>>,
                  Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue, CommandList>;
 
 std::string_view name_of(ValueKind kind);
-/// Do values of this kind follow from others, so that no file holds them?
+/// Are values of this kind computed from others, so that no file holds them?
 bool is_derived(ValueKind kind);
 /// Can a link propose values of this kind?
 bool is_proposable(ValueKind kind);
 /// Are all numbers in it finite?
 bool is_finite(const Value& value);
-/// The door of everything that is kept, whether read, said or worked out: takes the sign off zeros, because -0 equals 0 and would
-/// come back as that from a file, but divides and reads otherwise. False where a number is not finite.
+/// Normalises every stored value, whether read, set or computed: -0 becomes 0, because a file gives 0 back, while -0 divides and
+/// prints differently. False where a number is not finite.
 [[nodiscard]] bool make_storable(Value& value);
-/// Folds a value into a hash. Meshes count as nothing, because they follow from the rest; made objects are not even there.
+/// Adds a value to a hash. Meshes and made objects do not count, because they follow from the rest.
 void add_to(Hash& hash, const Value& value);
 /// The number in a number, integer or boolean; 0 for other kinds.
 double as_number(const Value& value);

@@ -1,4 +1,4 @@
-// What one row of a brief asks for, all of its items together: the one place where floor areas become volumes.
+// The demand of one row of a brief, for all of its items. Only here are floor areas converted to volumes.
 #pragma once
 
 #include "core/define/value.h"

@@ -1,4 +1,4 @@
-// Who can give way no further, and the words for it.
+// Finds the volumes that cannot be limited further, and describes them.
 #include "core/demand/demand_limit.h"
 
 #include <cmath>
@@ -57,7 +57,7 @@ bool is_exhausted(const LimitedVolumes& held, const std::vector<std::size_t>& wh
 }
 
 std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least) {
-  if (which.empty()) return "held by volumes that this link does not lead to";
+  if (which.empty()) return "held by volumes that are not at the end of this link";
   std::vector<std::size_t> holding;
   for (const std::size_t i : which)
     if (is_above_least(held, i, least)) holding.push_back(i);

@@ -1,4 +1,4 @@
-// What a style makes of a surveyed façade: glazed and opaque areas, panels and cost.
+// Applies a style to a surveyed façade: glazed and opaque areas, panels and cost.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace bl::facade {
 
-/// What a style says of one orientation of one use.
+/// The rules of a style for one orientation of one use.
 struct FacadeRule {
   double glazing = 0.4;                         ///< glazed share of a storey's façade
   double module = 3;                            ///< width of one window with its pier [m]

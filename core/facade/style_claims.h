@@ -1,4 +1,4 @@
-// Which of the styles that claim a façade dresses it, and what to say of the others.
+// Decides which of several styles applies to a façade, with a sentence about the others.
 #pragma once
 
 #include <span>

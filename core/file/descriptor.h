@@ -1,4 +1,4 @@
-// What reading and writing through the POSIX calls share: an open file that is closed in any case, and their errors as sentences.
+// Shared by reading and writing through POSIX calls: an open file that is always closed, and system errors as sentences.
 #pragma once
 
 #include <unistd.h>

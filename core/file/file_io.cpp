@@ -1,4 +1,4 @@
-// Files through the POSIX calls, whose errors can be told apart.
+// Reads files through POSIX calls, whose errors say the cause.
 #include "core/file/file_io.h"
 
 #include <fcntl.h>

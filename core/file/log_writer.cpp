@@ -20,7 +20,7 @@ Result<void> LogWriter::open(const std::string& path, bool must_be_new) {
   return {};
 }
 
-void LogWriter::fail() { failure_ = std::string("the log ends early, it cannot be written: ") + std::strerror(errno); }
+void LogWriter::fail() { failure_ = std::string("the log cannot be written any further: ") + std::strerror(errno); }
 
 void LogWriter::write(std::string_view lines) {
   if (file_ == nullptr || !failure_.empty()) return;

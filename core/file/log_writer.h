@@ -1,4 +1,4 @@
-// Writes the log of a run line by line, so that a crash leaves what has happened so far.
+// Writes the log of a run line by line, so that a crash loses none of the written lines.
 #pragma once
 
 #include <cstdio>
@@ -16,10 +16,10 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Empties what is there, or refuses it as `duplicate` where it has to be new.
+  /// Empties an existing file, or refuses it as `duplicate` where the file must be new.
   Result<void> open(const std::string& path, bool must_be_new = false);
   bool is_open() const { return file_ != nullptr; }
-  /// Writes and hands over to the system at once. The first failure is kept; nothing is written after it.
+  /// Writes a line and passes it to the system at once. The first failure is kept; nothing is written after it.
   void write(std::string_view lines);
   /// Why lines are missing; empty where none are.
   const std::string& failure() const { return failure_; }

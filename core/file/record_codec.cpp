@@ -1,4 +1,4 @@
-// Nodes and links to JSON and back, ghosts kept to the letter.
+// Nodes and links to JSON and back; ghosts are kept unchanged.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Where files come into being: beside the old one under a name that nobody can guess, whole on the disk, then in its place.
+// Writes a file beside the old one under a random name, flushes it to the disk, then renames it.
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
@@ -63,7 +63,8 @@ Result<SavePlace> place_to_save(const std::string& path) {
     if (!place.is_there || !S_ISLNK(place.status.st_mode)) return place;
     if (is_laid_by_others(place.folder.number(), place.status))
       return Error{ErrorCode::io, path,
-                   "is a link that somebody else has laid in a folder of everybody's, and is not followed; choose another place"};
+                   "is a symbolic link of another user in a folder that everybody can write to, and is not followed; choose "
+                   "another place"};
     std::array<char, 4096> text;
     const ssize_t length = ::readlinkat(place.folder.number(), place.name.c_str(), text.data(), text.size());
     if (length <= 0) return io_error(path, "cannot be written");
@@ -232,7 +233,7 @@ Result<void> sync_folder(const SavePlace& place, const std::string& path) {
   const Descriptor folder(::openat(place.folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const bool is_failing =
       folder.is_open() && ::fsync(folder.number()) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
-  if (is_failing) return io_error(path, "is written, but the disk may not keep it");
+  if (is_failing) return io_error(path, "is written, but the disk did not confirm it");
   return {};
 }
 
@@ -282,7 +283,7 @@ Result<std::FILE*> open_growing_file(const std::string& path, bool must_be_new) 
                       kFlags | O_CREAT | O_NOFOLLOW | (must_be_new ? O_EXCL : O_TRUNC), 0666);
   }
   Descriptor file(number);
-  if (!file.is_open() && errno == EEXIST) return Error{ErrorCode::duplicate, path, "is there already"};
+  if (!file.is_open() && errno == EEXIST) return Error{ErrorCode::duplicate, path, "exists already"};
   std::FILE* stream = file.is_open() ? ::fdopen(file.number(), "w") : nullptr;
   if (stream == nullptr) return io_error(path, "cannot be written");
   (void)file.release();

@@ -202,9 +202,9 @@ class Reader {
       reading_.problems.push_back(
           {false,
            {ErrorCode::conflict, place,
-            is_taken ? "is said once for the scene now: this became its setting, and holds for all nodes"
+            is_taken ? "became a setting of the scene, which applies to all nodes"
                      : "the scene's setting `" + port +
-                           "` holds instead; it is said once for all nodes and differs from what stood here"}});
+                           "` is used instead: it applies to all nodes, and its value differs from the one here"}});
     }
   }
 

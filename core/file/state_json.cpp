@@ -110,8 +110,7 @@ class StateReader {
           {false,
            {ErrorCode::unknown_type, place,
             "`" + typification +
-                "` is unknown to this program, so that what the run had made of it is left out: keep the file for "
-                "the program that knows it"}});
+                "` is unknown to this program, so its results are left out: keep the file for the program that knows it"}});
     return true;
   }
   bool is_port_of_a_ghost(const std::string& node, const std::string& path, const std::string& place) {
@@ -137,9 +136,7 @@ class StateReader {
         const std::string here = place + "/" + node + "/" + path;
         if (is_port_of_a_ghost(node, path, here)) continue;
         if (is_of_older_program(path)) {
-          problems_.push_back(
-              {false,
-               {ErrorCode::not_found, here, "this program keeps no such figure; what follows from it is worked out again"}});
+          problems_.push_back({false, {ErrorCode::not_found, here, "this program keeps no such value; it is computed again"}});
           continue;
         }
         auto value = value_of(node, path, content, here);

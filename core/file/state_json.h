@@ -1,4 +1,4 @@
-// The running state in a scene file: its section `state`, out and in.
+// Writes and reads the running state of a scene file: its section `state`.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 namespace bl {
 
 Json state_to_json(const SavedState& state, const Registry& types);
-/// What a file says of the run of `scene`; nothing where it cannot be used, which is then among the problems. Figures that this
-/// program does not keep any more are told and left out, and so is what a run has made of typifications that it does not know.
+/// The running state of `scene` in a file; nothing where it cannot be used, with the reason among the problems. Values that this
+/// program does not keep any more, and results of unknown typifications, are reported and left out.
 std::optional<SavedState> state_from_json(const Json& json, const Scene& scene, const Registry& types,
                                           std::vector<Problem>& problems);
 

@@ -1,4 +1,4 @@
-// The live cell complex: cells, facets, edges and vertices of the power diagram with lasting names, kept up to date locally.
+// The cell complex: cells, facets, edges and vertices of the power diagram with lasting names, updated locally.
 #pragma once
 
 #include <compare>
@@ -18,7 +18,7 @@ namespace bl::geometry {
 enum class ElementKind : std::uint8_t { cell, facet, edge, vertex };
 std::string_view name_of(ElementKind kind);
 
-/// What finds an element again after every re-solve: the place to hang on what a person did to it.
+/// Finds an element again after every solve, so that data of people can refer to it.
 struct ElementKey {
   ElementKind kind = ElementKind::cell;
   ElementName name;
@@ -26,18 +26,18 @@ struct ElementKey {
   std::strong_ordering operator<=>(const ElementKey&) const = default;
 };
 
-/// What an update has done, each list in the order of kinds and names. Elements in none of them are as they were, bit for bit.
+/// The changes of an update, each list in the order of kinds and names. Elements in none of the lists are unchanged, bit for bit.
 struct ComplexChange {
   std::vector<ElementKey> added, removed;
-  std::vector<ElementKey> changed;  ///< there before and after, with another place, extent or outline
+  std::vector<ElementKey> changed;  ///< exists before and after, with another place, extent or outline
 };
 
-/// How much an update had to look at: proportional to the change, not to the complex.
+/// The work of an update: proportional to the change, not to the complex.
 struct ComplexWork {
   std::size_t cells_read = 0;      ///< cells that the diagram had made anew
-  std::size_t cells_replaced = 0;  ///< of these, the ones that differ
+  std::size_t cells_replaced = 0;  ///< those of them that differ
   std::size_t cells_visited = 0;   ///< the replaced ones and those that meet them
-  std::size_t elements_made = 0;   ///< facets, edges and vertices that were taken away and made again
+  std::size_t elements_made = 0;   ///< facets, edges and vertices that were removed and made again
 };
 
 /// The unshrunk power cells inside the domain as a complex. Names: a cell {a}; a facet {a,b} or {a,#k}; an edge {a,b,c},
@@ -51,13 +51,14 @@ class CellComplex {
   CellComplex(CellComplex&&) noexcept;
   CellComplex& operator=(CellComplex&&) noexcept;
 
-  /// The label of each site from the next update on, all different: whoever adds and removes sites keeps them, and with them
-  /// the names of all other elements. Without labels a site's index is its label.
+  /// Sets the label of each site from the next update on; all must differ. Keep the labels when sites are added and removed, so
+  /// that the names of all other elements stay. Without labels, a site's index is its label.
   Result<void> set_labels(std::span<const std::uint32_t> labels);
 
-  /// Follows the diagram's last update, which was made from `sites` and with outlines. The first call builds the complex; later
-  /// ones read the cells in diagram.made() alone, so every update of the diagram has to be followed. `all` reads every cell (and
-  /// still replaces only what differs): for who has missed an update. An error leaves the complex as it was.
+  /// Updates the complex after the diagram's last update, which was made from `sites` and with outlines. The first call builds
+  /// the complex. Later calls read only the cells in diagram.made(), so call it after every update of the diagram. With `all` it
+  /// reads every cell (and still replaces only what differs), for callers that have missed an update. An error leaves the complex
+  /// unchanged.
   Result<void> update(const PowerDiagram& diagram, std::span<const PowerSite> sites, bool all = false);
 
   const ComplexChange& change() const;  ///< of the last update
@@ -78,8 +79,8 @@ class CellComplex {
   /// V - E + F of a cell: 2 wherever the domain is convex.
   int euler(std::uint32_t cell) const;
 
-  /// Recounts everything: that a complex built anew is the same, incidence both ways, the two sides of every facet, Euler's
-  /// formula. Returns what is wrong, in sentences; empty: nothing is. As slow as building it.
+  /// Checks everything: that a new complex is the same, incidence both ways, the two sides of every facet, Euler's formula.
+  /// Returns the errors as sentences; empty where there are none. As slow as building the complex.
   std::vector<std::string> verify() const;
   /// One line per element with its numbers in full digits: equal texts are equal complexes.
   std::string listing() const;

@@ -14,7 +14,7 @@ namespace bl::geometry {
 /// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
 
-/// What the vertices of a part are wrapped towards: the site, or `other` where the site is not well inside.
+/// The point that the vertices of a part are wrapped towards: the site, or `other` where the site is not well inside.
 Point3 wrap_centre(const Polyhedron& part, double squared_radius, const Point3& other);
 
 /// The parts in the pieces of the domain become one closed mesh that is open from part to part where the ball is. `centroid` of
@@ -26,14 +26,14 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
 Mesh make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, std::span<const OpenPart> open,
                       const PowerSite& site, const Point3& centroid);
 
-/// Faces of shapes that studies measure with are split in four so many times.
+/// How often the faces of shapes for studies are split in four.
 inline constexpr int kStudyDepth = 1;
 
-/// The mesh of a cell as it is at another depth than that at which it is shown, made from its coarse one. A mesh without a coarse
-/// one is what it is; nullptr stays nullptr.
+/// The mesh of a cell at another depth than the displayed one, made from its coarse mesh. A mesh without a coarse one is returned
+/// unchanged; nullptr stays nullptr.
 MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth);
 
-/// The mesh of a cell as studies see it, however finely it is shown.
+/// The mesh of a cell for studies, whatever its displayed depth.
 inline MeshPointer study_mesh(const MeshPointer& mesh) { return mesh_of_depth(mesh, kStudyDepth); }
 
 }  // namespace bl::geometry

@@ -18,8 +18,8 @@ struct Plane {
   bool operator==(const Plane&) const = default;
 };
 
-/// A bounded convex polyhedron. Boundary side `#k` of the diagram is `planes[k]`, so the order of planes is a promise
-/// of each maker below. A plane that bounds nothing (redundant) keeps its index and has an empty face.
+/// A bounded convex polyhedron. Boundary side `#k` of the diagram is `planes[k]`, so each maker below guarantees the order of
+/// planes. A redundant plane keeps its index and has an empty face.
 struct ConvexDomain {
   std::vector<Plane> planes;
   std::vector<Point3> vertices;                   ///< [m]
@@ -31,9 +31,9 @@ struct ConvexDomain {
 
   /// Diagonal of the box around it [m]: what tolerances are relative to.
   double size() const { return distance(minimum, maximum); }
-  /// Is the point inside, or outside by no more than `tolerance` [m]?
+  /// Is the point inside, or outside by at most `tolerance` [m]?
   bool contains(const Point3& point, double tolerance = 0) const;
-  /// Largest share s <= `most` for which centroid + s * way lies inside.
+  /// The largest share s <= `most` for which centroid + s * way lies inside.
   double share_inside(const Vector3& way, double most) const;
 };
 

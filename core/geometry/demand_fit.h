@@ -1,4 +1,4 @@
-// Weights that meet demanded volumes, step by step: the feedback of 2007, made gain-free and robust, and a damped Newton.
+// Finds weights that meet demanded volumes, step by step: by the feedback of 2007 without its gain, or by a damped Newton method.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace bl::geometry {
 
 /// How weights follow the errors.
 enum class FitMethod : std::uint8_t {
-  feedback,  ///< each site by its own error, as in 2007; tens of steps, more the fuller the domain
-  newton,    ///< all sites together by the exact linear response; a handful of steps at any fill
+  feedback,  ///< each site by its own error, as in 2007; tens of steps, more in fuller domains
+  newton,    ///< all sites together by the exact linear response; few steps at any fill
 };
 
 struct FitOptions {
@@ -24,14 +24,14 @@ struct FitOptions {
   double gain = 0;          ///< [1/m]: w += gain · (demand - volume), as in 2007; 0: each site by its own response dV/dw.
                             ///< Only for `feedback`
   int steps = 1;            ///< at most so many evaluations of the diagram
-  double tolerance = 0.01;  ///< stop when no site is farther from its (fitting) demand than this share of it
+  double tolerance = 0.01;  ///< stop when no site differs from its (possibly scaled) demand by more than this share of it
   double damping = 1;       ///< share of the step that is taken with gain 0, in (0, 1]
-  bool with_rays = true;    ///< `newton`: sites without weights begin with what `weights_by_rays` finds, where it finds any
+  bool with_rays = true;    ///< `newton`: sites without weights start with those of `weights_by_rays`, where it finds any
   ThreadPool* pool = nullptr;
-  PowerDiagram* diagram = nullptr;  ///< kept between calls it saves cells that cannot have changed; it changes no bit
+  PowerDiagram* diagram = nullptr;  ///< kept between calls, it reuses cells that cannot have changed; it changes no bit
 };
 
-/// What one call starts from besides weights. Plain data to be saved with the scene, so that a tick is a pure function of it.
+/// The state of the fit besides the weights. It is plain data, saved with the scene, so that a tick is a pure function of it.
 struct FitState {
   std::vector<double> previous_move;  ///< last change of radius³ per site [m³]; empty: none yet
   std::vector<double> direction;      ///< newton: change of radius³ per site that the full step would be [m³]
@@ -44,7 +44,7 @@ struct FitState {
   bool operator==(const FitState&) const = default;
 };
 
-/// A demand that cannot be met, and what it gets instead.
+/// A demand that cannot be met, and the volume that it gets instead.
 struct DemandLoss {
   std::uint32_t site = 0;          ///< index of the demand: of the site, where each site has its own
   double demand = 0, granted = 0;  ///< [m³]
@@ -60,19 +60,19 @@ struct FitReport {
   std::uint32_t worst_site = 0;    ///< which demand has it
   int steps = 0;                   ///< evaluations made
   int iterations = 0;              ///< steps begun: evaluations less those that judged a repair or a step taken back
-  bool began_with_rays = false;    ///< and goes on from there: where that leads nowhere, a start without rays may not
+  bool began_with_rays = false;    ///< and continues from there: where that fails, a start without rays may succeed
   bool is_met = false;             ///< error <= tolerance: `weights` are those that were evaluated
-  std::string infeasible;          ///< a sentence where the demands exceed the domain; empty otherwise
-  std::vector<DemandLoss> losses;  ///< per site that gets less than it asked for
+  std::string infeasible;          ///< a sentence where the demands exceed the domain; else empty
+  std::vector<DemandLoss> losses;  ///< one for each site that gets less than it asked for
 };
 
 /// Equal weights [m²] from which no site inside the domain is empty (the diagram is then an ordinary Voronoi diagram):
 /// a common radius from the mean demand, enlarged with the fill f by -ln(1-f)/f.
 std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands);
 
-/// Takes up to `options.steps` steps from the weights of `sites` towards volume = demand [m³] for each site that is not
-/// locked (`locked` empty: all free). Weights of locked sites stay. Pure: the same arguments give the same bits.
-/// Demands whose sum exceeds what the domain holds are all scaled by one factor; the report names who loses how much.
+/// Takes up to `options.steps` steps from the weights of `sites` towards volume = demand [m³] for each site that is not locked
+/// (`locked` empty: all free). Weights of locked sites stay. Pure: the same arguments give the same bits. If the sum of the
+/// demands exceeds the domain, all are scaled by one factor, and the report lists the loss of each site.
 Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options);
 

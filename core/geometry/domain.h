@@ -14,7 +14,7 @@ namespace bl::geometry {
 /// plane k is side `#k`.
 struct Domain {
   static constexpr std::string_view kMadeName = "a domain";  ///< as nodes hand it on
-  /// In `Piece::sides`: the face lies between two pieces and is no surface.
+  /// In `Piece::sides`: the face lies between two pieces and is not part of the surface.
   static constexpr std::uint32_t kInner = 0xffffffffu;
 
   struct Piece {
@@ -24,14 +24,14 @@ struct Domain {
   };
 
   std::vector<Piece> pieces;
-  std::uint32_t side_count = 0;  ///< sides are 0 .. side_count - 1; the makers say what each of them is
+  std::uint32_t side_count = 0;  ///< sides are 0 .. side_count - 1; each maker documents them
   double volume = 0;             ///< [m³]
   Point3 centroid;               ///< [m]; of a solid that is not convex it may lie outside
   Vector3 minimum, maximum;      ///< corners of the axis-parallel box around it [m]
   bool operator==(const Domain&) const = default;
 
   Domain() = default;
-  /// Not explicit: wherever a domain is wanted, a convex one will do.
+  /// Not explicit: a convex domain can be used wherever a domain is needed.
   Domain(ConvexDomain convex);  // NOLINT(google-explicit-constructor)
 
   bool is_convex() const { return pieces.size() == 1; }
@@ -39,14 +39,14 @@ struct Domain {
   double size() const { return distance(minimum, maximum); }
   /// Is the point in one of the pieces, or outside by no more than `tolerance` [m]?
   bool contains(const Point3& point, double tolerance = 0) const;
-  /// The piece that holds the point, or the one whose planes it violates least; not for an empty domain.
+  /// The piece that contains the point, or the one whose planes it violates least; not for an empty domain.
   const ConvexDomain& nearest_piece(const Point3& point) const;
   const ConvexDomain& largest_piece() const;
-  /// The position itself where it is inside; else the nearest place on the way to the middle of the nearest piece.
+  /// The position itself where it is inside; else the first place inside on the line to the middle of the nearest piece.
   Point3 place_inside(const Point3& position) const;
 };
 
-/// Pieces put together: volume, centroid, box and side count follow from them. Fails where there is no piece.
+/// Joins pieces to a domain with volume, centroid, box and side count. Fails where there is no piece.
 Result<Domain> join_pieces(std::vector<Domain::Piece> pieces);
 
 }  // namespace bl::geometry

@@ -20,16 +20,16 @@ Result<Domain> extrude_plan(std::span<const Point3> plan, std::span<const std::v
 /// on the order of vertices and triangles.
 Result<Domain> from_closed_mesh(const Mesh& mesh);
 
-/// What the half-spaces normal·x <= offset (normals of any length) leave of a domain. Plane k is side
-/// `domain.side_count + k`, whether it cuts or not. Pieces that no plane cuts keep their bits.
+/// The intersection of a domain with half-spaces normal·x <= offset (normals of any length). Plane k is side `domain.side_count +
+/// k`, whether it cuts or not. Pieces that no plane cuts keep their bits.
 Result<Domain> cut_domain(const Domain& domain, std::span<const Plane> planes);
 
-/// The union of domains that may overlap; the earlier one keeps its pieces, the later one yields. The sides of domain k come
-/// after all sides of those before it.
+/// The union of domains that may overlap; earlier domains keep their pieces, and later ones are cut. The sides of domain k come
+/// after all sides of the domains before it.
 Result<Domain> unite(std::span<const Domain> domains);
 
-/// A domain without some solids, which may overlap each other and reach out of it. The sides of solid k come after those of
-/// the domain and of the solids before it. Pieces that no solid reaches keep their bits.
+/// A domain minus solids, which may overlap each other and reach outside it. The sides of solid k come after those of the domain
+/// and of the solids before it. Pieces that no solid touches keep their bits.
 Result<Domain> exclude(const Domain& domain, std::span<const Domain> solids);
 
 /// The area that the domain covers in plan, seen from above [m²].

@@ -1,4 +1,4 @@
-// What a fit is asked for: sites, and demands on their volumes or floor areas.
+// The input of a fit: sites, and demands on their volumes or floor areas.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bl::geometry {
 
-/// What one site, or several sites together (a stand, a building with wings), are to have.
+/// The demand of one site, or of several sites together (such as a building with wings).
 struct VolumeDemand {
   enum class Kind : std::uint8_t { volume, floor_area };
   std::vector<std::uint32_t> sites;  ///< whose volumes are added up; a site belongs to one demand at most
@@ -19,7 +19,7 @@ struct VolumeDemand {
 
 /// A site that belongs to no demand keeps its weight.
 struct FitProblem {
-  std::vector<PowerSite> sites;  ///< weights to start from; not positive: the solver starts this one by itself
+  std::vector<PowerSite> sites;  ///< initial weights; where not positive, the solver finds one
   std::vector<VolumeDemand> demands;
 };
 

@@ -1,4 +1,4 @@
-// Heights on a regular grid in few characters: three for each height, so that any of them is found without reading the others.
+// Heights on a regular grid as text: three characters for each height, so that any height is found without reading the others.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct HeightGrid {
 
 /// A row of heights as text; what is not finite becomes kNothing, what lies beyond the range its nearest end.
 std::string height_row(std::span<const double> heights, double lowest, double step);
-/// The index of the first character of a row that is none of ours, or its length.
+/// The index of the first invalid character of a row, or its length.
 std::size_t first_wrong_character(std::string_view row);
 
 }  // namespace bl::geometry

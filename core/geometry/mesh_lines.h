@@ -1,4 +1,4 @@
-// Lines that a drawing takes from a triangle mesh: outlines, creases, sections.
+// Lines of a triangle mesh for drawings: outlines, creases, sections.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ struct MeshEdge {
 /// Ascending (a, b) with a < b.
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh);
 
-/// The same with one vertex for each place: bodies that have been put side by side hang together then.
+/// The same with one vertex for each place, so that adjacent bodies are connected.
 Mesh joined(const Mesh& mesh);
-/// The bodies of which a mesh is made, each with its vertices alone.
+/// The separate bodies of a mesh, each with its own vertices.
 std::vector<Mesh> bodies_of(const Mesh& mesh);
 
 /// Which triangles count.

@@ -23,12 +23,12 @@ inline double turn(const Point3& a, const Point3& b, const Point3& c) {
 double signed_area(std::span<const Point3> ring);
 /// Length of the closed line [m].
 double perimeter(std::span<const Point3> ring);
-/// Is the point inside by the even-odd rule? Points on the line may answer either way.
+/// Is the point inside by the even-odd rule? For points on the line the result is arbitrary.
 bool ring_contains(std::span<const Point3> ring, const Point3& point);
 /// The point of the ring that lies nearest to `point`.
 Point3 nearest_on_ring(std::span<const Point3> ring, const Point3& point);
 
-/// Two edges that meet where they must not; edge k runs from point k to the next point of its ring.
+/// Two edges that cross or touch; edge k runs from point k to the next point of its ring.
 struct Crossing {
   std::size_t first_edge = 0, second_edge = 0;
   Point3 where;

@@ -14,7 +14,7 @@ enum class Sampling {
   mean,              ///< the plain mean
 };
 
-/// Takes points one by one and keeps no list of them; the answer depends on their order only in the last bits.
+/// Takes points one by one and keeps no list of them; their order affects only the last bits of the result.
 class PointSampler {
  public:
   /// Only points within `radius` [m] in plan count.

@@ -1,4 +1,4 @@
-// Triangles of a flat polygon with holes over its own corners, and upright prisms made of them: closed meshes for the eye.
+// Triangulates a flat polygon with holes over its own corners, and makes upright prisms: closed meshes for display.
 #pragma once
 
 #include <array>

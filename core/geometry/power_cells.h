@@ -19,7 +19,7 @@ namespace bl::geometry {
 /// A site of the power diagram: power distance |x - position|² - weight, shrink-wrap radius sqrt(weight).
 struct PowerSite {
   Point3 position;    ///< [m]
-  double weight = 0;  ///< [m²]; not positive: no ball, hence an empty shape, but the site still bounds the others
+  double weight = 0;  ///< [m²]; not positive: no ball, hence an empty shape, but the site still bounds the other cells
   bool operator==(const PowerSite&) const = default;
 };
 
@@ -30,12 +30,12 @@ inline constexpr double kCoincidenceShare = 1e-6;
 /// Storeys a domain may have from bottom to top, a guard against storey heights in the wrong unit.
 inline constexpr double kMostStoreys = 10000;
 
-/// What became of a site. The first that holds, in this order: coincident, outside, hidden, starved, alive.
+/// The state of a site. The first that applies, in this order: coincident, outside, hidden, starved, alive.
 enum class SiteState : std::uint8_t {
   alive,       ///< inside the domain, with a volume
-  hidden,      ///< has no power cell inside the domain: swallowed by heavier neighbours, or its cell lies beyond the boundary
+  hidden,      ///< has no power cell inside the domain: heavier neighbours cover it, or its cell lies outside the boundary
   outside,     ///< position outside the domain; its cell may reach in, and is measured all the same
-  coincident,  ///< same position as another site that lives (the heavier, or the lower index on equal weight)
+  coincident,  ///< same position as another alive site (the heavier, or the lower index on equal weight)
   starved,     ///< has a power cell but no volume: weight not positive, or its ball does not reach its own cell
 };
 
@@ -51,7 +51,7 @@ struct FacetArea {
   bool operator==(const FacetArea&) const = default;
 };
 
-/// Everything that is known of one site's shape: power cell ∩ domain ∩ ball, a convex body.
+/// All measures of one site's shape: power cell ∩ domain ∩ ball, a convex body.
 struct CellMeasure {
   SiteState state = SiteState::alive;
   std::string reason;  ///< a sentence for people; empty where the site is alive
@@ -70,7 +70,7 @@ struct CellMeasure {
   /// The power cell inside the domain, not shrunk, relative to the site: one polyhedron per piece of the domain that it reaches
   /// into. Null where not asked for.
   std::shared_ptr<const std::vector<Polyhedron>> outlines;
-  MeshPointer mesh;  ///< tessellated and shrink-wrapped; null where not asked for or where the shape is empty
+  MeshPointer mesh;  ///< tessellated and shrink-wrapped; null where not requested or where the shape is empty
 };
 
 struct CellOptions {
@@ -89,9 +89,9 @@ struct CellOptions {
 Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<const PowerSite> sites,
                                              const CellOptions& options = {});
 
-/// The same with memory kept between calls: for a solver that evaluates the same sites many times.
-/// Results depend on the arguments alone, never on earlier calls: where few sites have changed, the cells that cannot have
-/// changed with them are kept, bit for bit what they would be if made anew.
+/// The same with memory kept between calls, for a solver that evaluates the same sites many times. Results depend on the
+/// arguments alone, never on earlier calls. Where few sites have changed, cells that cannot have changed are kept; they equal new
+/// ones bit for bit.
 class PowerDiagram {
  public:
   PowerDiagram();
@@ -105,7 +105,7 @@ class PowerDiagram {
   Result<std::span<const CellMeasure>> update(std::span<const PowerSite> sites, const CellOptions& options = {});
   /// The measures of the last update.
   std::span<const CellMeasure> cells() const;
-  /// The sites whose cells the last update has made anew: the others cannot have changed.
+  /// The sites whose cells the last update has computed anew; the other cells cannot have changed.
   std::span<const std::uint32_t> made() const;
 
  private:
@@ -113,7 +113,7 @@ class PowerDiagram {
   std::unique_ptr<Workshop> workshop_;
 };
 
-/// What the records add up to, so that nothing is missing silently.
+/// The sums of the records, as a check that nothing is missing.
 struct CellTotals {
   std::size_t alive = 0, hidden = 0, outside = 0, coincident = 0, starved = 0;
   double volume = 0;       ///< [m³]

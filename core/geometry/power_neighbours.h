@@ -1,4 +1,4 @@
-// Who borders whom in the unbounded power diagram, decided exactly.
+// The neighbours of each site in the unbounded power diagram, decided exactly.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct PowerNeighbours {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   std::vector<std::uint32_t> first;  ///< neighbours of site i are list[first[i] .. first[i + 1])
   std::vector<std::uint32_t> list;
-  std::vector<std::uint8_t> has_cell;    ///< has the site a cell in the unbounded diagram of the participants?
+  std::vector<std::uint8_t> has_cell;    ///< does the site have a cell in the unbounded diagram of the participants?
   std::vector<std::uint32_t> swallower;  ///< of a participant without a cell: the site of least power at its position
 
   std::span<const std::uint32_t> of(std::size_t site) const {
@@ -23,7 +23,7 @@ struct PowerNeighbours {
   }
 };
 
-/// `participants`: indices into `sites`, at different positions. Any number of them and any degenerate arrangement will do.
+/// `participants`: indices into `sites`, at different positions. Any number and any degenerate arrangement is accepted.
 Result<void> find_power_neighbours(std::span<const PowerSite> sites, std::span<const std::uint32_t> participants,
                                    PowerNeighbours& out);
 

@@ -1,4 +1,4 @@
-// The boundary of a site as people give it: a plan with holes, steps of their own height, and solids that stay.
+// The boundary of a site: a plan with holes, steps with heights of their own, and solids that are excluded.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// A convex body that is cut in two again and again: the working shape behind the makers of domains.
+// A convex body that is cut in two repeatedly: the working shape of the makers of domains.
 #pragma once
 
 #include <cstdint>
@@ -49,9 +49,9 @@ Point3 middle_of(const SolidPart& part);  ///< the mean of the vertices: inside
 bool boxes_overlap(std::span<const Point3> a, std::span<const Point3> b, double tolerance);
 
 Vector3 area_vector(const Polygon& polygon);
-/// What a half-space normal·x <= offset leaves of a polygon.
+/// The part of a polygon inside the half-space normal·x <= offset.
 Polygon clipped(const Polygon& polygon, const Plane& plane);
-/// What lies inside the part of a polygon; `depth` [m] deeper than its faces.
+/// The part of a polygon that lies inside the body, `depth` [m] deeper than its faces.
 Polygon clipped(const Polygon& polygon, const SolidPart& part, double depth);
 /// The common area of two convex polygons in one plane, seen along `normal`.
 double common_area(const Polygon& a, const Polygon& b, const Vector3& normal);

@@ -1,4 +1,4 @@
-// Who carries whom: contacts first, then on from all who stand until nobody else is found to stand.
+// Finds which volumes carry others: contacts first, then repeatedly from all standing volumes until no further one is found.
 #include "core/geometry/standing.h"
 
 #include <algorithm>

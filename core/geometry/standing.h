@@ -1,4 +1,4 @@
-// What rounded volumes stand on: the ground of their boundary, each other, or nothing.
+// What volumes stand on: the ground of their boundary, each other, or nothing.
 #pragma once
 
 #include <cstdint>
@@ -22,21 +22,20 @@ struct Stance {
 
   std::int32_t stands_on = kNothing;  ///< the site below it that carries it, kGround or kNothing
   double hang = 0;  ///< height of its lowest point above the ground [m] where it stands on nothing that it may stand on; else 0
-  double drop = 0;  ///< how far its ball would have to sink to touch what it may stand on [m]; negative: so far it has sunk in
+  double drop = 0;  ///< how far its ball must sink to touch what it may stand on [m]; negative: sunk in by that much
 };
 
-/// A volume counts as below another one where the way between them is at least this steep: the sine of 30°.
+/// A volume counts as below another one where the line between them has at least this slope: the sine of 30°.
 inline constexpr double kLeastSteepness = 0.5;
-/// A lowest point as near to the ground as this [m] is on it.
+/// A lowest point within this distance of the ground [m] is on it.
 inline constexpr double kGroundReach = 0.05;
 
 /// Height [m] of the ground under a point: the underside of that part of the domain, straight above or below the point, that
 /// holds it or is nearest to it; the domain's lowest level where there is none.
 double ground_under(const Domain& domain, const Point3& point);
 
-/// A stance for each site; `rules` and `cells` in the order of `sites`. A volume stands on the ground where it touches an
-/// underside of the domain, and on another one that stands where both share a facet. Sites without volume stand, as far as
-/// anybody can see.
+/// A stance for each site; `rules` and `cells` are in the order of `sites`. A volume stands on the ground where it touches an
+/// underside of the domain, and on another standing volume where both share a facet. Sites without volume count as standing.
 std::vector<Stance> stances_of(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
                                std::span<const Standing> rules);
 

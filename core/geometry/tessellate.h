@@ -1,4 +1,4 @@
-// A cell as a triangle mesh for the eye and for export: faces split to a depth, then wrapped onto the ball.
+// A cell as a triangle mesh for display and export: faces split to a depth, then wrapped onto the ball.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace bl::geometry {
 
-/// Depth beyond which a mesh would have more triangles than any screen has pixels.
+/// The largest depth; a deeper mesh would have more triangles than a screen has pixels.
 inline constexpr int kDeepestTessellation = 4;
 /// By depth: the mesh of a cell encloses less than its volume, but by no more than this share of it.
 inline constexpr double kMostMeshLoss[kDeepestTessellation + 1] = {0.6, 0.2, 0.06, 0.02, 0.005};
@@ -19,7 +19,7 @@ inline constexpr double kMostMeshLoss[kDeepestTessellation + 1] = {0.6, 0.2, 0.0
 /// One polygonal face of a polyhedron: indices of corners, counter-clockwise seen from outside.
 using FaceLoop = std::span<const std::uint32_t>;
 
-/// What vertices beyond the ball move towards. A vertex on an edge whose two corners lie on one seam moves towards that seam's
+/// The targets of vertices outside the ball. A vertex on an edge whose two corners lie on one seam moves towards that seam's
 /// point, every other one towards the centre.
 struct WrapTargets {
   Point3 centre;

@@ -1,10 +1,10 @@
-// How near two rounded volumes come to each other when they share a facet of a wanted size and nothing else cuts them.
+// The distance of two rounded volumes that share a facet of a given size, where nothing else cuts them.
 #pragma once
 
 namespace bl::geometry {
 
-/// Radius [m] of the ball of this volume [m³]; 0 for a volume that is not positive. Made of basic operations only, so that it is
-/// the same on every machine.
+/// Radius [m] of the ball of this volume [m³]; 0 for a volume that is not positive. Uses basic operations only, so that it is the
+/// same on every machine.
 double ball_radius(double volume);
 
 /// Distance [m] of the centres of two balls that are flattened against each other until they share a facet of `area` [m²], each

@@ -1,4 +1,4 @@
-// Weights that meet demands on volume or floor area, of single sites and of groups: the one-call door of the fit.
+// Finds weights that meet demands on volume or floor area, of single sites and of groups, in one call.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,12 @@ struct VolumeFitOptions {
   int most_steps = 200;     ///< evaluations of the diagram
   double gain = 0;          ///< [1/m], as in FitOptions
   ThreadPool* pool = nullptr;
-  /// Called after each evaluation with the steps made and the largest error; false stops the fit with what it has.
+  /// Called after each evaluation with the steps made and the largest error; if it returns false, the fit stops with its present
+  /// result.
   std::function<bool(int steps, double error)> progress;
 };
 
-/// A demand that is not met, and what it has instead.
+/// A demand that is not met, and its actual value.
 struct VolumeLoss {
   std::uint32_t demand = 0;    ///< index into FitProblem::demands
   double wanted = 0, had = 0;  ///< in the demand's own unit
@@ -47,8 +48,8 @@ struct VolumeFit {
   std::vector<VolumeLoss> losses;
 };
 
-/// Deterministic: the same arguments give the same bits with any number of threads. Fails on input that makes no sense
-/// (non-finite numbers, an index that is not there, a site in two demands); demands that cannot be met are a status.
+/// Deterministic: the same arguments give the same bits with any number of threads. Fails on invalid input (non-finite numbers,
+/// an unknown index, a site in two demands). Demands that cannot be met are reported as a status.
 Result<VolumeFit> fit_volumes(const Domain& domain, const FitProblem& problem, const VolumeFitOptions& options = {});
 
 }  // namespace bl::geometry

@@ -1,4 +1,4 @@
-// The warm door of the fit: sites that are dragged, added, removed and re-demanded while every volume keeps its demand.
+// The incremental fit: sites are moved, added and removed, and demands change, while every volume keeps its demand.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@ struct SolveOptions {
   ThreadPool* pool = nullptr;
 };
 
-/// What a solve did.
+/// The work of a solve.
 struct SolveReport {
   FitStatus status = FitStatus::met;
   double error = 0;  ///< largest relative error; of cells that were not made anew, with their volumes as predicted
   int rounds = 0;    ///< linear systems solved
   std::size_t cells_made = 0;
-  bool was_local = true;  ///< false: everything was fitted anew
+  bool was_local = true;  ///< false: all sites were fitted anew
   std::vector<std::string> reasons;
 };
 
-/// Holds sites with one demand on each. Between solves sites change; a solve then does what the changes ask for, no more:
-/// cells next to a change are made anew; all weights follow the known response of all volumes; and a cell is measured again only
-/// where its bisectors have swept so much of it that the response could be wrong by a share of the tolerance.
-/// Deterministic: the same calls give the same bits, with any number of threads.
+/// Holds sites with one demand each. Sites change between solves, and a solve does only the work that the changes need. Cells
+/// next to a change are computed anew. All weights follow the known response of all volumes. A cell is measured again only where
+/// its bisectors have moved so far that the response could be wrong by a share of the tolerance. Deterministic: the same calls
+/// give the same bits, with any number of threads.
 class VolumeSolver {
  public:
   VolumeSolver();
@@ -43,7 +43,7 @@ class VolumeSolver {
   Result<void> start(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands);
   Result<void> move(std::uint32_t site, const Point3& position);
   Result<void> set_demand(std::uint32_t site, double demand);
-  /// The index of the new site: a place that a removed one has left, or the end.
+  /// The index of the new site: that of a removed site, or the end.
   Result<std::uint32_t> add(const Point3& position, double demand);
   Result<void> remove(std::uint32_t site);
 

@@ -1,4 +1,4 @@
-// What one tick of a SmartVolumes solver does: some steps of the fit, then the cells, under any metric.
+// One tick of a SmartVolumes solver: some steps of the fit, then the cells, under any metric.
 #pragma once
 
 #include <span>
@@ -15,13 +15,13 @@ struct VolumeTick {
   int samples = 64;                      ///< not for the power metric, which is exact
   FitMethod method = FitMethod::newton;  ///< power metric only: the others always take Newton steps
   double gain = 0;                       ///< [1/m], as in FitOptions
-  int steps = 4;                         ///< 0: the cells of the weights as they stand
+  int steps = 4;                         ///< 0: the cells of the present weights
   double tolerance = 0.005;
   int tessellation_depth = 1;
   std::span<const double> storey_heights = {};  ///< [m], per site
   ThreadPool* pool = nullptr;
 
-  /// Cells and lines of the last tick: what no change has touched is not made again. It changes no bit.
+  /// Cells and lines of the last tick, so that unchanged ones are not computed again. It changes no bit.
   struct Cache {
     PowerDiagram fitted, shown;
     SampledDiagram lines;
@@ -35,8 +35,8 @@ struct VolumeTick {
     std::span<const CellMeasure> cells;  ///< in `kept`, valid until its next use
   };
 
-  /// Moves the weights of `sites` towards `wanted` [m³] and measures their cells. Newcomers among settled sites start small, so
-  /// that they push nobody out; where all are new, the fit starts them all alike.
+  /// Moves the weights of `sites` towards `wanted` [m³] and measures their cells. New sites among settled ones start small, so
+  /// that they displace none; where all are new, the fit starts them all alike.
   Result<Outcome> run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted, const FitState& state,
                       Cache& kept) const;
 

@@ -1,4 +1,4 @@
-// A yardstick for benches: the plain regular triangulation that the diagram stands on, without anything of ours.
+// A reference for benches: the plain regular triangulation under the diagram, without any code of this project.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace bl::geometry {
 
-/// Builds the regular triangulation of the sites the shortest way that the library offers, throws it away, and returns how many
-/// sites have a cell. Whoever calls it holds the stop watch.
+/// Builds the regular triangulation of the sites in the fastest way of the library, discards it, and returns how many sites have
+/// a cell. The caller measures the time.
 std::size_t plain_triangulation(std::span<const PowerSite> sites);
 
 }  // namespace bl::geometry

@@ -1,4 +1,4 @@
-// Looks for what has changed, whatever commands it came by, so that no command has to say what it touches.
+// Finds the changes by comparing scenes, so that commands need not report them.
 #include "core/graph/amend.h"
 
 #include <algorithm>

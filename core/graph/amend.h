@@ -7,8 +7,8 @@
 
 namespace bl {
 
-/// What compile() would make of the scene, as long as it differs from that of `plan` only in set values of which no index, end
-/// or unit of a plan is made; nullptr where it does not, and has to be compiled.
+/// The plan that compile() would make, if the scene differs from that of `plan` only in set values that no index, end or unit
+/// depends on; else nullptr, and the scene must be compiled.
 std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene);
 
 }  // namespace bl

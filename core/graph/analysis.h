@@ -1,4 +1,4 @@
-// Long analyses that run beside the loop: begun with the data of one tick, taken in a declared number of ticks later.
+// Long analyses beside the ticks: they start with the data of one tick, and their result counts a declared number of ticks later.
 #pragma once
 
 #include <atomic>
@@ -17,28 +17,28 @@
 
 namespace bl {
 
-/// One value that an analysis gives to a port, its own or that of a member; named, because the scene may change meanwhile.
+/// One value that an analysis gives to a port, its own or that of a member. The port is named, because the scene may change
+/// meanwhile.
 struct AnalysisOutput {
   std::string node, path;  ///< "typification.port"
   Value value;
 };
 
-/// What came of it: outputs, or why there are none.
+/// The result: outputs, or the reason why there are none.
 struct AnalysisResult {
   std::vector<AnalysisOutput> outputs;
   std::optional<Error> error;
 };
 
-/// What the analyses of a node keep for the next one, which runs on any thread: one evaluation at a time has it,
-/// another one meanwhile goes without.
+/// The cache that the analyses of a node hand on. One evaluation at a time uses it; another one meanwhile runs without it.
 struct AnalysisMemo {
   std::mutex mutex;
   Memo memo;
 };
 
-/// What an analysis was given. Its result depends on this alone, less the memo, which only saves work.
+/// The input of an analysis. Its result depends on this alone, except for the memo, which only saves work.
 struct AnalysisInput {
-  std::shared_ptr<const void> plan;  ///< whose types the definition is one of: the scene may have others before it is done
+  std::shared_ptr<const void> plan;  ///< the registry of the definition: the scene may get another one before the end
   const TypificationDefinition* definition = nullptr;
   std::string node;
   std::int64_t tick = 0;
@@ -48,20 +48,20 @@ struct AnalysisInput {
   std::vector<std::vector<std::string>> write_paths;  ///< per set, as its declared writes
   std::shared_ptr<AnalysisMemo> memo;                 ///< may be nullptr
 };
-/// Of the data that the result depends on, meshes included.
+/// The hash of the data that the result depends on, meshes included.
 std::uint64_t hash_of(const AnalysisInput& input);
 
-/// An analysis, waiting, running or done. Whoever needs the result first works it out; everybody gets the same.
+/// An analysis that is waiting, running or done. The first thread that needs the result computes it; all get the same one.
 class Analysis {
  public:
   explicit Analysis(AnalysisInput input) : input_(std::move(input)) {}
-  /// One that was done before the scene was saved.
+  /// An analysis that was done before the scene was saved.
   explicit Analysis(AnalysisResult result) : is_claimed_(true), is_done_(true), result_(std::move(result)) {}
 
-  /// Works it out unless somebody has begun to. Where `is_unwanted` comes true meanwhile, or a wish of this thread to stop, the
-  /// work is dropped, and left to whoever wants the result after all.
+  /// Computes the result unless another thread has begun. If `is_unwanted` or this thread's stop request becomes true meanwhile,
+  /// the computation is dropped; a later caller can start it again.
   void run(const StopWish& is_unwanted = {});
-  /// Waits until it is done, or does it. Nothing where this thread is to stop before it is done.
+  /// Waits for the result, or computes it. Returns nothing where this thread is stopped before.
   const AnalysisResult* result();
 
  private:
@@ -72,14 +72,14 @@ class Analysis {
   AnalysisResult result_;
 };
 
-/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out,
-/// or stopped on the way.
+/// One thread that computes analyses in the order in which they were started. Analyses whose result no state needs any more are
+/// skipped, or stopped while they run.
 class AnalysisRunner {
  public:
   AnalysisRunner() = default;
   AnalysisRunner(const AnalysisRunner&) = delete;
   AnalysisRunner& operator=(const AnalysisRunner&) = delete;
-  /// Stops the one that is running; the others are dropped. Whoever still holds one works it out.
+  /// Stops the running analysis; the others are dropped. A caller that still holds one can compute it.
   ~AnalysisRunner();
   void begin(const std::shared_ptr<Analysis>& analysis);
 

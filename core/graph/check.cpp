@@ -1,4 +1,4 @@
-// Checks of a scene as a whole: what a well-formed file can still get wrong.
+// Checks of a scene as a whole, beyond the form of its file.
 #include <algorithm>
 #include <cmath>
 

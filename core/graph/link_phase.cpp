@@ -1,4 +1,4 @@
-// Phase 3: links turn the frozen state into voices.
+// Phase 3: links read the frozen state and make proposals.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,4 @@
-// Who names a node: the links and the sets of nodes that have its id in them.
+// The namers of a node: the links, and the values of nodes, that contain its id.
 #pragma once
 
 #include <map>
@@ -13,8 +13,8 @@ struct LinkRecord;
 struct NodeRecord;
 struct Scene;
 
-/// Kept while nodes are removed one after another, so that each need not look at all others. What is named here may have ceased
-/// to be named, or to be there at all; what is not named here is named by nobody.
+/// Kept while nodes are removed one after another, so that each removal need not search all others. Entries may be out of date: a
+/// namer may be gone, or name the node no longer. No namer is missing.
 class Namers {
  public:
   explicit Namers(const Scene& scene);

@@ -30,7 +30,7 @@ void accept_values(const TypificationDefinition& definition, TypeState& state, s
   for (std::size_t p = 0; done && p < values.size(); ++p)
     if (definition.ports[p].is_computed && !make_storable(values[p]))
       done = Error{ErrorCode::not_finite, definition.ports[p].id,
-                   "came out as a number that is not finite; the last good values are kept"};
+                   "was computed as a number that is not finite; the last good values are kept"};
   if (!done) {
     state.error = done.error().within(place);
     state.is_evaluated = false;
@@ -75,9 +75,9 @@ void name_stuck_rules(State& state) {
     if (!is_at_work(state, l)) continue;
     LinkState& link = state.links[l];
     link.error = std::move(link.work);
-    link.error->message = "cannot be met: " + link.error->message +
-                          ", and nothing changes any more; loosen the rule, or let go what holds it up: a lock, another link, or "
-                          "a `gain` of 0";
+    link.error->message =
+        "cannot be met: " + link.error->message +
+        ", and nothing changes any more; loosen the rule, or remove what holds it up: a lock, another link, or a `gain` of 0";
     link.remark = LinkRemark::unmet;
     link.work.reset();
   }

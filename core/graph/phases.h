@@ -16,10 +16,10 @@ void evaluate_links(const State& frozen, State& next, ThreadPool& pool);
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
 /// Phase 5: typifications without sets, where an input changed. Parallel over nodes.
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
-/// What typifications without sets make of their settings where no tick has asked them yet, as far as they keep no memory;
-/// whether there were any. For the eye: in a tick, phase 5 does it.
+/// Evaluates typifications without sets and without memory whose settings no tick has evaluated yet; returns whether there were
+/// any. It is for display only: in a tick, phase 5 does it.
 bool evaluate_unasked(State& state, ThreadPool& pool);
-/// What typifications with sets keep from tick to tick, by node and type id; no state.
+/// Caches of typifications with sets, kept from tick to tick by node and type id; no state.
 using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
 /// Phase 6: typifications with sets; all read what phase 5 left, then all replies are written, in ascending node id. Analyses
 /// are begun here, and their results taken in when they are due.
@@ -31,14 +31,14 @@ void commit(State& next);
 
 // What the phases share.
 
-/// How many times the move limit a push has to be to wake a scene that rests.
+/// The multiple of the move limit that a proposal must exceed to start a resting scene again.
 inline constexpr double kWakingPush = 2;
 
-/// Are its own outputs among its inputs, as those of a filter or a clock? Then it has to be asked in every tick, and once only.
+/// Are its own outputs among its inputs, as in a filter or a clock? It must then be evaluated exactly once in every tick.
 bool keeps_memory(const TypificationDefinition& definition);
-/// Where errors of a typification of a node stand: "nodes/tower/smart_volume".
+/// The place of errors of a typification of a node: "nodes/tower/smart_volume".
 std::string place_of(const State& state, std::size_t n, std::size_t t);
-/// Takes over what an evaluation wrote, or keeps the last good values and the error.
+/// Stores the results of an evaluation, or keeps the last good values and the error.
 void accept_values(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
                    const std::string& place);
 

@@ -24,7 +24,7 @@ struct TypePlan {
   const TypificationDefinition* definition = nullptr;
   std::vector<Value> set_values;  ///< all ports in order; defaults where nobody has set a value
   std::vector<bool> is_set, is_locked;
-  bool is_served = true;  ///< has an evaluation, its own or that of a set it belongs to; else results are defaults
+  bool is_served = true;  ///< has an evaluation, its own or that of its set; else results are defaults
 };
 
 struct NodePlan {
@@ -54,7 +54,7 @@ struct SetPlan {
   std::optional<Error> error;
 };
 
-/// A typification that is evaluated beside the loop, with its sets.
+/// A typification that is evaluated beside the tick, with its sets.
 struct AnalysisPlan {
   std::uint32_t node = 0, type = 0;
   std::size_t first_set = 0, set_count = 0;  ///< in Plan::sets
@@ -62,13 +62,13 @@ struct AnalysisPlan {
 };
 
 struct Plan {
-  Scene scene;  ///< as compiled; what the definitions and ids refer to, and whose scripts it keeps alive
+  Scene scene;  ///< the compiled scene; definitions and ids refer to it, and it keeps its scripts alive
   Settings settings;
   std::vector<NodePlan> nodes;         ///< ascending id
   std::vector<LinkPlan> links;         ///< ascending id
   std::vector<SetPlan> sets;           ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;  ///< ascending node id, then typification
-  /// Shared with the plans that are amended from this one: no index of theirs is another.
+  /// Shared with the plans that are amended from this one, whose indices are the same.
   std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 
   /// Index of a node, or nodes.size().
@@ -79,7 +79,7 @@ struct Plan {
   std::string path_text(PortRef ref) const;
 };
 
-/// Links that cannot run are kept with the reason; nothing is left out. `registry`: the types of the program.
+/// Links that cannot run are kept with the reason; none is left out. `registry`: the types of the program.
 std::shared_ptr<const Plan> compile(const Scene& scene, const Registry& registry);
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// What readers work out once of the structure of a plan, kept beside it.
+// A cache of what readers derive from the structure of a plan.
 #pragma once
 
 #include <map>
@@ -7,10 +7,11 @@
 
 namespace bl {
 
-/// It is no part of the plan's content: it follows from the indices of nodes, typifications and ports. Any thread may ask.
+/// It is no part of the plan's content, since it follows from the indices of nodes, typifications and ports. Any thread may use
+/// it.
 class PlanMemo {
  public:
-  /// What was made for `key`, which always stands for one T; `make` is called where there is nothing yet.
+  /// The object for `key`, which always belongs to one T; `make` is called where there is none yet.
   template <class T, class Make>
   std::shared_ptr<const T> of(const void* key, const Make& make) {
     {

@@ -1,4 +1,4 @@
-// Phase 4: voices on one port become its effective value and its tension.
+// Phase 4: the proposals on one port become its effective value and its tension.
 #include <algorithm>
 #include <cmath>
 #include <functional>

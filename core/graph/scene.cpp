@@ -14,49 +14,50 @@ TypeDefinition declare_settings() {
   TypeDefinition type;
   type.id = "settings";
   type.label = "Settings";
-  type.doc = "What holds for the whole scene.";
+  type.doc = "Settings of the whole scene.";
   auto port = [&](auto member, const char* id) { return add_port(type.ports, member, id); };
   port(&Settings::title, "title").doc("The name of the project, shown on reports.");
-  port(&Settings::about, "about").doc("What the scene is for, in a few sentences.");
+  port(&Settings::about, "about").doc("Purpose of the scene, in a few sentences.");
   port(&Settings::tolerance, "tolerance")
       .unit(Unit::ratio)
       .range(1e-9, 1)
       .soft(0.001, 0.1)
-      .doc("Settled means that every demand is met within this share of itself.");
+      .doc("Tolerance: the scene settles only when every demand is met within this share of itself.");
   port(&Settings::move_limit, "move_limit")
       .unit(Unit::metre)
       .min(0)
       .soft(0, 1)
       // What kWakingPush and kHeldShare of the phases say.
       .doc(
-          "Settled means that no link moves a node by more than this in a tick. From then on it stands still until one wants "
-          "more than twice as much.");
+          "Move limit: the scene settles only when no link moves a node by more than this in a tick. A settled scene stands "
+          "still until a link proposes more than twice as much.");
   port(&Settings::change_limit, "change_limit")
       .unit(Unit::ratio)
       .min(0)
       .soft(0.0001, 0.1)
       .doc(
-          "Settled means that no link changes a value by more than this share of it in a tick. From then on changes of up to "
-          "half "
-          "of this share are not made.");
-  port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
+          "Change limit: the scene settles only when no link changes a value by more than this share of it in a tick. In a "
+          "settled scene, changes up to half of this share are not made.");
+  port(&Settings::calm_ticks, "calm_ticks")
+      .range(1, 1000)
+      .soft(1, 50)
+      .doc("Number of calm ticks in a row after which the scene is settled.");
   port(&Settings::coordinate_system, "coordinate_system")
       .doc(
-          "Where the plan came from: a CRS such as EPSG:28992; `local` for metres of its own without a place on Earth; empty "
-          "where "
-          "nobody has said it.");
+          "Coordinate reference system of the plan, such as EPSG:28992; `local` for metres without a place on Earth; empty where "
+          "it is not known.");
   port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
   port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
   port(&Settings::latitude, "latitude")
       .unit(Unit::degree)
       .range(-90, 90)
       .keeps_default()
-      .doc("Latitude of the local origin (WGS84), north positive; where none is set, suns stand where they say.");
+      .doc("Latitude of the local origin (WGS84), north positive; where it is not set, each sun uses its own.");
   port(&Settings::longitude, "longitude")
       .unit(Unit::degree)
       .range(-180, 180)
       .keeps_default()
-      .doc("Longitude of the local origin (WGS84), east positive; where none is set, suns stand where they say.");
+      .doc("Longitude of the local origin (WGS84), east positive; where it is not set, each sun uses its own.");
   port(&Settings::true_north, "true_north")
       .unit(Unit::degree)
       .range(-360, 360)

@@ -1,4 +1,4 @@
-// The scene: what people have said. Nodes with their typifications and set values, links, settings; no running state.
+// The scene, as people have set it: nodes with their typifications and set values, links, and settings, without running state.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ using PortValues = std::map<std::string, Value>;
 struct NodeRecord {
   std::string name;
   std::map<std::string, PortValues> types;    ///< by typification id; every node has `node`
-  std::map<std::string, std::string> ghosts;  ///< unknown typifications: their JSON as it stood in the file
+  std::map<std::string, std::string> ghosts;  ///< unknown typifications: their unchanged JSON from the file
   std::set<std::string> locked;               ///< "typification.port": links cannot change these
   bool operator==(const NodeRecord&) const = default;
 };
@@ -28,15 +28,15 @@ struct NodeRecord {
 struct LinkRecord {
   std::string kind;
   Selection from, to;
-  bool is_enabled = true;  ///< off: not evaluated at all
+  bool is_enabled = true;  ///< off: not evaluated
   bool is_muted = false;   ///< on: evaluated and shown, but its proposals do not count
-  double strength = 1;     ///< [ratio] 0 to 1: how loud its voice is
+  double strength = 1;     ///< [ratio] 0 to 1: how much its proposals count
   PortValues parameters;
-  std::string ghost;  ///< of an unknown kind: the whole link's JSON as it stood in the file
+  std::string ghost;  ///< of an unknown kind: the unchanged JSON of the whole link from the file
   bool operator==(const LinkRecord&) const = default;
 };
 
-/// What holds for the whole scene; declared like a type, so that files, schema and docs know it.
+/// Settings of the whole scene; declared like a type, so that the file format, the schema and the catalogue follow from it.
 struct Settings {
   std::string title, about;
   double tolerance = 0.01;
@@ -55,7 +55,7 @@ struct Scene {
   std::map<std::string, NodeRecord> nodes;
   std::map<std::string, LinkRecord> links;
   Scripts scripts;   ///< link kinds that people wrote for this scene
-  std::string view;  ///< JSON of canvas layout and cameras; never read by the tick
+  std::string view;  ///< JSON of the canvas layout and the cameras; the tick never reads it
   bool operator==(const Scene&) const = default;
 };
 
@@ -63,27 +63,27 @@ struct Scene {
 Settings settings_of(const Scene& scene);
 /// A hash of everything but `view`.
 std::uint64_t hash_of(const Scene& scene);
-/// The nodes that a selection names, in ascending id; unknown ids are left out (check_scene reports them).
+/// The nodes of a selection in ascending id; unknown ids are left out (check_scene reports them).
 std::vector<std::string> resolve(const Scene& scene, const Registry& registry, const Selection& selection);
-/// What `values` say of a port, its default, or the scene's setting where the port stands for one.
+/// The value of a port in `values`, else its default, or the scene's setting where the port stands for one.
 const Value& set_value(const PortValues& settings, const PortValues& values, const PortDefinition& port);
-/// The same of a node of the scene, which must carry the typification.
+/// The same for a node of the scene, which must carry the typification.
 const Value& set_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type,
                        const PortDefinition& port);
-/// Whether people have said something of a port whose set value is `value`: what differs from the default, or is kept although it
-/// does not.
+/// Does the set value `value` of a port count as set by people? It does where it differs from the default, and for ports that
+/// keep the default.
 inline bool is_said(const PortValues& values, const PortDefinition& port, const Value& value) {
   return value != port.default_value || (port.keeps_default && values.contains(port.id));
 }
 /// The unit of a node's port, following `unit_from` to the port that names it.
 Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port);
 
-/// What check_scene found: an error makes a scene unfit to run, a warning leaves a link or node idle.
+/// A problem found by check_scene: with an error a scene cannot run, with a warning a link or node is idle.
 struct Problem {
   bool is_error = true;
   Error error;
 };
-/// Everything that is wrong with a scene beyond its form: dangling ids, ends without the ports, units that do not meet, ghosts.
+/// All problems of a scene beyond its form: ids of nothing, ends without the needed ports, units that differ, ghosts.
 std::vector<Problem> check_scene(const Scene& scene, const Registry& registry);
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// A scene being changed by a command: the only door through which scenes change, which records what is touched.
+// A scene while a command changes it. All changes of scenes go through this class, which records the touched places.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@
 
 namespace bl {
 
-/// Knows the types, records each place at which the scene becomes another one, and collects which ports were placed by hand. What
-/// would change nothing is not recorded. The functions that change check nothing: commands do that before.
+/// Holds the types, records each place at which the scene changes, and collects the ports that were placed by hand. A call that
+/// changes nothing is not recorded. The functions that change the scene do not check anything; commands check before.
 class SceneEdit {
  public:
-  /// `kept`, where given, outlives the edit: who names whom in the scene as it is, or nothing where nobody has asked.
+  /// `kept`, where given, outlives the edit. It holds the namers of the scene, or nothing where they were not needed yet.
   SceneEdit(Scene& scene, const Registry& registry, std::optional<Namers>* kept = nullptr)
       : scene_(&scene), registry_(&registry), kept_(kept) {}
   const Scene& scene() const { return *scene_; }
-  /// The types that this scene knows: those of the program, and the kinds of its scripts.
+  /// The types of this scene: those of the program, and the kinds of its scripts.
   const Registry& registry() const { return scene_->scripts.types(*registry_); }
   /// The types of the program alone.
   const Registry& program() const { return *registry_; }
@@ -34,31 +34,31 @@ class SceneEdit {
   void set_name(const std::string& node, const std::string& name);
   void add_type(const std::string& node, const std::string& type, PortValues values);
   void remove_type(const std::string& node, const std::string& type);
-  /// Takes the value away where it is one that is not kept (`is_kept`).
+  /// Removes the value where it is not kept (`is_kept`).
   void set_value(const std::string& node, const std::string& type, const PortDefinition& port, const Value& value);
   void erase_value(const std::string& node, const std::string& type, const PortDefinition& port);
-  /// Whether that was another state than before.
+  /// Returns whether the state changed.
   bool set_locked(const std::string& node, const std::string& path, bool is_locked);
   void add_link(const std::string& id, LinkRecord link);
   void remove_link(const std::string& id);
-  /// Records what of the link is another; all of it where its kind is, or whether that is known.
+  /// Records the changed parts of the link; the whole link where its kind changes, or becomes known or unknown.
   void change_link(const std::string& id, LinkRecord link);
   void set_setting(const PortDefinition& port, const Value& value);
   void erase_setting(const std::string& port);
   void set_scripts(Scripts scripts);
-  /// `paths` are the places inside the view at which it becomes another one.
+  /// `paths` are the places inside the view that change.
   void set_view(std::string view, const std::vector<std::string>& paths);
 
   /// A port that accumulates (a position) starts again from its set value after this.
   void place(std::string node, std::string path) { placed_.emplace(std::move(node), std::move(path)); }
   const std::set<std::pair<std::string, std::string>>& placed() const { return placed_; }
-  /// In the order of the changes; a place may stand in it more than once.
+  /// In the order of the changes; a place may occur more than once.
   const std::vector<Touch>& touches() const { return touches_; }
   std::vector<Touch> take_touches() { return std::exchange(touches_, {}); }
-  /// Whether more than the view was touched, so that the running scene has to be compiled again.
+  /// Whether more than the view was touched, so that the scene must be compiled again.
   bool is_logic_touched() const { return is_logic_touched_ || !placed_.empty(); }
 
-  /// Who names whom. Looked up in the whole scene by the first who asks, and kept true from then on.
+  /// The namers of the scene. The first call searches the whole scene; afterwards they are kept up to date.
   const Namers& namers();
 
  private:
@@ -70,7 +70,7 @@ class SceneEdit {
   void touch(ScenePart part, const std::string& id, std::string path = {});
   void touch_port(const std::string& node, const std::string& type, const PortDefinition& port, const Value& before,
                   const Value& after);
-  /// Whether the values became others.
+  /// Returns whether the values changed.
   bool put(PortValues& values, const PortDefinition& port, const Value& value);
 
   Scene* scene_;

@@ -1,4 +1,4 @@
-// The link kinds that people wrote for one scene: texts, and what was read from them, laid over the types of the program.
+// The link kinds that people wrote for one scene: their texts and definitions, in addition to the types of the program.
 #pragma once
 
 #include <map>
@@ -9,11 +9,11 @@
 
 namespace bl {
 
-/// Immutable and shared: copies of a scene, and plans that run, keep the definitions alive that they use.
+/// Immutable and shared: copies of a scene and running plans keep the definitions alive that they use.
 class Scripts {
  public:
   Scripts() = default;
-  /// Reads all texts, in ascending name. One that cannot be read is kept, with the reason.
+  /// Reads all texts, in ascending name. A text that cannot be read is kept with the reason.
   static Scripts read(std::map<std::string, std::string> texts, const Registry& program);
 
   /// By name, which is the file's without ".lua".

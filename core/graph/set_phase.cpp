@@ -95,7 +95,7 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
     Value value = output.value;
     if (!make_storable(value)) {
       state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
-                          "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
+                          "`" + output.path + "` of `" + output.node + "` was computed as a number that is not finite"};
       continue;
     }
     replies.push_back({.target = *ref, .value = std::move(value), .node = one.node(), .type = one.type()});

@@ -21,25 +21,26 @@ class Simulation {
   /// `now` gives seconds for PhaseTimes; without it they stay 0. It cannot influence the result.
   Simulation(const Registry& registry, int threads, double (*now)() = nullptr);
 
-  /// What set_scene() would make of the state; nothing is changed.
+  /// The state that set_scene() would give; nothing is changed.
   std::shared_ptr<const State> with_scene(const Scene& scene,
                                           const std::set<std::pair<std::string, std::string>>& placed = {}) const;
-  /// Compiles the scene and keeps what of the running state still fits. `placed`: ports that people have just put somewhere.
+  /// Compiles the scene and keeps the parts of the running state that still fit. `placed`: ports that people have just set to a
+  /// place.
   void set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed = {});
   /// Continues from a saved state of the current scene.
   Result<void> restore_state(const SavedState& saved);
-  /// Goes on from an earlier state of this scene, as far as that still fits the scene.
+  /// Continues from an earlier state of this scene, as far as it still fits the scene.
   void return_to(std::shared_ptr<const State> earlier);
-  /// Takes back what set_scene() has made of `earlier`, its plan among it, where the tick for which it was made has not been.
+  /// Restores `earlier` with its plan, as it was before set_scene(), if no tick has run since.
   void put_back(std::shared_ptr<const State> earlier) { state_ = std::move(earlier); }
-  /// What is to be seen of a state before its next tick: with what nodes make of their own settings where no tick has asked them
-  /// yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands. The state itself
-  /// where there is nothing of that kind. No tick goes on from it.
+  /// A state for display before its next tick. It contains the results that nodes compute from their own settings and that no
+  /// tick has computed yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands.
+  /// Where there are none, it is the state itself. No tick continues from it.
   std::shared_ptr<const State> shown(std::shared_ptr<const State> state);
-  /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
+  /// One tick. False where the work was stopped (core/base/stop); the state is then the one before step().
   bool step();
 
-  /// The last published state; stays valid and unchanged for as long as somebody holds it.
+  /// The last published state; it stays valid and unchanged as long as a pointer to it exists.
   std::shared_ptr<const State> state() const { return state_; }
   const PhaseTimes& times() const { return times_; }
   ThreadPool& pool() { return pool_; }

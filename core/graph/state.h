@@ -1,4 +1,4 @@
-// The running state S(t): what every view reads. Immutable once published.
+// The running state S(t), which every view reads. Immutable once published.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace bl {
 struct TypeState {
   std::vector<Value> values;    ///< effective and computed values, in the order of the declaration
   std::vector<double> tension;  ///< per port, in its unit: how far the proposals disagree with the effective value
-  std::optional<Error> error;   ///< the last evaluation failed; values are the last good ones
+  std::optional<Error> error;   ///< the error of the last evaluation, if it failed; the values are then the last good ones
   bool is_evaluated = false;    ///< the computed values follow from the settings beside them
 };
 
@@ -25,27 +25,27 @@ struct NodeState {
   std::vector<TypeState> types;
 };
 
-/// What one link says about one port in this tick, all of its pairs together.
+/// The proposal of one link for one port in this tick, combined over all of its pairs.
 struct Voice {
   PortRef target;
   Value value;           ///< a change for `sum` ports, a wanted value for the others
-  double magnitude = 0;  ///< for `sum` ports: the mean length of the changes that its pairs want
+  double magnitude = 0;  ///< for `sum` ports: the mean length of the changes that its pairs propose
   double strength = 1;
 };
 
 struct LinkState {
-  std::vector<Voice> voices;   ///< ascending target
-  std::optional<Error> error;  ///< why it did not run: value proposals of the last good tick are kept; or what it says of a rule
-                               ///< or of somebody who goes without, although it ran
+  std::vector<Voice> voices;         ///< ascending target
+  std::optional<Error> error;        ///< why it did not run (last good value proposals are kept), or its remark on a rule
+                                     ///< or on an unmet demand, although it ran
   std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
-  std::optional<Error> work;         ///< a rule that it is still bringing about
+  std::optional<Error> work;         ///< a rule that is not kept yet, but being worked on
 
   bool has_failed() const { return error.has_value() && !remark; }
 };
 
-/// How far an analysis beside the loop has come.
+/// The progress of an analysis beside the loop.
 struct AnalysisState {
-  std::int64_t as_of = -1;            ///< the last tick whose data the outputs fit; -1: no result yet
+  std::int64_t as_of = -1;            ///< the last tick whose data the outputs belong to; -1: no result yet
   std::int64_t taken = -1;            ///< the tick in which the last result was taken in
   std::uint64_t inputs = 0;           ///< hash of the data that the outputs follow from
   std::int64_t begun = -1, due = -1;  ///< ticks of the one that is running
@@ -62,7 +62,7 @@ struct State {
   std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved, and all demands and rules were met
   double largest_move = 0;              ///< [m] of this tick
   double largest_change = 0;            ///< of this tick, of any number that links choose, as a share of itself
-  PortRef restless;                     ///< who has that change
+  PortRef restless;                     ///< the port with that change
   double largest_residual = 0;          ///< over all residual ports
   std::uint64_t hash = 0;
 
@@ -75,32 +75,32 @@ struct State {
 
 /// The largest value of all ports that are residuals.
 double largest_residual_of(const State& state);
-/// What hinders settling: a node that fails, a link that should run and does not, or a rule that cannot be kept. Links of unknown
-/// kinds are kept and hinder nobody; nor does a remark that somebody goes without.
+/// Does anything prevent settling: a node that fails, a link that should run and does not, or a rule that cannot be kept? Links
+/// of unknown kinds and remarks on unmet demands do not prevent it.
 std::optional<Error> first_failure(const State& state);
 bool has_failure(const State& state);
-/// A rule that a link is still bringing about.
+/// Is a link still working on a rule?
 std::optional<Error> first_work(const State& state);
-/// Is this link heard, and still bringing a rule about?
+/// Does this link count, and is it still working on a rule?
 bool is_at_work(const State& state, std::size_t link);
-/// Calm for long enough, so that what is left of moves dies away and links have to want more than what counts as calm to wake it:
-/// a city that has settled comes to a standstill.
+/// Has the state been calm for long enough? Remaining moves are then damped, and only a proposal above the limit of calm starts
+/// the scene again.
 bool is_at_rest(const State& state);
 
-/// Would it stay in force if its link failed in the next tick? A push must not go on for ever.
+/// Would the proposal stay in force if its link failed in the next tick? A repeated change must not continue without its link.
 bool is_lasting(const State& state, const Voice& voice);
 
-/// The hash of everything that the next tick depends on: values, who fails, what links want, the calm count, the tick.
+/// The hash of everything that the next tick depends on: values, failures, proposals, the calm count, the tick.
 std::uint64_t hash_of(const State& state);
 
-/// An analysis as files keep it. One that was running is finished first: its result follows from what it was given.
+/// An analysis as files keep it. A running analysis is finished first; its result depends on its input only.
 struct SavedAnalysis {
   std::int64_t as_of = -1, taken = -1, begun = -1, due = -1;  ///< due is -1 where none was running
   std::uint64_t inputs = 0, running_inputs = 0;
   AnalysisResult result;  ///< of the one that was running
 };
 
-/// What a link wants of a port, named.
+/// The proposal of a link for a port, with names.
 struct SavedVoice {
   std::string node, path;  ///< "typification.port"
   Value value;
@@ -110,20 +110,20 @@ struct SavedVoice {
 struct SavedState {
   std::int64_t tick = 0, calm = 0;
   std::map<std::string, std::map<std::string, Value>> nodes;              ///< by node and port; meshes are not among them
-  std::map<std::string, std::vector<SavedVoice>> voices;                  ///< by link: what would stay in force if it failed
-  std::map<std::pair<std::string, std::string>, Error> errors;            ///< by node and typification: links ask who fails
-  std::map<std::string, Error> link_errors;                               ///< by link, beside those that the plan tells
+  std::map<std::string, std::vector<SavedVoice>> voices;                  ///< by link: proposals that would outlast a failure
+  std::map<std::pair<std::string, std::string>, Error> errors;            ///< by node and typification; links read failures
+  std::map<std::string, Error> link_errors;                               ///< by link, besides those of the plan
   std::map<std::pair<std::string, std::string>, SavedAnalysis> analyses;  ///< by node and typification
-  /// By node and port: those that a solver which fails now has made before. All others follow from the values.
+  /// By node and port: meshes of solvers that fail now. All other meshes follow from the values.
   std::map<std::pair<std::string, std::string>, MeshPointer> meshes;
 };
 SavedState save(const State& state);
 
 /// A state for `plan` at tick 0: settings as set, computed values at their defaults.
 State initial_state(std::shared_ptr<const Plan> plan);
-/// What of `old` still fits, under a new plan; `placed` ports start again from their set values.
+/// The parts of `old` that still fit a new plan; `placed` ports start again from their set values.
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed);
-/// A saved state put over the initial one. Values for nodes or ports that are not there are errors with a place.
+/// The initial state with the values of a saved one. Values for unknown nodes or ports are errors with a place.
 Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan);
 
 }  // namespace bl

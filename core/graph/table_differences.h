@@ -8,18 +8,18 @@
 
 namespace bl {
 
-/// A field, or with no column a row that is in one of the tables only.
+/// A field; or, without a column, a row that only one of the tables has.
 struct TableDifference {
   std::string row;  ///< the text in its key column
   std::string column;
 
-  /// All of the table: its rows have no names, a name stands in more than one row, or rows have changed places.
+  /// The whole table differs: its rows have no names, a name occurs in more than one row, or rows have changed places.
   bool is_whole() const { return row.empty(); }
   /// Inside the table: `housing/floor_area`; slashes and tildes of a name as in RFC 6901.
   std::string path() const;
 };
 
-/// Rows that are gone, then fields and new rows in the order of `after`. Nothing where the two are equal.
+/// Removed rows, then changed fields and new rows in the order of `after`. Empty where the two are equal.
 std::vector<TableDifference> table_differences(const PortDefinition& port, const Table& before, const Table& after);
 
 }  // namespace bl

@@ -10,18 +10,18 @@ namespace bl {
 
 enum class ScenePart : std::uint8_t { setting, node, link, script, view };
 
-/// Who touches a place has written all that lies inside it: to remove a node is to write each of its ports.
+/// A change of a place also changes everything inside it: removing a node writes each of its ports.
 struct Touch {
   ScenePart part = ScenePart::setting;
   std::string id;    ///< of the setting, node, link or script; empty for the view
-  std::string path;  ///< inside it; empty for all of it, else such as `name`, `types/plot/floors`, `locked/node.position`
+  std::string path;  ///< path inside it; empty for the whole, else such as `name`, `types/plot/floors`, `locked/node.position`
 
   auto operator<=>(const Touch&) const = default;
 };
 
-/// Does `inner` lie inside `outer`, and is another place?
+/// Does `inner` lie inside `outer`, and differ from it?
 bool lies_inside(const Touch& inner, const Touch& outer);
-/// Makes `place` the next larger place that it lies in; false where there is none.
+/// Replaces `place` by the next larger place around it; false where there is none.
 bool widen(Touch& place);
 /// A name as one step of a path: slashes and tildes as in RFC 6901.
 std::string step_of(std::string_view name);

@@ -10,9 +10,9 @@ namespace bl::host {
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Seconds since some moment; never goes back.
+  /// Seconds since a fixed moment; never goes back.
   virtual double now() const = 0;
-  /// Waits until it is so late, or something wakes the waiting; it may also wake without a reason.
+  /// Waits until this time, or until it is woken; it may also wake early without a reason.
   virtual void wait(std::condition_variable& wake, std::unique_lock<std::mutex>& lock, double until) = 0;
   virtual void sleep(double seconds) = 0;
 };
@@ -20,11 +20,12 @@ class Clock {
 /// The real time that passes.
 Clock& real_clock();
 
-/// Keeps a loop of ticks at its rate. A late tick is not made up for, so that ticks never queue behind themselves.
+/// Keeps a loop of ticks at its rate. A late tick is not made up for, so that ticks never pile up.
 class Pace {
  public:
   explicit Pace(Clock& clock) : clock_(&clock), due_(clock.now()) {}
-  /// Waits until so many seconds after the last call, or until the wait is over for another reason, which is asked now and then.
+  /// Waits until this number of seconds after the last call, or until the given condition, which is checked now and then, ends
+  /// the wait.
   void wait(double seconds, const std::function<bool()>& is_over);
 
  private:

@@ -1,4 +1,4 @@
-// Devices sign with their address, and are marked as devices: nobody's undo takes a reading back.
+// Devices sign with their address and are marked as devices, so that no undo reverses a reading.
 #include "core/host/device_door.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Between the devices of a scene and its session: readings go into the log as the devices' own entries, values go out.
+// Connects the devices of a scene with its session: readings become log entries of the devices, and values are sent out.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace bl::host {
 
-/// The shortest tick that a sensor of the scene stands for [s]; a twentieth of a second where there is none.
+/// The shortest tick length of the scene's sensors [s]; a twentieth of a second where there is none.
 double tick_length(const Scene& scene, const Registry& registry);
 /// Does a sensor of the scene play a recorded table?
 bool has_recordings(const Scene& scene, const Registry& registry);
@@ -19,11 +19,11 @@ class DeviceDoor {
  public:
   explicit DeviceDoor(live::LiveOptions options) : connections_(std::move(options)) {}
 
-  /// Starts, changes and ends connections where entries have come since the last call. Whether that was so.
+  /// Starts, changes and ends connections if there are new entries since the last call. Returns whether there were any.
   bool follow(const Scene& scene, std::int64_t last_seq);
-  /// Hands over what has come for the tick after `tick`, and returns what was refused of it, each under its device.
+  /// Submits the readings for the tick after `tick`, and returns the refused ones, each under its device.
   std::vector<Error> bring(std::int64_t tick, const std::function<Result<void>(Submission)>& submit);
-  /// Sends what has changed since the last time.
+  /// Sends the values that have changed since the last call.
   void send(const State& state) { connections_.send(state); }
 
   std::vector<live::ConnectionStatus> status() const { return connections_.status(); }

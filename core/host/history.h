@@ -1,4 +1,4 @@
-// The history of a session: each step that its holder has made, with its name, and whether it is undone.
+// The history of a session: each step of its holder, with its name, and whether it is undone.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace bl::host {
 struct HistoryStep {
   std::int64_t gesture = 0, tick = 0;
   std::string label;        ///< what was done, such as "Set port · Library"
-  bool is_undone = false;   ///< taken back, and not brought back since
+  bool is_undone = false;   ///< undone, and not redone since
   std::size_t entries = 0;  ///< commands in it
 };
 
-/// Follows the log entry by entry. What devices and others say is no step of the holder's, and neither is a rewind.
+/// Follows the log entry by entry. Entries of devices and others are no steps of the holder, and neither is a rewind.
 class History {
  public:
   History(const Registry& registry, Author author) : registry_(&registry), author_(std::move(author)) {}
 
-  /// `scene`: as it is with the entry, for names.
+  /// `scene`: the scene after the entry, for names.
   void take(const LogEntry& entry, const Scene& scene);
   /// Oldest first.
   const std::vector<HistoryStep>& steps() const { return steps_; }
-  /// The gesture of the step that was made last, which can still be added to; 0 where there is none, or where something was
-  /// undone or redone since.
+  /// The gesture of the last step, which can still be extended; 0 where there is none, or where something was undone or redone
+  /// since.
   std::int64_t last_step() const { return last_step_; }
 
  private:

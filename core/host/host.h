@@ -1,4 +1,4 @@
-// A running scene with what keeps it safe and tells of it: its journal on the disk, and the history of what its holder did.
+// A running scene with its journal on the disk and the history of its holder's steps.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace bl::host {
 
 class Host {
  public:
-  /// The scene has to be usable. Each entry goes to the journal from begin_journal() on.
+  /// The scene must be usable. Each entry goes to the journal from begin_journal() on.
   static Result<std::unique_ptr<Host>> start(const Registry& registry, const Scene& scene, const SavedState* state,
                                              LiveSessionOptions options);
 
@@ -21,19 +21,18 @@ class Host {
   const LiveSession& session() const { return *session_; }
   const History& history() const { return history_; }
 
-  /// Commands of the holder as one step; several become one batch. `label`: what the step is called, where its commands alone do
-  /// not say what was meant.
+  /// Submits commands of the holder as one step; several become one batch. `label`: the name of the step, where its commands
+  /// alone do not say what was meant.
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "");
-  /// The same as one frame of a gesture (`LiveSession::show`).
+  /// The same, as one frame of a gesture (`LiveSession::show`).
   Result<void> show(const std::vector<Command>& commands, std::int64_t gesture);
 
-  /// From here on a crash leaves what the scene that is running is made of: this text, and the entries from now on. Where no
-  /// journal can be begun, all else works, and journal_problem() says why. `scene_path` is where the scene was read from, or
-  /// written to; it may be empty.
+  /// From now on a crash loses nothing: the journal holds this text and all later entries. Where no journal can be started,
+  /// everything else works, and journal_problem() says why. `scene_path` is the path of the scene's file; it may be empty.
   void begin_journal(const std::string& scene_path, const std::string& scene_text);
-  /// Why a crash would lose what has not been saved; empty where it would not.
+  /// Why a crash would lose unsaved changes; empty where it would not.
   std::string journal_problem() const { return journal_.problem(); }
-  /// Applies the entries of a journal; what does not fit is left out and told. Its ticks and rewinds are not repeated.
+  /// Applies the entries of a journal; entries that do not fit are left out and reported. Its ticks and rewinds are not repeated.
   std::vector<Error> recover(const std::vector<LogEntry>& entries);
 
   /// The log since the session began, for `replay`.

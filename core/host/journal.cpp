@@ -1,4 +1,4 @@
-// Journals are named by the process that writes them; one whose process is gone is what a crash has left.
+// Journals are named after the process that writes them; a journal whose process has ended was left by a crash.
 #include "core/host/journal.h"
 
 #include <algorithm>
@@ -157,7 +157,8 @@ std::vector<Journal::UnsavedJournal> Journal::find(const Registry& registry, std
     if (!log) {
       const std::string aside = put_aside(path);
       if (unreadable != nullptr)
-        unreadable->push_back("What a window has left cannot be read (" + log.error().text() + "). It is kept as " + aside + ".");
+        unreadable->push_back("A journal of a crashed window cannot be read (" + log.error().text() + "). It is kept as " +
+                              aside + ".");
       continue;
     }
     const auto scene_path = read_file(path + kPathEnding);

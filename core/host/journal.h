@@ -1,4 +1,4 @@
-// The log of an open scene on the disk, line by line, so that a crash loses nothing.
+// The log of an open scene, written to the disk line by line, so that a crash loses nothing.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +20,22 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   /// Starts a new log in the person's own folder, in place of the one before; `scene_path` may be empty. Where it cannot be
-  /// started, the one before goes on, because it still leads to the same scene.
-  /// `base`: the number of the last entry that the scene holds already.
+  /// started, the one before continues, because it still leads to the same scene. `base`: the number of the last entry that the
+  /// scene contains already.
   Result<void> begin(const std::string& scene_path, const std::string& scene_text, std::int64_t base);
   void add(const LogEntry& entry, const Registry& registry);
-  /// The scene is safe elsewhere, or given up on purpose: nothing is left to recover.
+  /// Removes the journal: the scene is saved elsewhere, or discarded on purpose.
   void end();
   /// Why a crash would lose something now; empty where it would not.
   std::string problem() const;
 
-  /// What a window that did not end well has left.
+  /// The journal of a window that crashed.
   struct UnsavedJournal {
     std::string path, scene_path;
     LogFile log;
   };
-  /// Journals whose window is gone and that hold changes; empty ones of dead windows are cleared away. Those that cannot be read
-  /// are kept under another name; `unreadable` then says of each why, and where it is.
+  /// Journals with changes whose window has ended. Empty ones are removed. Those that cannot be read are kept under another name;
+  /// `unreadable` then gives the reason and the path of each.
   static std::vector<UnsavedJournal> find(const Registry& registry, std::vector<std::string>* unreadable = nullptr);
   static void discard(const UnsavedJournal& remains);
 

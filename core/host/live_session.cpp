@@ -1,4 +1,4 @@
-// The ticking thread: takes the newest scene before each tick, keeps past states for rewinding, and publishes what it made.
+// The ticking thread: takes the newest scene before each tick, keeps past states for rewinding, and publishes the new state.
 #include "core/host/live_session.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Reads commands as people mean them: names for ids, what a change of the view does, and one word for many alike.
+// Names steps for people: names for ids, the effect of a change of the view, and one label for many equal commands.
 #include "core/host/step_labels.h"
 
 #include <algorithm>

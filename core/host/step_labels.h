@@ -1,4 +1,4 @@
-// What people call the steps of the history: derived from the commands, which say it in ids and JSON.
+// Names of the steps of the history, derived from the ids and JSON of their commands.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace bl::host {
 
-/// "Set value · Library, position", "Add Hotel", "Move 3 boxes". `scene`: as it is now, for names.
+/// "Set value · Library, position", "Add Hotel", "Move 3 boxes". `scene`: the present scene, for names.
 std::string label_of_step(const Registry& registry, const Command& command, const Scene& scene);
 
 }  // namespace bl::host

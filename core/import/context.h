@@ -18,7 +18,7 @@
 
 namespace bl::importing {
 
-/// Where the height of a building comes from; the last two are assumed.
+/// The source of a building's height; the last two are assumed.
 enum class HeightSource {
   geometry,   ///< measured on the solid of the source
   tag,        ///< an attribute with a height
@@ -28,7 +28,7 @@ enum class HeightSource {
 };
 std::string_view name_of(HeightSource source);
 
-/// Of an element that no row of the report speaks of.
+/// For an element without a row in the report.
 inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 
 /// All lengths in local metres.
@@ -40,7 +40,7 @@ struct ContextBuilding {
   double height = 0;                  ///< from the underside to the top [m]
   HeightSource height_source = HeightSource::assumed;
   double storey_height = 0;   ///< [m] of this building; 0: not known
-  bool is_part = false;       ///< a part of a building that is drawn by its parts
+  bool is_part = false;       ///< a part of a building that is represented by its parts
   std::string whole;          ///< id of the building that it is a part of; empty: none
   MeshPointer solid;          ///< closed and outward, where the source has one
   bool is_above_sea = false;  ///< `base` counts from the sea, not from the ground
@@ -95,7 +95,7 @@ struct Context {
   std::vector<std::string> notes;
 };
 
-/// What all importers of surroundings are told alike.
+/// The common options of all importers of surroundings.
 struct ContextOptions {
   std::string crs;                              ///< in place of what the file says
   std::optional<GeoReference> target;           ///< the frame of a scene that has one already
@@ -103,16 +103,16 @@ struct ContextOptions {
   double radius = 0;                            ///< [m] about the origin; what begins farther away is skipped; 0: no limit
   double storey_height = 3.2;                   ///< [m] of storeys where nothing says otherwise
   double default_height = 9.6;                  ///< [m] of buildings that nothing is known about
-  double neighbour_distance = 100;              ///< [m] how near buildings are whose heights are taken over
+  double neighbour_distance = 100;              ///< [m] distance within which heights of neighbours are used
   std::string feature_kind;                     ///< GeoJSON: "building", "street", "plot", "area"; empty: from the properties
   std::vector<std::pair<std::string, std::string>> properties;  ///< ours and the file's: {"height", "H_MAX"}
   double height_unit = 0;        ///< [m] of one unit of the heights of models and grids; 0: what the CRS says
   double level_of_detail = 9;    ///< CityJSON: the finest one up to this is taken
   std::string proj_database;     ///< path of proj.db; empty: PROJ finds its own
-  ImportWatch* watch = nullptr;  ///< who waits for it; may be null
+  ImportWatch* watch = nullptr;  ///< the progress of the import; may be null
 };
 
-/// No element may lie farther from the origin [m]: over such lengths no flat frame is exact.
+/// The largest distance of an element from the origin [m]: over larger lengths no flat frame is exact.
 inline constexpr double kContextExtent = 100000;
 
 }  // namespace bl::importing

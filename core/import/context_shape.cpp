@@ -56,7 +56,7 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
     return Error{
         ErrorCode::out_of_range, "crs",
         "(" + fixed(about[0], 3) + ", " + fixed(about[1], 3) +
-            ") is no longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
+            ") is not a longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
   if (crs == kLocalCrs && options.origin && !options.target) return LocalFrame::local(about[0], about[1]);
   if (options.target && !options.origin) return LocalFrame::into(crs, *options.target, options.proj_database);
   return LocalFrame::make(crs, about[0], about[1], options.proj_database);

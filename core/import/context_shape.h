@@ -1,4 +1,4 @@
-// What the importers of surroundings share: frames, rings made sound, and heights where the file has none.
+// Shared by the importers of surroundings: frames, repaired rings, and heights where the file has none.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ std::string context_crs(const ContextOptions& options, const std::string& file_c
 double context_height_unit(const ContextOptions& options, double file_unit, const std::string& file_crs,
                            std::vector<std::string>& notes);
 
-/// A ring made sound: closing and repeated points dropped, spikes cut off, turned as wanted.
+/// A repaired ring: closing and repeated points dropped, spikes cut off, turned as wanted.
 struct SoundRing {
   geometry::Ring ring;
   std::string mended;  ///< what was done that changes the corners: "3 repeated points"; empty: nothing
@@ -39,9 +39,9 @@ std::string out_of_reach(const ContextOptions& options, const std::vector<Point3
 /// An outer ring with its holes: holes that cross it, lie outside it or in each other are reported in `dropped`.
 void sort_holes(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped);
 
-/// What is made a body of (a building, a plot) is triangulated, which is quadratic in its corners.
+/// The largest number of corners of a body (a building, a plot), since triangulation is quadratic in the corners.
 inline constexpr std::size_t kMostBodyCorners = 10000;
-/// Why a body cannot be made of the outer ring, or nothing; holes that are too many are left out, which `dropped` then says.
+/// Why a body cannot be made of the outer ring, or nothing; surplus holes are left out and reported in `dropped`.
 std::string limit_corners(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped);
 
 /// Why a body cannot stand between these heights [m], or nothing.
@@ -55,7 +55,7 @@ void assume_heights(const ContextOptions& options, Context& context);
 /// The middle of the box around those points that have a place; nothing where none has.
 std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points);
 
-/// What an importer answers that was stopped.
+/// The error of an importer that was stopped.
 Error stopped_error();
 
 /// The middle (median of x and of y) of points; nothing where there are none.

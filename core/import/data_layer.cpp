@@ -172,7 +172,7 @@ class TableReader {
     for (const std::size_t i : numeric) list += (list.empty() ? "`" : ", `") + header.fields[i].substr(0, 40) + "`";
     return Error{ErrorCode::missing, line,
                  numeric.empty() ? "There is no column with numbers beside the coordinates."
-                                 : "Several columns hold numbers (" + list + "): say which one is the value."};
+                                 : "Several columns hold numbers (" + list + "): choose the one with the values."};
   }
 
   const csv::CsvText& csv_;
@@ -201,8 +201,8 @@ Result<std::string> value_property(const GeoDocument& document) {
     }
   if (hits == 1) return found;
   return Error{ErrorCode::missing, "features",
-               hits == 0 ? "No property is a number in every point: say which one is the value."
-                         : "Several properties are numbers (" + list + "): say which one is the value."};
+               hits == 0 ? "No property is a number in every point: choose the one with the values."
+                         : "Several properties are numbers (" + list + "): choose the one with the values."};
 }
 
 std::optional<std::array<double, 2>> first_position(const GeoFeature& feature) {

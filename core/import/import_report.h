@@ -1,4 +1,4 @@
-// What became of every element of an imported file: taken, repaired or skipped, each with its id and the reason.
+// The result for every element of an imported file: taken, repaired or skipped, each with its id and the reason.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ namespace bl::importing {
 enum class ImportOutcome { taken, repaired, skipped };
 std::string_view name_of(ImportOutcome outcome);
 
-/// One element, or many of one sort without a story of their own (`count`), such as the untagged nodes of OpenStreetMap.
+/// One element, or many equal ones in one row (`count`), such as the untagged nodes of OpenStreetMap.
 struct ImportRow {
   ImportOutcome outcome = ImportOutcome::taken;
   std::string kind;    ///< what it is in the file: "way", "Building", "feature"
   std::string id;      ///< in the file
-  std::string reason;  ///< few different ones, so that they can be counted: "building", "street", "its line is open"
-  std::string detail;  ///< what is special about this element; may be empty
+  std::string reason;  ///< one of few texts, so that they can be counted: "building", "street", "its line is open"
+  std::string detail;  ///< a detail about this element; may be empty
   std::size_t count = 1;
   std::optional<std::array<double, 2>> place;  ///< x and y of its middle [m, local]; nothing: it has none, or nobody knows it
   std::vector<std::string> made;               ///< ids of what was made of it, where somebody has made something
@@ -50,19 +50,19 @@ class ImportReport {
   /// Elements that were read and then not used, by row, with the reason: rows of which nothing was made become skipped ones.
   /// What depends on them (`follow`, `set_corners`) is counted anew.
   void drop(const std::map<std::size_t, std::string>& unused);
-  /// An element that was taken for the sake of another one alone: where nothing becomes of that, nothing becomes of it.
+  /// Marks an element that was taken only for another one: if that one is skipped, it is skipped as well.
   void follow(std::size_t row, std::size_t leader) { leaders_.emplace_back(row, leader); }
   /// Adds the rows of such elements. Nothing is added to the report after them.
   void set_corners(ImportCorners corners);
   void add(ImportRow row) { rows_.push_back(std::move(row)); }
-  /// Where the element of the newest row lies.
+  /// Sets the place of the element of the newest row.
   void locate(const std::optional<std::array<double, 2>>& place) { rows_.back().place = place; }
   void locate(std::size_t row, const std::optional<std::array<double, 2>>& place) { rows_[row].place = place; }
-  /// Says of an element that was taken what had to be changed for it.
+  /// Records the repairs of an element that was taken.
   void mend(std::size_t row, const std::string& detail);
-  /// Says more about the element of a row.
+  /// Adds a detail to the element of a row.
   void remark(std::size_t row, const std::string& detail);
-  /// Says what was made of the element of a row.
+  /// Records the nodes that were made of the element of a row.
   void made(std::size_t row, const std::string& id) { rows_[row].made.push_back(id); }
 
   const std::vector<ImportRow>& rows() const { return rows_; }
@@ -87,7 +87,7 @@ using ImportReports = std::vector<std::pair<std::string, ImportReport>>;
 /// The rows of several files as CSV: file, outcome, kind, id, reason, detail, count, x, y, made. Places are in local metres;
 /// several ids in `made` have a blank between them.
 std::string import_csv(const ImportReports& reports);
-/// Reads that again.
+/// Reads such a CSV.
 Result<ImportReports> read_import_csv(std::string_view text);
 
 }  // namespace bl::importing

@@ -1,4 +1,4 @@
-// What a long import tells the one who waits for it, and the way to stop it.
+// The progress of a long import, and the request to stop it.
 #pragma once
 
 #include <atomic>
@@ -6,15 +6,15 @@
 
 namespace bl::importing {
 
-/// Read and written by two threads at once. What is told is for the eye only: no result depends on it.
+/// Read and written by two threads at once. The progress is for display only: no result depends on it.
 struct ImportWatch {
-  std::atomic<bool> is_stopped{false};         ///< set by the one who waits
+  std::atomic<bool> is_stopped{false};         ///< set by the caller to stop the import
   std::atomic<std::size_t> file{0};            ///< which file, from 0
-  std::atomic<const char*> step{"reading"};    ///< what is done with it
+  std::atomic<const char*> step{"reading"};    ///< the present step
   std::atomic<std::size_t> done{0}, total{0};  ///< elements of that step; a total of 0 is not known
 };
 
-/// Tells how far it is; whether to go on. `watch` may be null.
+/// Reports the progress, and returns whether to go on. `watch` may be null.
 inline bool goes_on(ImportWatch* watch, const char* step, std::size_t done, std::size_t total) {
   if (watch == nullptr) return true;
   watch->step = step;

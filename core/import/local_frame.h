@@ -1,4 +1,4 @@
-// The local metric frame of a site: metres, x east, y north, near the origin, and where on Earth that origin lies.
+// The local metric frame of a site: metres, x east, y north, near the origin, and the place of that origin on Earth.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct GeoReference {
   double origin_x = 0, origin_y = 0;   ///< the local origin in `crs` [m]
   double latitude = 0, longitude = 0;  ///< of the local origin, WGS84 [deg]
   double true_north = 0;               ///< direction of true north, clockwise from local +y [deg]
-  /// Is it known where on earth it lies? Zeros stand for not.
+  /// Is the place on Earth known? Zeros mean that it is not.
   bool is_on_earth() const { return latitude != 0 || longitude != 0; }
   bool operator==(const GeoReference&) const = default;
 };
@@ -25,7 +25,7 @@ struct GeoReference {
 /// "urn:ogc:def:crs:EPSG::28992", "http://www.opengis.net/def/crs/EPSG/0/28992", "epsg:28992" as "EPSG:28992";
 /// all spellings of WGS84 longitude and latitude as "OGC:CRS84"; anything else as it is.
 std::string tidy_crs_name(std::string_view name);
-/// The name that stands for coordinates in metres without a place on Earth: those of a model that somebody drew.
+/// The name for coordinates in metres without a place on Earth, such as those of a drawn model.
 inline constexpr const char* kLocalCrs = "local";
 /// Does the tidy name mean WGS84 longitude and latitude in degrees?
 bool is_longitude_latitude(std::string_view crs);
@@ -57,7 +57,7 @@ class LocalFrame {
   ~LocalFrame();
 
   const GeoReference& reference() const { return reference_; }
-  /// Sentences about what was decided: a stretched CRS, a site outside the area of its CRS.
+  /// Notices about the frame: a stretched CRS, a site outside the area of its CRS.
   const std::vector<std::string>& notes() const { return notes_; }
   /// A point of the CRS in local metres; not finite where the projection has no answer.
   Point3 to_local(double x, double y) const;

@@ -1,4 +1,4 @@
-// Numbers as people write them in tables: decimal point or comma, thousands marks, units; decided per column, never guessed.
+// Numbers in tables by people: decimal point or comma, thousands marks, units; the format is found per column, and never guessed.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct NumberField {
   std::string text;
 };
 
-/// What one number tells about the decimal mark of its column.
+/// The evidence of one number about the decimal mark of its column.
 enum class DecimalEvidence {
   none,       ///< "1200", "1 200"
   point,      ///< "12.5", "1,200.5", "1,200,000"

@@ -1,4 +1,4 @@
-// What the parts of the OpenStreetMap importer share while one file is read.
+// The state that the parts of the OpenStreetMap importer share while one file is read.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct OsmImport {
   ImportRow& row_of(const OsmWay& way) { return ways[static_cast<std::size_t>(&way - store->ways.data())]; }
   /// Of a row in one of the lists: where it will stand in the report.
   std::size_t index_of(const ImportRow& row) const;
-  /// Have people lost patience? `done` of `total` elements are through.
+  /// Was the import stopped? `done` of `total` elements are finished.
   bool goes_on(const char* step, std::size_t done, std::size_t total) const {
     return done % 256 != 0 || bl::importing::goes_on(options->watch, step, done, total);
   }

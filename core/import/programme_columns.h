@@ -29,7 +29,7 @@ enum class ProgrammeColumn {
 };
 constexpr std::size_t kProgrammeColumns = 10;
 
-/// What we call a column, and what else it may be called. Names are compared in the form of normal_header.
+/// The name of a column and its aliases. Names are compared in the form of normal_header.
 struct ProgrammeColumnInfo {
   ProgrammeColumn column;
   std::string_view name;                  ///< as in options and messages: "floor_area_m2"

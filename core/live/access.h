@@ -1,4 +1,4 @@
-// How a broker is entered: who we are there, and how the connection is secured. Passwords are read when they are needed.
+// The access to a broker: user name, and security of the connection. Passwords are read when they are needed.
 #pragma once
 
 #include <map>

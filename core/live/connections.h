@@ -1,4 +1,4 @@
-// The connections of a scene: what its sensors hear becomes commands, what its actuators say goes out.
+// The connections of a scene: readings of its sensors become commands, and values of its actuators are sent.
 #pragma once
 
 #include <map>
@@ -18,10 +18,10 @@ namespace bl::live {
 
 struct LiveOptions {
   std::string folder;         ///< recordings with relative paths stand here; empty: where the program was started
-  bool opens_network = true;  ///< off: recordings are played, and nobody is connected to
+  bool opens_network = true;  ///< off: recordings are played, and no connection is made
   Pauses pauses;
-  /// Off: recordings lie in the folder or below it. A scene from somebody else must not read whatever the computer holds, which
-  /// an actuator of the same scene could send on.
+  /// Off: recordings must lie in the folder or below it. Otherwise a scene of somebody else could read any file of the computer
+  /// and send it by an actuator.
   bool reads_anywhere = false;
 };
 
@@ -31,7 +31,7 @@ struct Report {
   Command command;
 };
 
-/// How one sensor or actuator stands.
+/// The status of one sensor or actuator.
 struct ConnectionStatus {
   std::string node, address;
   bool is_sensor = true;
@@ -55,10 +55,10 @@ class Connections {
 
   /// Starts, changes and ends connections as the sensors and actuators of the scene want it.
   void follow(const Scene& scene);
-  /// What has come for the tick after `tick`: at most one reading for each sensor, in ascending node id. Where the clock was set
-  /// back, recordings go back with it.
+  /// The readings for the tick after `tick`: at most one for each sensor, in ascending node id. If the clock was set back,
+  /// recordings go back with it.
   std::vector<Report> collect(std::int64_t tick);
-  /// Sends what has changed since the last time, where the interval of its actuator allows.
+  /// Sends the values that have changed since the last call, where the interval of the actuator allows.
   void send(const State& state);
   /// In ascending node id, sensors before actuators.
   std::vector<ConnectionStatus> status() const;

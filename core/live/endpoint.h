@@ -1,4 +1,4 @@
-// One connection on a thread of its own: a broker, a port that is listened to, a receiver, or a page that is asked for.
+// One connection with a thread of its own: a broker, a listening port, a receiver, or a page that is requested.
 #pragma once
 
 #include <condition_variable>
@@ -64,11 +64,11 @@ class Endpoint {
   std::vector<Outgoing> outgoing();
   /// Waits so long, or until a message waits or the end is asked for [s].
   void wait_for_work(double seconds);
-  /// Says to everybody served what is wrong with the connection; empty where it stands.
+  /// Tells all sensors and actuators of the connection what is wrong with it; empty where it works.
   void say(const std::string& sentence);
-  /// A failed attempt: says why, and waits longer each time.
+  /// Reports a failed attempt, and waits longer each time.
   void fail(const std::string& sentence);
-  /// The connection stands: the next failure begins with the first pause again.
+  /// The connection works: the next failure begins with the first pause again.
   void succeed();
 
  private:

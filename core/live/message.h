@@ -1,4 +1,4 @@
-// The number in a message, whoever sent it.
+// Reads the number in a message from any sender.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A recorded table as a sensor that speaks again, at the ticks that its times say.
+// Plays a recorded table as a sensor, at the ticks that follow from its times.
 #pragma once
 
 #include <cstdint>

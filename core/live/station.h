@@ -1,4 +1,4 @@
-// Where a connection's thread and the owner of the scene meet: one for each sensor and actuator.
+// The exchange between a connection's thread and the owner of the scene: one for each sensor and actuator.
 #pragma once
 
 #include <chrono>
@@ -10,14 +10,14 @@
 
 namespace bl::live {
 
-/// What a message said: a number, or the sentence why it holds none.
+/// The content of a message: a number, or the reason why it holds none.
 struct Arrival {
   double value = 0;
   std::string problem, time;
   std::chrono::steady_clock::time_point came{};  ///< how long it has waited until it is taken, follows from this
 };
 
-/// How much has passed through; nothing is lost without being counted.
+/// Counts of messages; every lost message is counted.
 struct Traffic {
   std::int64_t received = 0;      ///< messages that came
   std::int64_t skipped = 0;       ///< of these: replaced by a newer one before anybody looked, or retained by a broker

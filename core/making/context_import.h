@@ -1,4 +1,4 @@
-// From files of surroundings and a scene to a scene with these around it: what the command line and the window both offer.
+// Imports files of surroundings into a scene, for the command line and the window.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// From picture files to media nodes of a scene: what the command line and a drop onto the window both do.
+// Makes media nodes of picture files, for the command line and for files dropped onto the window.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct MadeMedia {
   std::vector<std::string> notes;  ///< one sentence for each thing that was assumed or left out
 };
 
-/// Reads what the file says of itself; the picture stays where it is.
+/// Reads the metadata of the file; the picture itself is not moved.
 Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const MediaOptions& options);
 
-/// Does the name end like one of a picture that is known?
+/// Does the name end like that of a known picture format?
 bool is_picture_name(const std::string& file);
 
 }  // namespace bl::making

@@ -14,7 +14,7 @@ namespace bl::making {
 /// The link that keeps positions inside the site.
 inline constexpr const char* kInsideLink = "inside";
 
-/// What a new scene is made of.
+/// The input of a new scene.
 struct SceneParts {
   std::string title;
   importing::GeoReference reference;
@@ -33,7 +33,7 @@ struct NewVolume {
   Point3 position;
 };
 
-/// Items of one use that want to touch one item of another use: both are indices of volumes.
+/// Items of one use that should touch one item of another use: both are indices of volumes.
 struct WantedContact {
   std::size_t hub = 0;
   std::vector<std::size_t> partners;  ///< ascending
@@ -41,7 +41,7 @@ struct WantedContact {
 
 /// The items of all rows with ids of their own, positions not yet given.
 std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme);
-/// Who shall touch whom, from the column adjacent_to: the items of the more numerous use are dealt out evenly to those of the
+/// The wanted adjacencies from the column adjacent_to: the items of the more numerous use are divided evenly among those of the
 /// other.
 std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
 /// The scene as one command, positions spread by the seed.

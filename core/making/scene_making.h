@@ -1,4 +1,4 @@
-// From files of a boundary and a programme to a scene: what the command line and the window both offer.
+// Makes a scene from files of a boundary and a programme, for the command line and the window.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct NewOptions {
   std::vector<std::string> columns;
 };
 
-/// What came of it. Without a scene there are errors; all that can be said about the input is said at once.
+/// The result. Without a scene there are errors; all errors of the input are reported together.
 struct MadeScene {
   std::optional<Scene> scene;
   std::optional<importing::PlanBoundary> plan;

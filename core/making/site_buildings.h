@@ -1,4 +1,4 @@
-// Buildings of the surroundings that stand inside a site: which ones, and what becomes of them.
+// Buildings of the surroundings inside a site: finds them, and keeps or clears them.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@
 
 namespace bl::making {
 
-/// What becomes of them. Kept ones stand in the scene, and the site leaves out the ground that they stand on, up to their roofs;
-/// cleared ones are left out of the scene.
+/// Kept buildings stay in the scene, and the site leaves out their ground up to their roofs; cleared ones are left out of the
+/// scene.
 enum class InsideChoice { unsaid, keep, clear };
 
-/// Asked once, where nobody has said it: true for clearing. Empty: nobody can be asked.
+/// Asked once where the choice was not given; true clears the buildings. Empty: nobody can be asked.
 using AskToClear = std::function<bool(std::size_t buildings, const std::string& site)>;
 
 /// The boundaries of a scene in plan, and the buildings of an import that meet them.
@@ -32,7 +32,7 @@ class SiteBuildings {
   void judge(const importing::Context& context);
   /// Is that building of the file left out?
   bool is_cleared(std::size_t building) const;
-  /// Says in its row what is special about a building that stays, and has its site leave out its ground.
+  /// Adds a detail to the row of a building that stays, and makes its site leave out its ground.
   void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
             importing::ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
@@ -41,7 +41,7 @@ class SiteBuildings {
   bool has_cleared() const;
   /// The new values of the sites' exclusions, by node.
   std::vector<std::pair<std::string, Table>> exclusions() const;
-  /// Sentences about what was done; after all files.
+  /// Notices about the buildings, after all files.
   std::vector<std::string> notes() const;
 
  private:

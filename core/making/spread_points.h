@@ -1,4 +1,4 @@
-// Spreads first positions of volumes inside a prism: seeded, the same on every machine, big ones apart, neighbours near.
+// Spreads first positions of volumes inside a prism: seeded, the same on every machine, large volumes apart, neighbours near.
 #pragma once
 
 #include <cstddef>

@@ -113,7 +113,7 @@ std::string causes_of(const Account& account, const std::vector<std::string>& li
   // Floor area can be missing where the volume is there: storeys of a rounded shape hold less than volume over height.
   if (account.is_by_area &&
       share_missing(account.asked_area, account.floor_area) > share_missing(account.asked, account.volume) + tolerance)
-    add("storeys of the shape hold less floor than its volume would: ask for more volume, or lower the storeys");
+    add("the storeys of the shape have less floor area than its volume would give: ask for more volume, or lower the storeys");
   if (text.empty()) add("limits, room and shape each take a little");
   return text;
 }
@@ -263,7 +263,7 @@ std::string why_short(const State& state, const Accounts& accounts, const UseAcc
   }
   if (unasked > accounts.tolerance * use.asked && use.limited >= (1 - accounts.tolerance) * (use.asked - unasked))
     return "its volumes ask for " + quantity(unasked, Unit::cubic_metre) +
-           " less than the brief: other voices speak in their demands, or the brief does not reach them";
+           " less than the brief: other proposals change their demands, or no demand link connects the brief to them";
   return causes_of(use, limiters, accounts.tolerance);
 }
 

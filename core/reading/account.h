@@ -1,4 +1,4 @@
-// The account of demands: what was asked for, by whoever asked, what limits leave of it, what there is, and who goes short.
+// The account of demands: what briefs, people and links demand, the part that limits leave, the present amount, and shortages.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,31 @@
 
 namespace bl::reading {
 
-/// Of a volume, a use, or everything together. List, colours, statistics, tables, comparison and page read this and nothing else,
-/// so that none of them can call met what another one calls short.
+/// The account of a volume, a use, or all together. List, colours, statistics, tables, comparison and page all read it, so that
+/// they agree on what is met and what is short.
 struct Account {
   double asked = 0;         ///< by briefs, people and links, before any limit [m³]
-  double limited = 0;       ///< what limits leave of that: what the solver aims at [m³]
-  double volume = 0;        ///< what there is [m³]
-  bool is_by_area = false;  ///< a brief asks, and briefs ask for floor area; else volume alone was asked for
-  double asked_area = 0;    ///< floor area that was asked for, or that the volume asked for makes [m²]
-  double limited_area = 0;  ///< floor area that the volume aimed at makes [m²]
-  double floor_area = 0;    ///< what there is [m²]
+  double limited = 0;       ///< the part that limits leave, which the solver aims at [m³]
+  double volume = 0;        ///< the present volume [m³]
+  bool is_by_area = false;  ///< a brief asks for floor area; else only volume was asked for
+  double asked_area = 0;    ///< the floor area asked for, or that of the volume asked for [m²]
+  double limited_area = 0;  ///< the floor area of the volume aimed at [m²]
+  double floor_area = 0;    ///< the present floor area [m²]
 
-  /// What of the volume, and of the floor area, is missing against what was asked for; never below 0.
+  /// The volume and the floor area missing to the demand; never below 0.
   double missing() const;
   double missing_area() const;
-  /// The same as shares of what was asked for, from 0 to 1.
+  /// The same as shares of the demand, from 0 to 1.
   double missing_share() const;
   double missing_area_share() const;
-  /// What limits hold back of the volume asked for.
+  /// The part of the demanded volume that limits take away.
   double withheld() const;
   /// The larger of both shares where floor area was asked for, else that of the volume.
   double short_share() const;
-  /// What there is against what was asked for, below 0 where it is less; 0 where nothing was asked for.
+  /// The present amount minus the demand, below 0 where it is less; 0 where nothing was asked for.
   double difference() const;
   double area_difference() const;
-  /// Below 0 the share that is short, above it what there is beyond what was asked for: one number for a colour or a bar.
+  /// Below 0 the missing share, above 0 the excess share: one number for a colour or a bar.
   double standing() const;
   bool is_short(double tolerance) const { return short_share() > tolerance; }
 
@@ -44,7 +44,7 @@ struct Account {
 
 struct VolumeAccount : Account {
   std::uint32_t node = 0;
-  std::string use;        ///< that it counts for: its own, or the one that a demand link credits it to
+  std::string use;        ///< the use that it counts for: its own, or the one that a demand link credits it to
   bool is_alive = false;  ///< it has a shape
   reading::VolumeFigures figures;
 };
@@ -57,12 +57,12 @@ struct UseAccount : Account {
 };
 
 struct Accounts {
-  double tolerance = 0;                ///< share of what was asked for below which nobody is short
+  double tolerance = 0;                ///< share of the demand below which a volume does not count as short
   std::vector<VolumeAccount> volumes;  ///< ascending node
   std::vector<UseAccount> uses;        ///< in the order of programmes, then by name
   UseAccount all;
 
-  /// The largest share that a volume or a use is short of; and of whom, in words: "housing", "volume Café".
+  /// The largest missing share of a volume or a use, and its name: "housing", "volume Café".
   double worst_short = 0;
   std::string worst;
 };
@@ -76,10 +76,10 @@ struct BriefRow {
 /// In the order of the rows, which is the order that people gave.
 std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state);
 
-/// Who holds a volume below what it asks for: "link `cap`", "people"; empty where nobody does.
+/// What holds a volume below its demand: "link `cap`", "people"; empty where nothing does.
 std::vector<std::string> who_limits(const State& state, const VolumeAccount& volume);
-/// Why a volume or a use has less than was asked for, as parts of a sentence with what helps; empty where it is not short.
-/// Of a use that has enough as a whole: why single volumes of it have not.
+/// Why a volume or a use has less than its demand, as parts of a sentence with advice; empty where it is not short. For a use
+/// that has enough as a whole: why single volumes of it have less.
 std::string why_short(const State& state, const Accounts& accounts, const VolumeAccount& volume);
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use);
 

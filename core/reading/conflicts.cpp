@@ -1,4 +1,4 @@
-// Who pulls at what: ports under tension with the voices behind it, and everything that failed or cannot be had.
+// Collects ports under tension with their proposals, and everything that failed or cannot be met.
 #include <algorithm>
 #include <array>
 #include <cmath>

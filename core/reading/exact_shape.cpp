@@ -1,4 +1,4 @@
-// Power cells need their neighbours only: whoever shares no face with a shape does not cut it.
+// A power cell depends on its neighbours only: a site that shares no face with a shape does not cut it.
 #include "core/reading/exact_shape.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace bl::reading {
 /// The half-space normal·x <= offset [m]; `normal` is a unit vector.
 using Cut = geometry::Plane;
 
-/// What is inside the ball and all of its cuts.
+/// The part of the ball inside all cuts.
 struct ExactShape {
   Point3 centre;
   double radius = 0;      ///< [m]

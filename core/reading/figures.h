@@ -9,9 +9,9 @@ namespace bl::reading {
 
 /// "12 480": grouped by narrow spaces that do not break. Not finite: a dash.
 std::string grouped(double value, int decimals = 0);
-/// As many decimals as the size of the number deserves: "12 480", "84.2", "0.316".
+/// With decimals that fit the size of the number: "12 480", "84.2", "0.316".
 std::string readable(double value);
-/// What people say it in: seconds are minutes from two of them on, and hours from two hours on; all else is as it is.
+/// A handy unit: seconds become minutes from two minutes on, and hours from two hours on; other units stay.
 const UnitInfo& handy_unit(double value, Unit unit);
 /// `readable` with the printed symbol of its handy unit: "84.2 m²", "8.50 h".
 std::string quantity(double value, Unit unit);
@@ -19,8 +19,8 @@ std::string quantity(double value, Unit unit);
 std::string percent(double share);
 /// The same with its sign, also where it is positive.
 std::string signed_percent(double share);
-/// A part of a whole as a percentage, and how far what was reached is from what was wanted, with its sign. A dash where the whole
-/// is nothing that people could see (below a thousandth of a unit): a percentage of zero says nothing.
+/// A part of a whole as a percentage; and the signed deviation of a reached value from a wanted one. A dash where the whole is
+/// below a thousandth of a unit, since a percentage of zero has no meaning.
 std::string share_of(double part, double whole);
 std::string difference_of(double reached, double wanted);
 /// "1 volume", "3 volumes".

@@ -1,4 +1,4 @@
-// Reads how volumes stand, and where; groups are found by joining pairs that are too near.
+// Reads the standing and the positions of volumes; groups are found by joining pairs that are too near.
 #include "core/reading/place_problems.h"
 
 #include <algorithm>
@@ -105,8 +105,9 @@ PlaceProblem collapse_of(const State& state, const std::vector<std::uint32_t>& n
   if (!problem.links.empty()) problem.subject += ", pulled by " + quoted_list(problem.links, kNamedLinks);
   problem.text =
       quoted_list(problem.nodes, kNamedVolumes) + "; " +
-      (problem.links.empty() ? "move them apart" : "weaken what pulls, or lay a `make_room` from the solver to the volumes") +
-      ", because bodies around one point have no room to be told apart";
+      (problem.links.empty() ? "move them apart"
+                             : "weaken the links that pull, or add a `make_room` link from the solver to the volumes") +
+      ", so they have no separate bodies";
   return problem;
 }
 
@@ -137,7 +138,7 @@ Holding who_holds(const State& state, std::uint32_t node) {
 // What helps who hangs: a `stand`, or where one runs already, whatever keeps it from its work.
 std::string help_for(const State& state, std::uint32_t node) {
   const Holding holding = who_holds(state, node);
-  if (holding.stand.empty()) return "lay a `stand` from the solver to it, or let its `standing` allow it";
+  if (holding.stand.empty()) return "add a `stand` link from the solver to it, or let its `standing` allow it";
   if (holding.lifting.empty())
     return "`" + holding.stand +
            "` still lets it down: let more ticks run; if it stays, unlock its place, or let its `standing` allow it";

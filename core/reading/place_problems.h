@@ -1,4 +1,4 @@
-// Problems of where volumes stand: bodies in the air, and volumes that have come to lie on one point.
+// Problems with the positions of volumes: bodies in the air, and volumes that lie on one point.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace bl::reading {
 /// A problem of one or several volumes, in words. `subject` and `text` can stand beside each other, `sentence()` alone.
 struct PlaceProblem {
   std::string subject;             ///< "Playground pavilion hangs 15.3 m above the ground"
-  std::string text;                ///< what is allowed and what to do
+  std::string text;                ///< the allowed standing, and what to do
   std::vector<std::string> nodes;  ///< ids, ascending
-  std::vector<std::string> links;  ///< ids of who is behind it, ascending
+  std::vector<std::string> links;  ///< ids of the links that cause it, ascending
 
   std::string sentence() const { return text.empty() ? subject : subject + ": " + text; }
 };
@@ -25,9 +25,9 @@ inline constexpr double kOnePoint = 0.1;
 
 /// Volumes that stand on nothing that they may stand on, ascending id.
 std::vector<PlaceProblem> hanging_volumes(const State& state);
-/// Groups of volumes on one point, the largest first, with the links that join and do not part them.
+/// Groups of volumes on one point, the largest first, with the links that pull them together.
 std::vector<PlaceProblem> collapsed_volumes(const State& state);
-/// Both: first what has collapsed.
+/// Both: first the groups on one point.
 std::vector<PlaceProblem> place_problems(const State& state);
 
 }  // namespace bl::reading

@@ -1,4 +1,4 @@
-// What a report says, read from a state by its views; whatever a scene lacks is left empty.
+// The content of a report, read from a state by views; parts that a scene lacks are empty.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace bl::reading {
 
-/// A SmartVolume, also one that has no shape, with what was asked for and what there is.
+/// A SmartVolume, with or without a shape, with its demand and its present figures.
 struct VolumeRow : VolumeAccount {
   std::size_t number = 0;  ///< from 1, as in the table and the pictures
   std::string id, name;
@@ -34,7 +34,7 @@ struct SiteRow {
   std::vector<geometry::Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
 };
 
-/// A port on which proposals disagree, and how much.
+/// A port on which proposals disagree, with the tension.
 struct TensePort {
   PortRef ref;
   double tension = 0;   ///< in the port's unit
@@ -49,22 +49,22 @@ struct ConflictRow {
   double severity = 0;  ///< against the size of what is pulled at
   PortRef ref;
   std::string node_id;
-  std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
+  std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for values that people have set or locked
 };
 
-/// A link, or people, and the conflicts in which they pull.
+/// A link, or people, with the conflicts that they take part in.
 struct PullerRow {
   std::string link, kind;  ///< id and label of its kind; without an id: people, who have set or locked values
   std::size_t conflicts = 0;
-  double share = 0;  ///< of the severity of all conflicts, each shared evenly among those who pull
+  double share = 0;  ///< of the severity of all conflicts, each divided evenly among its participants
 };
 
-/// What failed or cannot be had.
+/// A failure, or something that cannot be met.
 struct ProblemRow {
   std::string place, message;
   std::string node, link;    ///< ids of where it is, as far as it is somewhere
-  bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
-  bool is_place = false;     ///< nothing failed: volumes hang in the air or lie on one point
+  bool is_shortage = false;  ///< no failure: a demand is not met
+  bool is_place = false;     ///< no failure: volumes hang in the air or lie on one point
 };
 
 struct ReportModel {
@@ -79,11 +79,11 @@ struct ReportModel {
   Surroundings surroundings;
   std::vector<ConflictRow> conflicts;  ///< the worst first
   std::size_t minor_conflicts = 0;     ///< too small to be listed
-  std::vector<PullerRow> pullers;      ///< who stands in the conflicts, the largest share first
+  std::vector<PullerRow> pullers;      ///< the participants of the conflicts, the largest share first
   std::vector<ProblemRow> problems;
   double plan_area = 0, site_volume = 0;
   std::size_t shapes = 0;
-  std::string mesh_note;             ///< how fine the meshes are, and what that means; empty where there are none
+  std::string mesh_note;             ///< the fineness of the meshes and its meaning; empty where there are none
   const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
 
   std::vector<std::string> use_names() const;
@@ -93,19 +93,19 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
-/// Names, figures and accounts of volumes and uses, and their totals, for whoever reads them in every tick: without shapes,
-/// sites, conflicts and problems.
+/// Names, figures and accounts of volumes and uses, and their totals, without shapes, sites, conflicts and problems: for readers
+/// in every tick.
 void read_figures(const State& state, ReportModel& model);
 
-/// Less than this share of what is pulled at is no conflict that anybody would want to read about.
+/// A tension below this share of the value's size is too small to be listed.
 inline constexpr double kMinorSeverity = 0.002;
 /// All ports under tension, ascending; minor ones too.
 std::vector<TensePort> tense_ports(const State& state);
-/// A tension against the size of what is pulled at.
+/// A tension as a share of the value's size.
 double severity_of(const State& state, PortRef ref, double tension);
-/// Who pulls at it, and how.
+/// The proposals on the port, as sentences.
 ConflictRow conflict_row(const State& state, const TensePort& tense);
-/// Who stands in how many of these conflicts; the largest share first, then in ascending id.
+/// The participants of these conflicts with their counts; the largest share first, then in ascending id.
 std::vector<PullerRow> pullers_of(const State& state, const std::vector<ConflictRow>& conflicts);
 /// "wants 7 200 m³, strength 0.5": what a link says, without its name.
 std::string voice_text(const State& state, const Voice& voice);

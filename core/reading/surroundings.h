@@ -1,4 +1,4 @@
-// What stands and runs around the volumes, read from a state: ground, data, sun, plots, streets with their load, buildings.
+// The surroundings of the volumes, read from a state: ground, data, sun, plots, streets with their load, buildings.
 #pragma once
 
 #include <string>
@@ -56,8 +56,8 @@ struct Surroundings {
 
 Surroundings read_surroundings(const State& state);
 
-/// The lowest and the highest corner, in plan, of a frame around `core` that takes in what of the surroundings is near: up to
-/// `around` times the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
+/// The lowest and the highest corner, in plan, of a frame around `core` that contains the near surroundings: up to `around` times
+/// the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
 std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings, double around = 0.6);
 
 }  // namespace bl::reading

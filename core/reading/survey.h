@@ -1,4 +1,4 @@
-// What a state says in figures: every volume, the totals per use, the conflicts, and what is out of order.
+// The figures of a state: every volume, the totals per use, the conflicts, and the failures.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace bl::reading {
 
-/// One use: what is asked for, and what its volumes have.
+/// One use: its demand, and the figures of its volumes.
 struct UseRow {
   UseAccount account;
   std::size_t alive = 0;
   std::string why_short;
 };
 
-/// A voice in a conflict: of a link, or of people, who have set or locked the value; then there is no link.
+/// A proposal in a conflict: of a link, or of people, who have set or locked the value; then there is no link.
 struct Pull {
   std::string link;
   Value value;  ///< a change for moves, a wanted value elsewhere
@@ -35,7 +35,7 @@ struct TensionRow {
   std::vector<Pull> pulls;  ///< ascending link id
 };
 
-/// A solver, and what it says with the shortages of its volumes.
+/// A solver, and its message with the shortages of its volumes.
 struct SolverRow {
   std::string id, message;
   reading::SolverFigures figures;
@@ -49,17 +49,17 @@ struct Survey {
   std::vector<TensionRow> tensions;  ///< greatest first, ties in ascending node and port
   std::vector<SolverRow> solvers;
   std::vector<Error> problems;     ///< errors of nodes and links, with their places
-  double tolerance = 0;            ///< below this share nobody is short
-  double worst_short = 0;          ///< the largest share that a volume or a use is short of
-  std::string worst_short_of;      ///< who that is, in words
-  std::vector<PullerRow> pullers;  ///< who stands in the conflicts, links and people
+  double tolerance = 0;            ///< below this share a volume does not count as short
+  double worst_short = 0;          ///< the largest missing share of a volume or a use
+  std::string worst_short_of;      ///< its name, in words
+  std::vector<PullerRow> pullers;  ///< participants of the conflicts: links and people
   double worst_error = 0;          ///< share of a demand
   std::string worst;               ///< id of the node that has it; empty where all is exact
 };
 
 Survey survey_of(const State& state);
 
-/// Ids of the solvers with what they say cannot be had; empty where all can.
+/// Ids of the solvers with their messages on unmet demands; empty where all demands are met.
 std::string solver_message(const State& state);
 /// Errors of nodes and links.
 std::vector<Error> problems_of(const State& state);

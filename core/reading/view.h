@@ -1,4 +1,4 @@
-// Typed views of a state: a plain struct says which ports its members show, and is read for every node that carries them.
+// Typed views of a state: a plain struct declares the ports of its members, and is read for every node that has them.
 #pragma once
 
 #include <bit>
@@ -13,13 +13,13 @@
 
 namespace bl::reading {
 
-/// One port that a view shows, or how far proposals on that port disagree.
+/// One port of a view, or the tension on that port.
 struct ViewRead : ReadDefinition {
   std::ptrdiff_t member = 0;  ///< which member of the struct it fills; compared only
   bool is_tension = false;
 };
 
-/// What the declaration of a view leaves behind. All paths are of its type, or of `node`, which every node is.
+/// The declaration of a view as data. All paths are of its typification, or of `node`, which every node has.
 struct ViewDefinition {
   std::string name;  ///< of the struct
   std::string type;  ///< id of a typification, or of a kind of links
@@ -60,7 +60,7 @@ class ViewBuilder {
     bind_read(read, member);
     return *this;
   }
-  /// Shows how far proposals on `path` disagree with what stands there, in the unit of that port.
+  /// Shows the tension on `path`, in the unit of that port.
   ViewBuilder& reads_tension(double V::*member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     reads(member, path, unit);
     view_->reads.back().is_tension = true;
@@ -84,17 +84,18 @@ struct ViewPorts {
   std::vector<std::uint32_t> nodes;
   std::vector<PortRef> ports;
 
-  /// Which row a node is; nodes.size() where it carries no such typification.
+  /// The row of a node; nodes.size() where it has no such typification.
   std::size_t row_of(std::uint32_t node) const;
 };
-/// Looked for once in each plan. A view of a port that its typification does not have is a defect of the program, and ends it.
+/// Found once in each plan. A view of a port that its typification does not have is a defect, and ends the program.
 std::shared_ptr<const ViewPorts> ports_of(const ViewDefinition& view, const Plan& plan);
 /// Fills the members of a V from one row.
 void fill_row(const ViewDefinition& view, const State& state, const ViewPorts& ports, std::size_t row, void* figures);
-/// What people have set of one read, or its default; nullptr where the node does not carry the typification, or nobody knows it.
+/// The value that people have set for one read, or its default; nullptr where the node does not have the typification, or it is
+/// unknown.
 const Value* setting_of(const ViewDefinition& view, std::size_t read, const Scene& scene, const NodeRecord& node,
                         const Registry& registry);
-/// Fills all of them so; false where there are none.
+/// Fills all members in this way; false where there are none.
 bool fill_settings(const ViewDefinition& view, const Scene& scene, const NodeRecord& node, const Registry& registry,
                    void* figures);
 /// Fills them from a link's parameters; false where the link is of another kind.
@@ -130,7 +131,7 @@ std::optional<V> row_of(const State& state, std::uint32_t node) {
   return figures;
 }
 
-/// What a scene says of a node before anything has run: set values, and the defaults of all others.
+/// The values of a node in a scene that has not run: set values, and the defaults of all others.
 template <class V>
 std::optional<V> settings_of(const Scene& scene, const Registry& registry, const NodeRecord& node) {
   std::optional<V> figures(std::in_place);
@@ -192,7 +193,7 @@ std::optional<PortRef> port_of(const Plan& plan, std::uint32_t node) {
   return ports->ports[row * view.reads.size() + read_index(view, key_of_member(kMember))];
 }
 
-/// One member alone: for whoever needs a single figure of many nodes. What a fresh struct holds where there is no such row.
+/// One member alone, for readers of a single figure of many nodes. Its default where there is no such row.
 template <auto kMember>
 auto read(const State& state, std::uint32_t node) {
   using View = typename MemberOf<decltype(kMember)>::View;
@@ -201,7 +202,7 @@ auto read(const State& state, std::uint32_t node) {
   return port ? Binding<Type>::from_value(state.value(*port)) : Type(View{}.*kMember);
 }
 
-/// The same of what people have set; nothing where the node does not carry the typification.
+/// The same for set values; nothing where the node does not have the typification.
 template <auto kMember>
 auto setting(const Scene& scene, const Registry& registry, const NodeRecord& node) {
   using Type = typename MemberOf<decltype(kMember)>::Type;

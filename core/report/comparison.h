@@ -1,4 +1,4 @@
-// What differs between two proposals: what people set, and what every indicator became of it.
+// The differences between two proposals: settings, and all indicators.
 #pragma once
 
 #include <string>
@@ -22,14 +22,14 @@ struct IndicatorRow {
   std::string figure(double value) const;
   /// The difference in percent, or as a figure where next to nothing was there before.
   std::string difference() const;
-  /// Do people see a difference? Roundings of runs that end a little differently are no news.
+  /// Is the difference large enough to show? Rounding differences between runs are not.
   bool is_seen(double least_share) const;
 };
 
 struct Comparison {
-  std::vector<std::string> inputs;                   ///< what people have said differently, as sentences in the order of ids
+  std::vector<std::string> inputs;                   ///< settings that differ, as sentences in the order of ids
   std::vector<IndicatorRow> totals;                  ///< in the order of typifications and ports; those that are the same too
-  std::vector<IndicatorRow> nodes;                   ///< those that differ, first what changed most among its like
+  std::vector<IndicatorRow> nodes;                   ///< those that differ, with the largest relative changes first
   std::size_t same = 0;                              ///< numbers of nodes that agree
   std::vector<std::string> only_before, only_after;  ///< nodes, by name
 };

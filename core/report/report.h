@@ -24,8 +24,8 @@ struct ReportData {
 /// clock, no locale, no machine.
 Result<void> write_report(const std::string& directory, const ReportData& data);
 
-/// Is nothing in `directory` lost by a report? What lies there under a name of a report is one of an earlier one, or empty.
-/// Nothing is wrong with a folder that is not there yet.
+/// Checks that a report overwrites no other file in `directory`: files under its names must be empty or of an earlier report. A
+/// missing folder is accepted.
 Result<void> may_fill_with_report(const std::string& directory);
 
 }  // namespace bl::report

@@ -9,8 +9,7 @@ namespace bl {
 
 enum class AuthorKind : std::uint8_t { person, device, program };
 
-/// Made by whoever runs the session, never by the one who is named: a device cannot sign as a person. Where nothing is said it is
-/// a person.
+/// Made by the program that runs the session, never by the author: a device cannot sign as a person. The default is a person.
 struct Author {
   Author() = default;
   Author(std::string who, AuthorKind what = AuthorKind::person)

@@ -1,4 +1,4 @@
-// The commands: every way there is to change a scene, with their arguments.
+// The commands with their arguments. A scene is changed by commands only.
 #pragma once
 
 #include <string>
@@ -206,7 +206,8 @@ Command command(const typename T::In& in) {
   return CommandBuilder<T>::command(in);
 }
 
-/// Applies one command; on an error the scene is unchanged. Returns the commands that undo it, in the order to apply.
+/// Applies one command; on an error the scene is unchanged. Returns the commands that undo it, in the order in which to apply
+/// them.
 Inverse apply(SceneEdit& edit, const Command& command);
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// Replacing the scripts of a scene, and what that means for the links of their kinds.
+// Replaces the scripts of a scene, and reads the links of their kinds again.
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"

@@ -38,11 +38,11 @@ Result<void> Gestures::check(const LogEntry& entry) const {
                  "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
   }
   if (entry.undoes != 0 && entry.redoes != 0)
-    return Error{ErrorCode::conflict, "undoes", "an entry takes something back or brings it back, not both"};
+    return Error{ErrorCode::conflict, "undoes", "an entry is either an undo or a redo, not both: remove one of the marks"};
   if (entry.undoes != 0 && !holds_gesture(stack_of(undo_, entry.author), entry.undoes))
-    return not_there(entry, "undoes", entry.undoes, "taken back");
+    return not_there(entry, "undoes", entry.undoes, "undone");
   if (entry.redoes != 0 && !holds_gesture(stack_of(redo_, entry.author), entry.redoes))
-    return not_there(entry, "redoes", entry.redoes, "brought back");
+    return not_there(entry, "redoes", entry.redoes, "redone");
   return {};
 }
 

@@ -1,4 +1,4 @@
-// Which gesture of whom can be taken back or brought back: the stacks behind undo, and the rule that a log is held to.
+// The gestures of each author that can be undone or redone, and the rule that the entries of a log must follow.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace bl {
 
 class Gestures {
  public:
-  /// Can the entry follow on those that were taken? A gesture is one author's, and goes on only while it is that author's last;
-  /// an undo takes back what its author has made and not taken back yet.
+  /// Can the entry follow the ones before it? A gesture belongs to one author, and continues only while it is that author's last
+  /// one. An undo applies to a gesture of its author that is not undone yet.
   Result<void> check(const LogEntry& entry) const;
-  /// Keeps it; it has to fit. What devices say is nobody's step: nothing of it is kept, however much they say. A rewind changes
-  /// no scene and is no step, either.
+  /// Records the entry, which must fit. Entries of devices are no steps and are not recorded, so that they take no memory. A
+  /// rewind changes no scene and is no step, either.
   void take(const LogEntry& entry);
-  /// The entry as one that fits: where it takes back what stands in no entry here, it is a step like any other. So it is in a log
-  /// that begins in the middle of a session.
+  /// The entry changed so that it fits: an undo of a gesture that is not recorded here becomes an ordinary step. This occurs in a
+  /// log that begins in the middle of a session.
   LogEntry fitted(const LogEntry& entry) const;
 
-  /// The author's gestures that can be taken back, or brought back; the last one first to go.
+  /// The author's gestures that can be undone or redone; the last one comes first.
   const std::vector<std::int64_t>& open(const Author& author, bool is_undo) const;
 
  private:

@@ -33,7 +33,7 @@ Result<void> Ledger::check(const LogEntry& entry) const {
                        (entry.undoes != 0 || entry.redoes != 0);
   if (operation != 0 && last != operations_.end() && operation <= last->second.first && !goes_on)
     return Error{ErrorCode::duplicate, "operation",
-                 "the operation " + std::to_string(operation) + " of `" + origin + "` was taken already, or comes too late"};
+                 "the operation " + std::to_string(operation) + " of `" + origin + "` was applied already, or comes too late"};
   if (auto fits = gestures_.check(entry); !fits) return fits;
   if (entry.seq != 0 && entry.seq <= last_seq())
     return Error{ErrorCode::conflict, "seq", "the entry " + std::to_string(entry.seq) + " is in the log already"};

@@ -1,4 +1,4 @@
-// A scene and the log of what people did to it: the one verb is submit(); undo and redo are new entries.
+// A scene and the log of its commands. submit() applies commands; undo and redo are new entries.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace bl {
 
-/// What somebody says, before it has its place in the log.
+/// A command of an author before it has its place in the log.
 struct Submission {
   Command command = {};
   Author author = {};
@@ -25,69 +25,69 @@ struct Submission {
   std::string label = {};
 };
 
-/// What an undo or redo has done: the gesture, and where it left things alone because somebody else has written there since.
+/// The result of an undo or redo: the gesture, and the places that it left unchanged because another author has changed them
+/// since.
 struct TakenBack {
   std::int64_t gesture = 0;
-  std::optional<Error> misfit;  ///< why a later gesture was passed over that does not fit the scene any more
-  std::vector<Mark> left;       ///< also of later gestures that were passed over, because nothing of them could be taken back
+  std::optional<Error> misfit;  ///< why a later gesture was skipped that does not fit the scene any more
+  std::vector<Mark> left;       ///< also of later gestures that were skipped, because nothing of them could be undone
 };
-/// The sentence of what was left: "ben has changed nodes/tower/name since".
+/// The sentence about a place that was left unchanged: "ben has changed nodes/tower/name since".
 std::string text_of(const Mark& left);
 
-/// What people say, apart from what the scene makes of it: needs no running state, so that a window can hold a ledger on one
-/// thread while another one ticks. `tick` is always the tick that the entry takes effect in.
+/// Needs no running state, so that a window can hold a ledger on one thread while another one ticks. `tick` is always the tick in
+/// which the entry takes effect.
 class Ledger {
  public:
-  /// `base`: the number of the last entry that the scene holds already.
+  /// `base`: the number of the last entry that the scene contains already.
   Ledger(const Registry& registry, const Scene& scene, std::int64_t base = 0)
       : registry_(&registry), scene_(scene), base_(base) {}
 
-  /// Applies a command now and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are
-  /// undone together. An operation that its origin has sent before is refused as `duplicate`.
+  /// Applies a command and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are undone
+  /// together. An operation that its origin has already sent is refused as `duplicate`.
   Result<void> submit(Submission submission, std::int64_t tick);
   Result<void> submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture = 0) {
     return submit({.command = command, .author = author, .gesture = gesture}, tick);
   }
-  /// Notes that the running state goes back from `tick` to an earlier one. The scene stays as it is, and so do the steps that can
-  /// be undone. The rewind itself cannot be: the states after it are given up.
+  /// Logs that the running state goes back from `tick` to an earlier one. The scene and the steps that can be undone stay the
+  /// same. The rewind itself cannot be undone, since later states are discarded.
   Result<void> rewind(const Author& author, std::int64_t tick, std::int64_t to);
   std::int64_t new_gesture() { return ++last_gesture_; }
-  /// Takes back the author's last gesture, or the one that is named, by new entries. What others wrote since stays as it is, and
-  /// is told; a gesture of which nothing can be taken back is passed over.
+  /// Undoes the author's last gesture, or the named one, by new entries. Later changes of other authors stay and are reported. A
+  /// gesture of which nothing can be undone is skipped.
   Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
   Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
-  /// Takes the gesture back as if it had never been: it cannot be brought back. For what its author has given up in the middle.
+  /// Undoes the gesture for good: it cannot be redone. It is for gestures that their author cancels.
   Result<TakenBack> abandon(const Author& author, std::int64_t tick, std::int64_t gesture);
   bool can_redo(const Author& author) const { return !gestures_.open(author, false).empty(); }
-  /// An entry of a log, with its number, gesture and undo marks as they were; one without a number (0) gets the next.
+  /// Applies an entry of a log with its number, gesture and undo marks; an entry without a number (0) gets the next one.
   Result<void> replay(const LogEntry& entry);
 
   const Scene& scene() const { return scene_; }
   const Registry& registry() const { return *registry_; }
   const std::vector<LogEntry>& log() const { return log_; }
-  /// The number of the last entry; the base where there is none.
+  /// The number of the last entry; `base` where there is none.
   std::int64_t last_seq() const { return log_.empty() ? base_ : log_.back().seq; }
-  /// Called with each new entry, to write it down at once; several may listen, and hear in the order in which they came. The
-  /// number that unsubscribe() wants.
+  /// Registers a listener that is called with each new entry, in the order of registration. Returns the number for unsubscribe().
   std::size_t subscribe(std::function<void(const LogEntry&)> listener);
   void unsubscribe(std::size_t number) { listeners_.erase(number); }
 
-  /// What a simulation of this scene has to hear of since the last call.
+  /// The changes since the last call, for a simulation of this scene.
   struct Changes {
     bool is_logic_changed = false;                         ///< more than the view
-    std::set<std::pair<std::string, std::string>> placed;  ///< (node, path) of ports that people have put somewhere
+    std::set<std::pair<std::string, std::string>> placed;  ///< (node, path) of ports that people have set to a place
   };
   Changes take_changes();
   /// The same, without taking them.
   Changes changes() const { return {is_changed_, placed_}; }
 
  private:
-  /// What a gesture has done, and how it is undone.
+  /// The changes of a gesture, and the commands that undo them.
   struct Step {
     std::vector<Command> inverse;  ///< the last one is applied first
     Written written;
   };
-  /// A command that was applied to the scene, what that has touched, and the commands that undo it.
+  /// A command that was applied to the scene, the places that it touched, and the commands that undo it.
   struct Done {
     Command command;
     std::vector<Command> inverse;
@@ -109,18 +109,19 @@ class Ledger {
     bool is_abandoned = false;
   };
   Result<TakenBack> take_back(const Wish& wish);
-  /// Applies what undoes the gesture and changes nothing that others have written since; what that leaves is added to `left`.
+  /// Applies the inverse commands of the gesture except at places that others have changed since; these places are added to
+  /// `left`.
   Result<std::vector<Done>> apply_harmless(const Step& step, std::vector<Mark>& left);
   Result<std::optional<Done>> attempt(const Command& command, const Written& written, std::vector<Mark>& left);
   /// The scene as it was before these.
   void roll_back(const std::vector<Done>& trials);
   std::vector<Done> without_overwritten(std::vector<Done> trials);
-  /// The first place that the gesture wrote and somebody else has written since.
+  /// The first place of the gesture that another author has changed since.
   std::optional<Mark> first_since(const Written& written) const;
 
   const Registry* registry_;
   Scene scene_;
-  std::optional<Namers> namers_;  ///< of the scene, while steps that keep it true follow each other
+  std::optional<Namers> namers_;  ///< of the scene, kept up to date through consecutive steps
   std::set<std::pair<std::string, std::string>> placed_;
   bool is_changed_ = false;
   std::vector<LogEntry> log_;

@@ -27,7 +27,8 @@ Result<std::int64_t> number_in(const Json& line, const char* key, bool is_requir
 
 Result<LogEntry> rewind_from_json(const Json& line, LogEntry entry) {
   for (const char* key : {"command", "arguments", "undoes", "redoes"})
-    if (line.contains(key)) return Error{ErrorCode::conflict, key, "a rewind is no command and takes none back"};
+    if (line.contains(key))
+      return Error{ErrorCode::conflict, key, "a rewind has no command and undoes none: remove the other fields"};
   const auto to = number_in(line, "rewind", true);
   if (!to) return to.error();
   if (*to >= entry.tick)
@@ -196,8 +197,8 @@ class LogReader {
                        std::to_string(log.last_tick)};
     if (use_ == LogUse::replay && tick - log.last_tick > kMostTicksBetweenLines)
       return Error{ErrorCode::out_of_range, "tick",
-                   "tick " + std::to_string(tick) + " lies more than " + std::to_string(kMostTicksBetweenLines) +
-                       " ticks after the line before; no session runs that long"};
+                   "tick " + std::to_string(tick) + " is more than " + std::to_string(kMostTicksBetweenLines) +
+                       " ticks after the line before, longer than any session"};
     log.last_tick = std::max(log.last_tick, tick);
     return {};
   }

@@ -1,4 +1,4 @@
-// The log of commands: undo, journal and replay are all made of it.
+// The log of commands, which undo, journal and replay use.
 #pragma once
 
 #include <cstdint>
@@ -13,28 +13,27 @@
 
 namespace bl {
 
-/// Where an entry came from: a window, a script, a connection; and its number there, so that one that is sent twice is taken
-/// once.
+/// The origin of an entry (a window, a script, a connection) and its number there, so that an entry sent twice is applied once.
 struct Source {
   std::string origin;
   std::int64_t operation = 0;  ///< ascending within its origin; 0: none
   bool operator==(const Source&) const = default;
 };
 
-/// One command as somebody gave it, or a rewind. Entries of one gesture are undone together.
+/// One command of an author, or a rewind. Entries of one gesture are undone together.
 struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
   Author author = {};
   Command command = {};
-  std::int64_t undoes = 0, redoes = 0;  ///< the gesture that this entry takes back or brings back; 0: none
+  std::int64_t undoes = 0, redoes = 0;  ///< the gesture that this entry undoes or redoes; 0: none
   Source source = {};
-  std::string label = {};     ///< what the step is called in the history; empty: as its command says
-  bool is_abandoned = false;  ///< an undo that forgets the gesture as if it had never been: nothing brings it back
+  std::string label = {};     ///< the name of the step in the history; empty: derived from its command
+  bool is_abandoned = false;  ///< an undo for good: the gesture cannot be redone
   std::optional<std::int64_t> rewinds_to =
       {};  ///< the running state goes back to this tick, the scene stays; there is no command
 };
 
-/// A hash that was reached at a tick; replay must reach it too.
+/// A hash that was reached at a tick; a replay must reach the same one.
 struct LogCheck {
   std::int64_t tick = 0;
   std::string hash;
@@ -42,7 +41,7 @@ struct LogCheck {
   std::size_t entries = 0;  ///< how many entries of the log stand before it
 };
 
-/// What a log file holds: JSON lines, the first with the scene it starts from.
+/// The content of a log file: JSON lines, of which the first holds the initial scene.
 struct LogFile {
   std::string scene;      ///< text of the scene file
   std::int64_t base = 0;  ///< number of the last entry before the scene; 0 where the session began with it
@@ -50,21 +49,22 @@ struct LogFile {
   std::vector<LogCheck> checks;
   std::int64_t last_tick = 0;  ///< of the scene and all lines since the last rewind
   bool is_cut_off = false;     ///< the last line was incomplete, as after a crash; it is left out
-  bool has_end = false;        ///< whoever wrote it came to the end; without it lines may be missing
+  bool has_end = false;        ///< the writer reached the end; without it, lines may be missing
 };
 
 /// No line of a log may lie farther than this after the line before it [ticks]: 58 days at twenty a second.
 inline constexpr std::int64_t kMostTicksBetweenLines = 100000000;
 
-/// A replay has to come to what the log says. A recovery wants what people did, whatever the ticks, also from logs of older
-/// programs: undos of what the log does not hold are steps like any other for it.
+/// A replay must reach the hashes of the log. A recovery applies what people did, whatever the ticks, also from logs of older
+/// programs; for it, an undo of an entry that the log does not hold is an ordinary step.
 enum class LogUse { replay, recovery };
 
 /// `base`: the number of the last entry that the scene holds already.
 std::string log_header(std::string_view scene_text, std::int64_t base = 0);
 std::string log_line(const LogEntry& entry, const Registry& registry);
 std::string log_line(const LogCheck& check);
-/// Refuses lines out of order, beyond the end, far away in time, or that take back what is not there, each with its number.
+/// Refuses lines that are out of order, after the end or far away in time, and undos of missing entries, each with its line
+/// number.
 Result<LogFile> read_log(std::string_view text, const Registry& registry, LogUse use = LogUse::replay);
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// Frames are applied to a copy of the scene that people look at; the ledger gets what is due.
+// Frames are applied to a copy of the scene for display; the ledger gets the values that are due.
 #include "core/session/open_gestures.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Gestures under way: each frame of a drag is seen at once, and said in the log ten times a second at most.
+// Gestures in progress: each frame of a drag is shown at once, and logged at most ten times a second.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace bl {
 
-/// The frames of a gesture set values, each frame anew, such as where a hand has drawn a node to. What the next frame sets again
-/// before it was said is seen and never said; the last value of each place always is. Ticks know only what was said.
+/// Each frame of a gesture sets values anew, such as the position of a dragged node. A value that the next frame replaces before
+/// it was logged is shown and never logged; the last value of each place is always logged. Ticks use logged values only.
 class OpenGestures {
  public:
   /// Time between two entries of one gesture [s].
@@ -27,27 +27,27 @@ class OpenGestures {
   OpenGestures(const OpenGestures&) = delete;
   OpenGestures& operator=(const OpenGestures&) = delete;
 
-  /// One frame of the gesture that it names. `now`: seconds of a clock that never goes back, whichever it is; nothing but the
-  /// number of entries depends on it. On an error nothing changes.
+  /// Applies one frame of the named gesture. `now`: seconds of any clock that never goes back; only the number of entries depends
+  /// on it. On an error nothing changes.
   Result<void> show(Submission frame, std::int64_t tick, double now);
-  /// Says what has waited long enough. An error where it does not fit any more: it is not shown any longer, either.
+  /// Logs the values that are due. A value that does not fit the scene any more is an error, and is no longer shown.
   Result<void> say_due(std::int64_t tick, double now);
-  /// Says what waits, and ends the gesture.
+  /// Logs the waiting values, and ends the gesture.
   Result<void> end(std::int64_t gesture, std::int64_t tick);
-  /// The same for all gestures of an author.
+  /// Does the same for all gestures of an author.
   Result<void> end_all(const Author& author, std::int64_t tick);
-  /// Ends the gesture; what waits is never said.
+  /// Ends the gesture; waiting values are never logged.
   void drop(std::int64_t gesture);
   bool is_open(std::int64_t gesture) const { return open_.contains(gesture); }
 
-  /// The scene as people see it: with what waits to be said. What this has returned can be read until forget_past() is called,
-  /// also where the gesture has ended meanwhile: a window may hold on to it while it draws.
+  /// The scene for display, with the values that wait to be logged. A returned scene can be read until forget_past() is called,
+  /// even if the gesture has ended meanwhile: a window may use it while it draws.
   const Scene& shown() const { return shown_ ? *shown_ : ledger_->scene(); }
   void forget_past() { past_.clear(); }
   bool is_waiting() const;
-  /// The ports that what waits has put somewhere, by node and path.
+  /// The ports that waiting values have set to a place, by node and path.
   std::set<std::pair<std::string, std::string>> placed() const;
-  /// Another number for each change of what waits.
+  /// A number that changes with each change of the waiting values.
   std::uint64_t revision() const { return revision_; }
 
  private:

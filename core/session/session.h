@@ -1,4 +1,4 @@
-// A running scene that people change by commands: the one verb is submit().
+// A running scene that people change by commands with submit().
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ namespace bl {
 
 class Session {
  public:
-  /// Starts from a scene, and from its saved state where there is one.
+  /// Starts from a scene, and from its saved state if there is one.
   static Result<std::unique_ptr<Session>> start(const Registry& registry, const Scene& scene, const SavedState* state,
                                                 int threads, double (*now)() = nullptr);
 
-  /// As Ledger's, for the coming tick.
+  /// The same as in Ledger, for the next tick.
   Result<void> submit(const Command& command, const Author& author, std::int64_t gesture = 0) {
     return ledger_.submit(command, author, state()->tick, gesture);
   }
@@ -29,22 +29,22 @@ class Session {
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
   Result<TakenBack> undo(const Author& author) { return ledger_.undo(author, state()->tick); }
   Result<TakenBack> redo(const Author& author) { return ledger_.redo(author, state()->tick); }
-  /// An entry of a log, as Ledger's; a rewind takes the running state back.
+  /// An entry of a log, as in Ledger; a rewind sets the running state back.
   Result<void> replay(const LogEntry& entry);
-  /// The running state goes back to a tick whose state is kept; the scene stays as it is.
+  /// Sets the running state back to a tick whose state is kept; the scene stays the same.
   Result<void> rewind(std::int64_t tick, const Author& author);
-  /// The states with which these ticks begin are kept, so that a rewind can return to them.
+  /// Keeps the states with which these ticks begin, so that a rewind can return to them.
   void keep_states(std::set<std::int64_t> ticks) { kept_ticks_ = std::move(ticks); }
 
-  /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state
-  /// is the one before, and the commands wait for the next tick.
+  /// One tick with the commands since the last one. False where the work was stopped (core/base/stop): the state is then the one
+  /// before, and the commands wait for the next tick.
   bool tick();
 
-  /// For gestures that are under way (`open_gestures.h`).
+  /// For gestures in progress (`open_gestures.h`).
   Ledger& ledger() { return ledger_; }
   const Scene& scene() const { return ledger_.scene(); }
   std::shared_ptr<const State> state() const { return simulation_.state(); }
-  /// The state as the next tick will begin with it, under the scene as people have it now: what is saved beside that scene.
+  /// The state with which the next tick will begin, under the present scene; it is saved beside that scene.
   std::shared_ptr<const State> coming_state() const;
   const std::vector<LogEntry>& log() const { return ledger_.log(); }
   const PhaseTimes& times() const { return simulation_.times(); }
@@ -61,7 +61,7 @@ class Session {
   std::map<std::int64_t, std::shared_ptr<const State>> kept_;
 };
 
-/// The end of a replay, and where it first left the path of the log.
+/// The end of a replay, and the first tick whose hash differs from the log.
 struct ReplayReport {
   std::int64_t ticks = 0, entries = 0;
   std::string hash;

@@ -16,13 +16,13 @@ struct TableSite {
 };
 Result<TableSite> find_table(const SceneEdit& edit, const std::string& node, const PortChoice& port);
 
-/// The number of the row, or the sentence why there is none: `row` is the text in the key column, or a number from 0.
+/// The number of the row, or an error. `row` is the text in the key column, or a number from 0.
 Result<std::size_t> find_row(const TableSite& site, const std::string& row);
-/// How commands name the row.
+/// The name of the row in commands.
 std::string name_of_row(const TableSite& site, std::size_t row);
 
-/// The commands that make a table of a node another one and change nothing else of it: of its rows and fields where the rows have
-/// names, of the whole port where they have none. `path` is `typification.port`.
+/// The commands that turn a table of a node into another one. They change single rows and fields where the rows have names, else
+/// the whole port. `path` is `typification.port`.
 std::vector<Command> table_commands(const std::string& node, const std::string& path, const PortDefinition& port,
                                     const Table& before, const Table& after);
 

@@ -1,4 +1,4 @@
-// Undo and redo: what a gesture has done is taken back by new entries, as far as nobody else has written there since.
+// Undo and redo: new entries reverse a gesture, except at places that others have changed since.
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -110,7 +110,7 @@ Result<TakenBack> Ledger::take_back(const Wish& wish) {
   if (taken.misfit) return *taken.misfit;
   const auto named = std::find_if(log_.rbegin(), log_.rend(), [&](const LogEntry& e) { return e.gesture == wish.gesture; });
   if (wish.gesture != 0 && named != log_.rend() && named->rewinds_to)
-    return Error{ErrorCode::conflict, "", "a rewind cannot be undone: the ticks after it were given up"};
+    return Error{ErrorCode::conflict, "", "a rewind cannot be undone: the later states were discarded"};
   return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + wish.author.id};
 }
 

@@ -1,4 +1,4 @@
-// Places inside the view of a scene: where two views differ, and what of one is to be had in the other.
+// Places inside the view of a scene: where two views differ, and patches from one to the other.
 #pragma once
 
 #include <set>
@@ -9,12 +9,12 @@
 
 namespace bl {
 
-/// The paths at which two views differ, each down to what is no object; where nothing differs but the order of keys or objects
-/// without content, the empty path. `changes`, where given, is a patch that led from one to the other: only its keys are looked
-/// at. Keys are steps of the paths (`step_of`).
+/// The paths at which two views differ, each down to a value that is no object; the empty path where only the order of keys or
+/// empty objects differ. `changes`, where given, is a patch that led from one to the other; only its keys are compared. Keys are
+/// steps of the paths (`step_of`).
 std::vector<std::string> view_differences(const Json& before, const Json& after, const Json* changes = nullptr);
 
-/// The patch that gives a view at these paths what `wanted` has there; null where it has nothing.
+/// The patch that gives a view the values of `wanted` at these paths; null where it has none.
 Json patch_at(const Json& wanted, const std::set<std::string>& paths);
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// Who wrote what stands in a scene now, so that an undo takes back only what is its author's own.
+// Records the author of each place of a scene, so that an undo reverses only its author's own changes.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,42 @@
 
 namespace bl {
 
-/// The gesture that made a place what it is; none (0) where it stands as it was opened.
+/// The gesture that last changed a place; none (0) where the place is unchanged since the scene was opened.
 struct Writer {
   std::int64_t gesture = 0;
   Author author;
   bool operator==(const Writer&) const = default;
 };
 
-/// Is the place something that is set, in contrast to a node, role, row, lock, link or script that comes and goes?
+/// Is the place a value, in contrast to a node, role, row, lock, link or script, which are added and removed?
 bool is_set_value(const Touch& place);
 
-/// A place, and whose it is.
+/// A place with its mark.
 struct Mark {
   Touch place;
   Writer writer;
 };
 
-/// What a gesture has written: the places with the marks that they bore before. No mark: the place was its outer place's
-/// writer's.
+/// The places that a gesture has written, with their marks before. No mark: the place belonged to the writer of the place around
+/// it.
 struct Written {
   Writer writer;
   std::map<Touch, std::optional<Writer>> before;
-  std::map<Touch, Writer> restored;  ///< whose the places are that an undo or redo brought back
+  std::map<Touch, Writer> restored;  ///< the owners of the places that an undo or redo restored
 };
 
-/// Marks places; a place without a mark is its outer place's writer's. An undo brings the marks back with the values: what Ben
-/// wrote is Ben's again once Anna has taken back what she wrote over it.
+/// Marks places; a place without a mark belongs to the writer of the place around it. An undo restores the marks with the values:
+/// a value of Ben is Ben's again once Anna has undone her change of it.
 class Writers {
  public:
-  /// The mark that says whose the place is: its own, or that of the nearest place around it.
+  /// The mark of the place: its own, or that of the nearest place around it.
   Mark of(const Touch& place) const;
-  /// The gesture writes these places, and all that lies inside them; `written` keeps what was there before it.
+  /// Marks these places, and all that lies inside them, as written by the gesture; `written` keeps the earlier marks.
   void write(const std::vector<Touch>& places, Written& written);
-  /// The same by an undo or redo of `other`, which makes the places what they were before that.
+  /// The same for an undo or redo of `other`, which restores the places.
   void write_back(const std::vector<Touch>& places, const Written& other, Written& written);
 
-  /// The place, or one inside it, that somebody else has written since `other` did.
+  /// The place, or one inside it, that another author has written since `other`.
   std::optional<Mark> since(const Touch& place, const Written& other) const;
 
  private:

@@ -1,4 +1,4 @@
-// Who stands between a point and the sun: the triangles of all casters, searched with Embree, judged by ourselves.
+// Finds the casters between a point and the sun: Embree searches their triangles, and triangle_hit.h decides the hits.
 #pragma once
 
 #include <cstdint>

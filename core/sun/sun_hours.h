@@ -1,4 +1,4 @@
-// How long the sun reaches points, who takes how much of it, over the moments of a study.
+// Hours of sun on points over the moments of a study, and the part that each caster takes.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct SunPoint {
 
 /// What one caster takes from a receiver, as means over its points [s per day].
 struct SunLoss {
-  double lost = 0;    ///< the sun that the receiver would have more without this one caster
-  double shared = 0;  ///< its part of all blocked time: at each moment the casters in the way share it alike
+  double lost = 0;    ///< the sun that the receiver would gain without this one caster
+  double shared = 0;  ///< its part of all blocked time: at each moment the blocking casters share it equally
 };
 
 struct SunHours {

@@ -1,4 +1,4 @@
-// A whole study: rectangles that want sun, casters in the way, and what each has and takes.
+// A whole study: rectangles that need sun, casters, the sun of each receiver and the loss by each caster.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ void level_axes(double width, double depth, double rotation, SunReceiver& receiv
 /// Half axes of an upright one that looks to `azimuth`, clockwise from the y axis [degree].
 void upright_axes(double width, double height, double azimuth, SunReceiver& receiver);
 
-/// What a receiver has, over its grid.
+/// The sun of a receiver, over its grid.
 struct SunRecord {
   SunGrid grid;
   SunHours hours;

@@ -90,11 +90,11 @@ struct DistrictResult {
   struct Street {
     double flow_forth = 0, flow_back = 0, time_forth = 0, time_back = 0;  ///< [1/h], [s]
     double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
-    std::string reason;                                                   ///< why nobody drives here; empty where one may
+    std::string reason;                                                   ///< why no car can drive here; empty where cars can
   };
   struct Rules {
     int forbidden = 0;   ///< turns that could be taken without them
-    std::string reason;  ///< which do not hold, with their place ("turns/1/from"), and why; empty where all do
+    std::string reason;  ///< those without effect, with place ("turns/1/from") and reason; empty where all apply
   };
   struct Junction {
     int streets = 0;
@@ -113,7 +113,7 @@ struct DistrictResult {
     std::string reason;           ///< why trips are lost; empty where none are
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
-  /// A zone where other than the wanted number of trips ends, though what ends in zones holds.
+  /// A zone where the number of trips that end differs from the wanted one, although it should be kept.
   struct Arrival {
     std::size_t zone = 0;  ///< as given
     double missing = 0;    ///< of the wanted ones [1/h]; below 0 where more end there
@@ -130,7 +130,7 @@ struct DistrictResult {
   double total_time = 0;             ///< vehicle seconds in an hour
   double objective = 0;              ///< Beckmann's, of costs
   int iterations = 0;
-  bool is_at_rest = false;  ///< neither trips nor ways have changed: `state` is the last one, bit for bit
+  bool is_at_rest = false;  ///< neither trips nor routes have changed: `state` is the last one, bit for bit
   DistrictState state;
 };
 

@@ -1,4 +1,4 @@
-// User equilibrium: trips spread over the network so that nobody gains by another way, found from a cold or a warm start.
+// User equilibrium: an assignment in which no trip has a cheaper route, found from a cold or a warm start.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct LostTrips {
 /// Where an assignment stands. Costs are generalised where factors were given.
 struct EquilibriumFigures {
   int iterations = 0;
-  double gap = 1;            ///< relative: the share of the total cost that vanished if everybody took today's shortest way
+  double gap = 1;            ///< relative: the share of the total cost saved if each trip took its cheapest route now
   double objective = 0;      ///< Beckmann's: the sum of the areas under the cost curves
   double total_cost = 0;     ///< sum of flow · cost
-  double shortest_cost = 0;  ///< the same if all went the shortest way at these costs
+  double shortest_cost = 0;  ///< the same with all trips on the cheapest routes at these costs
   double trips = 0;          ///< on the streets
   double lost = 0;           ///< trips that cannot reach their destination
   double within = 0;         ///< trips that begin and end in one zone and need no street
-  double waiting = 0;        ///< trips that nobody has looked at, because the work was stopped before; the gap is 1 then
+  double waiting = 0;        ///< trips that were not loaded, because the work was stopped before; the gap is 1 then
   std::size_t cut = 0;       ///< links whose cost is not that of the formula (`TrafficNetwork::is_cut`)
 };
 

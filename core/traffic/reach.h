@@ -1,4 +1,4 @@
-// How far one gets from a place: travel times, the parts of streets within a time, and accessibility.
+// Reach from a place: travel times, the parts of streets within a time, and accessibility.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Deals the trips that leave zones out to the zones where they end: a gravity model by travel time.
+// Distributes the trips that leave zones over the zones where they end: a gravity model by travel time.
 #pragma once
 
 #include <span>

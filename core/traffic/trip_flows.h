@@ -1,4 +1,4 @@
-// Where the trips of each zone of a network are, for whoever shows or exports them.
+// The flows of the trips of each zone of a network, for views and exporters.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Forbidden turns: splits the nodes where there are any, so that how one goes on depends on where one came from.
+// Forbidden turns: splits the nodes that have any, so that the allowed links depend on the link of arrival.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace bl::traffic {
 
-/// Nobody may go on from the link `from` by the link `to`, which begins where `from` ends. Both ids of links.
+/// The turn from the link `from` into the link `to`, which begins where `from` ends, is forbidden. Both are ids of links.
 struct ForbiddenTurn {
   std::string from, to;
 };

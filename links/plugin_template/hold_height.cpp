@@ -1,4 +1,4 @@
-// Holds a node a wanted height above another one.
+// Holds a node at a wanted height above another one.
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -18,7 +18,9 @@ struct HoldHeight {
   };
 
   static void declare(LinkBuilder<HoldHeight>& l) {
-    l.id("hold_height").label("Hold height").doc("Holds a node a wanted height above another one; the plan is left alone.");
+    l.id("hold_height")
+        .label("Hold height")
+        .doc("Holds a node at a wanted height above another one. Its position in plan does not change.");
     l.param(&In::height, "height").unit(Unit::metre).soft(-50, 50).doc("How far above the other node.");
     l.param(&In::stiffness, "stiffness").unit(Unit::ratio).range(0, 1).doc("Share of the error corrected in a tick.");
     l.reads(&Ends::base, End::from, "node.position", Unit::metre);

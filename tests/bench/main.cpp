@@ -16,7 +16,7 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")
       ->type_name("K")
       ->check(CLI::Range(1, 256));
-  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3, of the solver 5.")
+  c.add_option("--repeat", o.repeat, "Number of measurements, of which the median is taken. Default: 3, for the solver 5.")
       ->type_name("R")
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));

@@ -79,9 +79,10 @@ TEST(Adjacency, SaysWhoDoesNotTouch) {
   without_body.from("smart_volume.radius", 0.0);
   for (LinkCase* link : {&apart, &barred, &touching, &without_body}) ASSERT_EQ(link->run(), "");
   EXPECT_EQ(apart.remarked(LinkRemark::short_of),
-            "`h` and `b` do not touch: 16.0 m are between them; move one of them, or what stands in the way");
-  EXPECT_EQ(barred.remarked(LinkRemark::short_of),
-            "`h` and `b` do not touch: others or the boundary part them; move one of them, or what stands in the way");
+            "`h` and `b` do not touch: 16.0 m are between them; move one of them, or what lies between them");
+  EXPECT_EQ(
+      barred.remarked(LinkRemark::short_of),
+      "`h` and `b` do not touch: other volumes or the boundary lie between them; move one of them, or what lies between them");
   EXPECT_EQ(touching.remarked(LinkRemark::short_of), "");
   EXPECT_EQ(without_body.remarked(LinkRemark::short_of), "") << "that it has no body is said elsewhere";
 }

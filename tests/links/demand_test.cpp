@@ -56,17 +56,16 @@ TEST(Demand, AVolumeWithoutARowTakesPartInNothingAndIsNamed) {
   auto empty = dealt({kA, kB, kC}, {kHousing, kSchool, std::string()});
   ASSERT_EQ(empty.run(), "");
   EXPECT_EQ(empty.remarked(LinkRemark::short_of),
-            "`c` has no use, so the programme asks nothing of it: give it a use of the programme");
+            "`c` has no use, so it gets no demand from the programme: give it a use of the programme");
   EXPECT_NEAR(empty.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
 }
 
 TEST(Demand, AUseWithoutAVolumeIsShortAndAllOthersGoOn) {
   auto link = dealt({kA}, {kHousing});
   ASSERT_EQ(link.run(), "");
-  EXPECT_EQ(
-      link.remarked(LinkRemark::short_of),
-      "no volume has the use `school`, so all of the 900 m² that are asked for are missing: give a volume that use, add one, "
-      "or remove the row");
+  EXPECT_EQ(link.remarked(LinkRemark::short_of),
+            "no volume has the use `school`, so all of the 900 m² that it asks for are missing: give a volume that use, add one, "
+            "or remove the row");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
   ASSERT_EQ(link.set("every_row", false).run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::short_of), "");
@@ -104,7 +103,7 @@ TEST(Demand, AQuarterWithoutItsHotelAndWithANewVolumeStillFollowsItsBrief) {
   world.tick(3);
   EXPECT_EQ(world.number("office-1", "smart_volume.demand"), 9000 * 3.6) << "what is edited in the brief arrives";
   const std::string said = world.link_error("brief");
-  EXPECT_NE(said.find("no volume has the use `hotel`, so all of the 4400 m² that are asked for are missing"), std::string::npos)
+  EXPECT_NE(said.find("no volume has the use `hotel`, so all of the 4400 m² that it asks for are missing"), std::string::npos)
       << said;
   EXPECT_NE(said.find("`new` has no use"), std::string::npos) << said;
   EXPECT_NE(said.find("`cafe` has the use `cafe`, for which the programme has no row"), std::string::npos) << said;

@@ -42,7 +42,7 @@ expect 'the copied template builds' 0
 run run "$place/scene.json" --ticks 3
 expect 'without the plugin its links rest' 0 'unknown link kind `hold_height`'
 run --plugins "$place/good" docs hold_height
-expect 'its page follows from the declaration' 0 'Holds a node a wanted height above another one'
+expect 'its page follows from the declaration' 0 'Holds a node at a wanted height above another one'
 run --plugins "$place/good" run "$place/scene.json" --json "$place/out.json" --save "$place/saved.json"
 expect 'it moves the node and settles' 0 'settled after'
 output=$(cat "$place/saved.json") code=0

@@ -23,8 +23,9 @@ TEST(Actuator, WritesItsMessage) {
 
 TEST(Actuator, RefusesWhatCannotBeSent) {
   const std::string place = "nodes/it/actuator/";
-  EXPECT_EQ(message_of(R"("format": "on")"), place + "format: has no `{value}` where the number would go: put one in");
-  EXPECT_EQ(message_of(R"("address": "http://host/x")"), place + "address: messages are sent by `mqtt://` or `osc://` only");
+  EXPECT_EQ(message_of(R"("format": "on")"), place + "format: has no `{value}` in place of the number: put one in");
+  EXPECT_EQ(message_of(R"("address": "http://host/x")"),
+            place + "address: messages are sent by `mqtt://` or `osc://` only: write such an address");
   EXPECT_EQ(message_of(R"("address": "mqtt://me:secret@host/x")"),
             place + "address: names and passwords do not belong into an address: they would stand in the scene and in every log");
 }

@@ -55,7 +55,7 @@ TEST(Statistics, APortHasToBeChosen) {
   World world = World::from_text(volumes_and(R"("port": "")"));
   world.tick();
   EXPECT_EQ(world.node_error("it", "statistics"),
-            "nodes/it/statistics/port: choose the port to look at, such as `smart_volume.volume`");
+            "nodes/it/statistics/port: no port is chosen: choose one, such as `smart_volume.volume`");
 }
 
 TEST(Statistics, UnitsAreThoseOfThePort) {

@@ -38,7 +38,8 @@ TEST(Terrain, DamagedRowsAreSaid) {
     return world.node_error("it", "terrain");
   };
   EXPECT_EQ(error(R"({"heights": "AAAAAA"}, {"heights": "AAA"})"),
-            "nodes/it/terrain/rows/1/heights: a row has three characters for each cell, and as many cells as the first row");
+            "nodes/it/terrain/rows/1/heights: a row needs three characters for each cell, and as many cells as the first row: "
+            "import the grid again");
   EXPECT_EQ(error(R"({"heights": "AAA A "})"),
             "nodes/it/terrain/rows/0/heights: character 4 is no digit of base 64: import the grid again");
   EXPECT_EQ(error(""), "");

@@ -98,7 +98,7 @@ TEST(TrafficNetwork, FiguresThatAnOlderProgramKeptAreNoReasonToLoseAScene) {
       full_registry());
   EXPECT_TRUE(reading.is_usable());
   ASSERT_EQ(reading.problems.size(), 1u);
-  EXPECT_NE(reading.problems.front().error.text().find("worked out again"), std::string::npos);
+  EXPECT_NE(reading.problems.front().error.text().find("computed again"), std::string::npos);
 }
 
 TEST(TrafficNetwork, AnEditIsAnsweredFromTheOldFlows) {

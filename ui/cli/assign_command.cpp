@@ -66,7 +66,7 @@ class AssignRun {
     if (flows_) json["comparison"] = compare(equilibrium);
     bool is_met_again = true;
     if (is_interrupted() && !edits_.empty()) {
-      print_line("stopped before the edit: it is not made", Colour::red);
+      print_line("stopped before the edit, which is not made", Colour::red);
     } else if (!edits_.empty()) {
       is_met_again = settle_edited(equilibrium);
       tell_lost(equilibrium);
@@ -84,7 +84,7 @@ class AssignRun {
         return kBadInput;
       }
     if (is_interrupted()) {
-      print_line(o_.json.empty() ? "stopped" : "stopped; written as far as it has come: " + o_.json, Colour::red);
+      print_line(o_.json.empty() ? "stopped" : "stopped; the result so far is written: " + o_.json, Colour::red);
       return interrupt_exit_code();
     }
     return is_met && is_met_again ? kDone : kNotMet;
@@ -288,8 +288,9 @@ class AssignRun {
       print_line("  waiting     " + fixed(figures.waiting, 1) +
                  " trips were not loaded before it was stopped: flows and costs are those of the others");
     if (figures.cut > 0)
-      print_line("  cut         " + counted(figures.cut, "link") +
-                 " would cost more than 1e100: gap, objective and total are those of smaller costs, not of the formula");
+      print_line(
+          "  cut         " + counted(figures.cut, "link") +
+          " would cost more than 1e100: gap, objective and total are computed with smaller costs than those of the formula");
   }
 
   void tell_lost(const traffic::Equilibrium& equilibrium) const {

@@ -1,4 +1,4 @@
-// From the fields of a boundary to the makers of domains.
+// Makes a domain from the fields of a boundary.
 #include "ui/cli/boundary_fields.h"
 
 #include <utility>
@@ -125,7 +125,7 @@ Result<BoundaryReading> boundary_at(const Json& json, const std::string& place) 
   for (const char* const key : {"hole", "holes", "step", "steps", "setback", "setbacks", "exclusion", "exclusions"}) {
     if (!json.contains(key) || (key == std::string("holes") && json.contains("plan"))) continue;
     return Error{ErrorCode::unknown_field, slash(place, key),
-                 "is not read here: a plan takes `holes`; what else is cut out of a boundary, give as `mesh`"};
+                 "is not read here: a plan takes `holes`; give a boundary with other cuts as `mesh`"};
   }
   reading.domain = std::move(*domain);
   return reading;

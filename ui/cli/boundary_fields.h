@@ -8,15 +8,15 @@
 
 namespace bl::cli {
 
-/// The forms, as a sentence about a boundary without any of them says it.
+/// The list of forms, for the message about a boundary that has none of them.
 extern const char* const kBoundaryForms;
 
 struct BoundaryReading {
   geometry::Domain domain;
-  bool has_given_planes = false;  ///< made of planes: side `#k` is the k-th of them, and nobody needs to be told
+  bool has_given_planes = false;  ///< made of planes: side `#k` is the k-th of them, so that the planes are not reported
 };
 
-/// Further fields of the object are not looked at; where several forms stand side by side, the first of the forms counts.
+/// Other fields of the object are ignored; where it has several forms, the first one counts.
 Result<BoundaryReading> boundary_at(const Json& json, const std::string& place);
 
 }  // namespace bl::cli

@@ -99,7 +99,7 @@ int cells_command(const CellsOptions& options) {
   const auto output = all_cases(*input, options, pool);
   if (!output) return kBadInput;
   if (is_interrupted() && !input->is_list) {
-    print_line("stopped before the cells were there; nothing is written", Colour::red);
+    print_line("stopped before the cells were computed; nothing is written", Colour::red);
     return interrupt_exit_code();
   }
   if (auto written = write_file(options.json, write_json(*output) + "\n"); !written) {

@@ -1,4 +1,4 @@
-// The commands of the program: what each is told, and the function that does it and gives the exit code.
+// The commands of the program: the options of each, and the function that runs it and returns the exit code.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace bl::cli {
 
-/// Exit codes: all went well; the input is bad; what was asked for cannot be had. What an interrupt ends with is in interrupt.h.
+/// Exit codes: success; bad input; the request cannot be met. The exit codes of interrupts are in interrupt.h.
 inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3;
 
 struct RunOptions {
   std::string scene;
   long long ticks = -1;        ///< -1: run until settled
-  bool is_settling = false;    ///< said in words; it is the default where no ticks are given
-  long long max_ticks = 2000;  ///< of a run until settled
+  bool is_settling = false;    ///< given explicitly; it is the default where no ticks are given
+  long long max_ticks = 2000;  ///< largest number of ticks of a run until settled
   int threads = 1;
   std::string log, report, json, save;
   std::vector<std::string> set, scripts;
@@ -52,7 +52,7 @@ int replay_command(const ReplayOptions& options);
 struct CompareOptions {
   std::string first, second;
   long long ticks = -1;        ///< -1: until settled
-  long long max_ticks = 2000;  ///< of a run until settled
+  long long max_ticks = 2000;  ///< largest number of ticks of a run until settled
   int threads = 1;
   std::string report;
 };
@@ -71,7 +71,7 @@ struct PlaceOptions {
 int place_command(const PlaceOptions& options);
 
 struct OpenOptions {
-  std::vector<std::string> arguments;  ///< as the window's own program takes them
+  std::vector<std::string> arguments;  ///< the arguments of the window's own program
 };
 /// Returns only where that program could not be started.
 int open_command(const OpenOptions& options);
@@ -109,8 +109,8 @@ struct AssignOptions {
   int iterations = 1000;                          ///< at most
   double toll_factor = -1, distance_factor = -1;  ///< below 0: what the file says, or 0
   std::vector<std::string> edit_capacity, close;  ///< LINK=VALUE, LINK: applied to the equilibrium found
-  std::vector<std::string> routes, reach;         ///< FROM-TO, NODE=LIMIT: told of the last equilibrium
-  int repeat = 1;                                 ///< of the measured parts; medians are told
+  std::vector<std::string> routes, reach;         ///< FROM-TO, NODE=LIMIT: reported for the last equilibrium
+  int repeat = 1;                                 ///< how often to measure; the median times are reported
 };
 int assign_command(const AssignOptions& options);
 

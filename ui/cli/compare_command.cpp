@@ -1,4 +1,4 @@
-// `compare`: runs two scenes and tells every indicator that differs, with what people set differently.
+// `compare`: runs two scenes and lists every indicator and every setting that differs.
 #include <algorithm>
 #include <filesystem>
 
@@ -91,7 +91,7 @@ int compare_command(const CompareOptions& options) {
   if (!before) return kBadInput;
   const auto after = outcome_of(options.second, *second, options);
   if (!after) return kBadInput;
-  if (is_interrupted()) print_line("stopped: both are compared as they stand, settled or not", Colour::red);
+  if (is_interrupted()) print_line("stopped: both scenes are compared in their present state, settled or not", Colour::red);
   const report::Comparison comparison = report::compare(*before, *after, kLeastShare);
   print_comparison(comparison);
   if (options.report.empty()) return is_interrupted() ? interrupt_exit_code() : kDone;

@@ -1,4 +1,4 @@
-// The words of the command line, told to the library that reads it; `main.cpp` hands over to the commands.
+// Declares the command line to the library that parses it; `main.cpp` runs the commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace bl::cli {
 
-/// --threads, as all commands have it that compute.
+/// --threads, for all commands that compute.
 void add_threads(CLI::App& command, int& threads);
 
 void declare_new(CLI::App& app, making::NewOptions& o);

@@ -1,4 +1,4 @@
-// The words of the commands that work on files without scenes: cells, fit and assign.
+// Declares the commands that work on files without scenes: cells, fit and assign.
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 
@@ -27,7 +27,7 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
   c.add_option("input", o.input, "Boundary, sites and weights as JSON, or sites and weights as CSV, in m and m2.")
       ->type_name("FILE")
       ->required();
-  c.add_option("--json", o.json, "Where the cells are written, in m2 and m3.")->type_name("OUT")->required();
+  c.add_option("--json", o.json, "File for the cells, in m2 and m3.")->type_name("OUT")->required();
   c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
   files_of(c).reads({"input", "--boundary"}).writes("--json", FileKind::figures);
   c.add_flag("--complex", o.with_complex, "Writes the facets, edges and vertices between the unshrunk cells as well.");
@@ -47,18 +47,16 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
 }
 
 void declare_fit(CLI::App& app, FitFileOptions& o) {
-  CLI::App& c = *app.add_subcommand("fit", "Finds the weights with which sites have the volumes that they are to have.");
+  CLI::App& c = *app.add_subcommand("fit", "Finds the weights with which sites get their demanded volumes.");
   c.add_option("input", o.input, "Boundary, sites and demands as JSON, or sites and demands as CSV, in m, m2 and m3.")
       ->type_name("FILE")
       ->required();
-  c.add_option("--json", o.json, "Where weights, volumes and what became of the demands are written.")
-      ->type_name("OUT")
-      ->required();
+  c.add_option("--json", o.json, "File for weights, volumes and the result of each demand.")->type_name("OUT")->required();
   c.add_option("--method", o.method, "newton: all sites together, few steps; feedback: each by its own error. Default: newton.")
       ->type_name("METHOD")
       ->check(CLI::IsMember({"newton", "feedback"}));
   c.add_option("--tolerance", o.tolerance, "Largest relative error that counts as met. Default: 1e-6.")->type_name("T");
-  c.add_option("--steps", o.steps, "Gives up after so many evaluations of all cells. Default: 200.")
+  c.add_option("--steps", o.steps, "Largest number of evaluations of all cells. Default: 200.")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
@@ -74,62 +72,61 @@ void declare_fit(CLI::App& app, FitFileOptions& o) {
       "        {\"floor_area\": 400 or {\"min\", \"max\"}, \"storey_height\": 3} (m2 and m); for each site, null for a\n"
       "        locked one, or with `groups` for each group; sites in no group keep their weight\n" +
       std::string(kBoundaryFormsHelp) +
-      "Output: {\"weights\", \"volumes\", \"iterations\", \"evaluations\", \"max_relative_error\",\n"
-      "         \"status\": \"met\", \"infeasible\", \"step limit\" or \"cancelled\", \"reasons\": [sentence, ...],\n"
-      "         \"losses\": [{\"demand\", \"sites\", \"wanted\", \"had\"}, ...]}\n\n"
-      "Example:\n  behaviourlinks fit sites.json --json weights.json\n\n"
-      "Exit codes: 0 all demands met; 2 bad input; 3 some are not, with the best that was found written; 130 stopped by Ctrl-C, "
-      "with everything written.");
+      "Output: {\"weights\", \"volumes\", \"iterations\", \"evaluations\", \"max_relative_error\",\n         \"status\": "
+      "\"met\", \"infeasible\", \"step limit\" or \"cancelled\", \"reasons\": [sentence, ...],\n         \"losses\": "
+      "[{\"demand\", \"sites\", \"wanted\", \"had\"}, ...]}\n\nExample:\n  behaviourlinks fit sites.json --json "
+      "weights.json\n\nExit codes: 0 all demands met; 2 bad input; 3 some are not met, and the best weights found are written; "
+      "130 stopped by Ctrl-C, with everything written.");
 }
 
 void declare_assign(CLI::App& app, AssignOptions& o) {
   CLI::App& c =
-      *app.add_subcommand("assign", "Spreads trips over a road network so that nobody gains by another way (TNTP files).");
+      *app.add_subcommand("assign", "Finds the user equilibrium of a road network: no trip has a cheaper route (TNTP files).");
   c.add_option("net", o.net, "The network, `..._net.tntp`.")->type_name("NET")->required();
   c.add_option("trips", o.trips, "The trips between its zones, `..._trips.tntp`.")->type_name("TRIPS")->required();
   c.add_option("--gap", o.gap, "Relative gap to reach. Default: 1e-6.")->type_name("G")->check(CLI::Range(0.0, 1.0));
-  c.add_option("--iterations", o.iterations, "Gives up after so many iterations. Default: 1000.")
+  c.add_option("--iterations", o.iterations, "Largest number of iterations. Default: 1000.")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000));
   c.add_option("--toll-factor", o.toll_factor,
-               "What a unit of toll counts in units of time. Default: what the network says, or 0.")
+               "Units of time that a unit of toll counts as. Default: the value of the network, or 0.")
       ->type_name("F")
       ->check(CLI::NonNegativeNumber);
   c.add_option("--distance-factor", o.distance_factor,
-               "What a unit of length counts in units of time. Default: what the network says, or 0.")
+               "Units of time that a unit of length counts as. Default: the value of the network, or 0.")
       ->type_name("F")
       ->check(CLI::NonNegativeNumber);
   c.add_option("--flows", o.flows, "Compares the flows with those of a file, `..._flow.tntp`.")->type_name("FILE");
   c.add_option("--edit-capacity", o.edit_capacity,
-               "Then changes the capacity of a link, as often as needed, and finds the new equilibrium from the old one.")
+               "Then changes the capacity of a link and finds the new equilibrium from the old one. May be repeated.")
       ->type_name("LINK=VALUE")
       ->expected(1)
       ->take_all();
-  c.add_option("--close", o.close, "Then closes a link, as often as needed, and goes on in the same way.")
+  c.add_option("--close", o.close, "Then closes a link and finds the new equilibrium. May be repeated.")
       ->type_name("LINK")
       ->expected(1)
       ->take_all();
-  c.add_option("--routes", o.routes, "Lists the ways that the trips from one zone to another use, as often as needed.")
+  c.add_option("--routes", o.routes, "Lists the routes of the trips from one zone to another. May be repeated.")
       ->type_name("FROM-TO")
       ->expected(1)
       ->take_all();
-  c.add_option("--reach", o.reach, "Says how far one gets from a node at these flows within a cost, as often as needed.")
+  c.add_option("--reach", o.reach, "Lists what can be reached from a node within a cost, at these flows. May be repeated.")
       ->type_name("NODE=LIMIT")
       ->expected(1)
       ->take_all();
-  c.add_option("--repeat", o.repeat, "Measures so often and tells the median time. Default: 1.")
+  c.add_option("--repeat", o.repeat, "Number of measurements, of which the median time is printed. Default: 1.")
       ->type_name("R")
       ->check(CLI::Range(1, 100000));
-  auto* json = c.add_option("--json", o.json, "Writes figures, and flow and cost of each link.")->type_name("OUT");
+  auto* json = c.add_option("--json", o.json, "File for the figures, and for flow and cost of each link.")->type_name("OUT");
   c.add_option("--nodes", o.nodes, "Adds the places of the nodes to --json, for maps: `..._node.tntp`.")
       ->type_name("FILE")
       ->needs(json);
   files_of(c).reads({"net", "trips", "--flows", "--nodes"}).writes("--json", FileKind::figures);
   c.footer(
-      "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have the\n"
-      "units of the files. The gap is the share of the total cost that vanished if all took today's shortest way.\n\n"
-      "Example:\n  behaviourlinks assign city_net.tntp city_trips.tntp --gap 1e-4 --edit-capacity 3-12=9000\n\n"
-      "Exit codes: 0 the gap is reached; 2 bad input; 3 it is not; 130 stopped by Ctrl-C.");
+      "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have "
+      "the\nunits of the files. The gap is the share of the total cost that would be saved if each trip took its cheapest route "
+      "now.\n\nExample:\n  behaviourlinks assign city_net.tntp city_trips.tntp --gap 1e-4 --edit-capacity 3-12=9000\n\nExit "
+      "codes: 0 the gap is reached; 2 bad input; 3 it is not; 130 stopped by Ctrl-C.");
 }
 
 }  // namespace bl::cli

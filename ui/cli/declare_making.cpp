@@ -1,4 +1,4 @@
-// The words of the commands that make scenes: new, import, place and script.
+// Declares the commands that make scenes: new, import, place and script.
 #include "core/base/text.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
@@ -9,12 +9,12 @@ void declare_script(CLI::App& app, ScriptOptions& o) {
   CLI::App& c = *app.add_subcommand("script", "Puts link kinds written in Lua into a scene, lists them, takes them out.");
   c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();
   c.add_option("files", o.files, "Lua files; a script of the same name is replaced.")->type_name("FILE.lua");
-  c.add_option("--remove", o.removed, "Takes a script away, as often as needed; its links stay and do not run.")
+  c.add_option("--remove", o.removed, "Removes a script; its links stay and do not run. May be repeated.")
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
   c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
-  c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
+  c.add_option("--out", o.out, "File for the changed scene; may be the scene itself.")->type_name("SCENE");
   c.add_flag("--force", o.is_forced,
              "Replaces --out where it exists and is another file than the scene, and extracted files that were changed since.");
   files_of(c).reads({"scene", "files"}).writes("--out", FileKind::scene, "scene").fills("--extract", {".lua"});
@@ -42,14 +42,13 @@ void declare_new(CLI::App& app, making::NewOptions& o) {
        "CRS of the boundary in place of what the file says, such as EPSG:28992; `local` for metres without a place on Earth.")
       ->type_name("CRS");
   c.add_flag("--hull", o.use_hull, "Takes the convex hull of a plan that is not convex.");
-  c.add_option("--column", o.columns,
-               "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
+  c.add_option("--column", o.columns, "Maps a column to another header of the table: use=\"Room name\". May be repeated.")
       ->type_name("OURS=HEADER")
       ->expected(1)
       ->take_all();
   c.add_option("--storey-height", o.storey_height, "Storey height of rows that give none, in m. Default: 3.2.")
       ->type_name("METRES");
-  c.add_option("--margin", o.margin, "How far inside the boundary the positions stay, in m. Default: 1.")->type_name("METRES");
+  c.add_option("--margin", o.margin, "Least distance of positions from the boundary, in m. Default: 1.")->type_name("METRES");
   c.add_option("--seed", o.seed, "Seed of the first positions. Default: 1.")->type_name("N");
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
 }
@@ -66,7 +65,7 @@ std::string in_one_line(const std::vector<std::string>& words) {
 void declare_assumptions(CLI::App& c, making::ImportOptions& o) {
   c.add_option(
        "--height-unit", o.context.height_unit,
-       "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
+       "Metres in one unit of height of city models and terrains, such as 0.3048. Default: the unit of the file or its CRS.")
       ->type_name("METRES");
   c.add_option("--storey-height", o.context.storey_height,
                "Height of storeys where only their number is known, in m. Default: 3.2.")
@@ -75,9 +74,9 @@ void declare_assumptions(CLI::App& c, making::ImportOptions& o) {
                "Height of buildings that nothing is known about, in m. Default: 9.6.")
       ->type_name("METRES");
   c.add_option("--neighbours", o.context.neighbour_distance,
-               "How near buildings are whose heights are taken over, in m. Default: 100.")
+               "Distance within which the heights of neighbouring buildings are used, in m. Default: 100.")
       ->type_name("METRES");
-  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")
+  c.add_option("--lod", o.context.level_of_detail, "The finest level of detail that is taken from city models. Default: 9.")
       ->type_name("LEVEL");
 }
 
@@ -96,7 +95,7 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists; no other file.");
   std::vector<std::string> kinds;
   for (const making::ImportKind& kind : making::kImportKinds) kinds.emplace_back(kind.id);
-  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: " + in_one_line(kinds) + ".")
+  c.add_option("--as", o.kind, "Kind of the features or of the grid where the file does not give it: " + in_one_line(kinds) + ".")
       ->type_name("KIND")
       ->check(CLI::IsMember(kinds));
   c.add_option("--crs", o.context.crs,
@@ -106,49 +105,49 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
   c.add_option("--origin", o.origin,
                "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
       ->type_name("X,Y");
-  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")
+  c.add_option("--radius", o.context.radius,
+               "Imports only elements within this distance of the origin, in m. Default: 0, which takes all.")
       ->type_name("METRES");
-  c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
+  c.add_option("--property", o.properties, "Maps a property to another name in the file: height=H_MAX. May be repeated.")
       ->type_name("OURS=THEIRS")
       ->expected(1)
       ->take_all();
-  c.add_option("--value", o.value, "Of a data layer: the column or property with the values.")->type_name("NAME");
-  c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
-  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")
+  c.add_option("--value", o.value, "Column or property with the values of a data layer.")->type_name("NAME");
+  c.add_option("--unit", o.unit, "Unit of the values of a data layer, such as dB.")->type_name("UNIT");
+  c.add_option("--source", o.source, "Source of the data, for nodes that record it. Default: the name of the file.")
       ->type_name("TEXT");
-  c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
+  c.add_option("--licence", o.licence, "Licence of the data, for nodes that record it.")->type_name("TEXT");
   declare_assumptions(c, o);
   c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
-  c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_flag("--all-streets", o.takes_all_streets, "Imports footpaths, cycleways and steps as well, not only streets for cars.");
   c.add_flag("--keep", o.keeps,
-             "Of buildings inside a site of the scene: keeps them, and the site leaves out their ground up to their roofs. "
-             "Default: asks; without a terminal, keeps them.");
-  c.add_flag(
-      "--clear", o.clears,
-      "Of buildings inside a site of the scene: leaves them out. What is inside with less than half of its ground is kept.");
-  c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+             "Keeps buildings inside a site of the scene; the site leaves out their ground up to their roofs. Default: asks; "
+             "without a terminal, keeps them.");
+  c.add_flag("--clear", o.clears,
+             "Leaves out buildings inside a site of the scene. A building with less than half of its ground inside is kept.");
+  c.add_option("--report", o.report, "Writes the result for every element as CSV.")->type_name("FILE");
   files_of(c).reads({"files", "--into"}).writes("--out", FileKind::scene, "--into").writes("--report", FileKind::table);
   c.footer(
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
-      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad "
-      "input, "
-      "nothing written.");
+      "--report import.csv\n\nHeights that the file lacks are assumed, and marked as assumed. Exit codes: 0 imported; 2 bad "
+      "input, nothing written.");
 }
 
 void declare_place(CLI::App& app, PlaceOptions& o) {
-  CLI::App& c = *app.add_subcommand("place", "Puts pictures into a scene, where and as they were taken.");
+  CLI::App& c =
+      *app.add_subcommand("place", "Adds pictures to a scene, at the position and direction that they were taken from.");
   c.add_option("pictures", o.files, "JPEG or PNG files; they stay where they are.")->type_name("PICTURE")->required();
   c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
-  c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
+  c.add_option("--out", o.out, "File for the changed scene. Default: the same file.")->type_name("SCENE");
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
   files_of(c).reads({"pictures", "--into"}).writes("--out", FileKind::scene, "--into");
-  c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
-  c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
+  c.add_option("--at", o.at, "Position in m. Default: the coordinates in the picture.")->type_name("X Y Z")->expected(3);
+  c.add_option("--placement", o.media.placement, "Placement. Default: camera where the picture has a direction, else billboard.")
       ->check(CLI::IsMember({"ground", "billboard", "camera"}));
-  c.add_option("--consent", o.media.consent, "May it be shown? Default: unknown, which veils it.")
+  c.add_option("--consent", o.media.consent, "Consent to show the picture. Default: unknown, which veils it.")
       ->check(CLI::IsMember({"unknown", "given", "not_needed", "refused"}));
-  c.add_option("--licence", o.media.licence, "Terms of its use. Default: what the picture says.")->type_name("TEXT");
-  c.add_option("--author", o.media.author, "Who made it. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--licence", o.media.licence, "Licence. Default: the licence in the picture.")->type_name("TEXT");
+  c.add_option("--author", o.media.author, "Author. Default: the author in the picture.")->type_name("TEXT");
   c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")
       ->type_name("METRES")
       ->check(CLI::Validator(

@@ -47,7 +47,7 @@ Result<void> read_bounds(const Json& json, const geometry::Domain& domain, const
     return {};
   }
   if (auto checked = check_keys(json, {"min", "max"}, place); !checked) return checked.error();
-  if (json.empty()) return Error{ErrorCode::missing, place, "gives neither `min` nor `max`: give one of them, or both"};
+  if (json.empty()) return Error{ErrorCode::missing, place, "has neither `min` nor `max`: give one of them, or both"};
   const auto least = json.contains("min") ? amount_at(json["min"], slash(place, "min")) : Result<double>(0.0);
   if (!least) return least.error();
   const auto most = json.contains("max") ? amount_at(json["max"], slash(place, "max"))
@@ -151,7 +151,7 @@ Result<void> read_single_demands(const Json& demands, const std::vector<bool>& l
     if (locked[site] && demands[site].is_null()) continue;
     if (demands[site].is_null())
       return Error{ErrorCode::missing, here,
-                   "null is for sites that keep their weight: name site " + std::to_string(site) + " in `locked`, or give " +
+                   "null stands for a site that keeps its weight: list site " + std::to_string(site) + " in `locked`, or give " +
                        kDemandForms};
     auto demand = demand_at(demands[site], into.boundary.domain, here);
     if (!demand) return demand.error();
@@ -186,7 +186,7 @@ bool has_demand(const importing::SiteRow& row) { return row.demand || row.demand
 Result<geometry::VolumeDemand> demand_of(const importing::SiteRow& row, const geometry::Domain& domain) {
   if (row.demand && (row.demand_min || row.demand_max))
     return Error{ErrorCode::conflict, line_place(row.line),
-                 "gives both a demand and bounds of it: keep `demand`, or `demand_min` and `demand_max`"};
+                 "has both a demand and bounds of it: keep `demand`, or `demand_min` and `demand_max`"};
   Json json;
   if (row.demand) json = *row.demand;
   if (row.demand_min) json["min"] = *row.demand_min;
@@ -203,7 +203,7 @@ Result<void> join_group(const importing::SiteRow& row, const importing::SiteRow&
   if (has_demand(first) && (demand->least != group.least || demand->most != group.most))
     return Error{ErrorCode::conflict, line_place(row.line),
                  "group `" + row.group + "` has another demand in line " + std::to_string(first.line) +
-                     ": give the demand of the whole group, once or alike"};
+                     ": give the demand of the whole group in one row, or the same number in all"};
   group.least = demand->least;
   group.most = demand->most;
   return {};
@@ -243,7 +243,7 @@ Result<void> read_demands(const importing::SiteTable& table, SiteCase& into) {
     }
     if (row.group.empty() && !has_demand(row)) {
       if (row.weight) continue;
-      return Error{ErrorCode::missing, line_place(row.line), "gives neither a demand nor a weight to keep: give one of them"};
+      return Error{ErrorCode::missing, line_place(row.line), "has neither a demand nor a weight to keep: give one of them"};
     }
     auto demand =
         has_demand(row) ? demand_of(row, into.boundary.domain) : Result<geometry::VolumeDemand>(geometry::VolumeDemand{});
@@ -255,7 +255,7 @@ Result<void> read_demands(const importing::SiteTable& table, SiteCase& into) {
   for (const auto& [name, group] : groups)
     if (!has_demand(*group.told))
       return Error{ErrorCode::missing, line_place(group.told->line),
-                   "no row of group `" + name + "` gives its demand: give it in one of them"};
+                   "no row of group `" + name + "` has its demand: give it in one of them"};
   if (into.problem.demands.empty())
     return Error{ErrorCode::missing, header, "there is no demand to meet: give one to a site or group"};
   return {};

@@ -1,4 +1,4 @@
-// Reads what sites are to have: demands of single sites or of groups, and sites that keep their weight.
+// Reads the demands of single sites or of groups, and the sites that keep their weight.
 #pragma once
 
 #include "core/define/json_text.h"

@@ -85,7 +85,7 @@ int print_pages(const std::string& file, const Scripts& scripts, const Registry&
   for (const auto& [name, kind] : scripts.kinds())
     if (const LinkDefinition* link = registry.link(kind)) pages += (pages.empty() ? "" : "\n") + catalogue_page(*link, registry);
   if (pages.empty()) {
-    if (scripts.errors().empty()) complain(file + ": the scene has no link scripts, so that it declares no types of its own.");
+    if (scripts.errors().empty()) complain(file + ": the scene has no link scripts, so it declares no types of its own.");
     return kBadInput;
   }
   print_page(pages);
@@ -111,7 +111,7 @@ Result<std::size_t> write_pages(const std::string& folder, const Registry& regis
   for (const auto& [name, text] : files)
     if (const auto there = read_file(folder + "/" + name); there && !there->empty() && first_line(*there) != first_line(text))
       return Error{ErrorCode::conflict, folder + "/" + name,
-                   "is there already and is no page of the catalogue; choose another folder, or remove it first"};
+                   "exists already and is no page of the catalogue; choose another folder, or remove it first"};
   for (const char* part : {"", "/nodes", "/links", "/commands"})
     if (auto made = make_folder(folder + part); !made) return made.error();
   for (const auto& [name, text] : files)
@@ -145,7 +145,7 @@ int docs_command(const DocsOptions& options) {
   if (!page) {
     complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids(registry)) +
              "; `behaviourlinks docs --list` names all" +
-             (options.from.empty() ? ". What a scene's script declares is found with --from SCENE." : "."));
+             (options.from.empty() ? ". Use --from SCENE for the types that a scene's scripts declare." : "."));
     return kBadInput;
   }
   print_page(*page);

@@ -1,4 +1,4 @@
-// Holds the files of a call against each other and against what lies on the disk, before anything is read or written.
+// Compares the files of a call with each other and with the files on the disk, before anything is read or written.
 #include "ui/cli/file_rule.h"
 
 #include <algorithm>
@@ -192,7 +192,8 @@ TaskFiles& files_of(CLI::App& task) { return all_task_files()[&task]; }
 std::string wrong_files(const CLI::App& task) {
   std::string defect;
   const std::vector<NamedFile> named = files_named(task, all_task_files()[&task], defect);
-  if (!defect.empty()) return "a defect of the program: nothing says what " + defect + " does with its file (files_of)";
+  if (!defect.empty())
+    return "a defect of the program, please report it: no rule says what " + defect + " does with its file (files_of)";
   for (const NamedFile& file : named)
     if (file.path.empty())
       return file.option + ": names no " + (file.role->use == Use::fills ? "folder" : "file") + "; say which one";

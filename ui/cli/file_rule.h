@@ -1,5 +1,4 @@
-// The one rule on files of all tasks: what a task writes is nothing that it reads, no other output, and no file of another
-// kind; and it can be written, which is known before the work and not after it.
+// The rule on files for all tasks, checked before the work: an output can be written, and is no input or file of another kind.
 #pragma once
 
 #include <functional>
@@ -13,19 +12,19 @@
 
 namespace bl::cli {
 
-/// What a task writes into a file. A file that is there already is replaced where it holds the same, or nothing.
+/// The kind of content that a task writes into a file. An existing file is replaced where it holds the same kind, or nothing.
 enum class FileKind { scene, figures, table, page, log };
 
-/// What the options of one task do with the files that they name. An option with the type name of a file that is not told here
-/// is a defect, which any call of the task reports.
+/// What the options of one task do with the files that they name. An option that takes a file and is not listed here is a defect,
+/// which any call of the task reports.
 class TaskFiles {
  public:
   /// Options that name files or folders which the task reads.
   TaskFiles& reads(std::initializer_list<const char*> options);
-  /// An option that names a file which the task writes. It may name the file of `changed`, too: then that one is changed in
+  /// An option that names a file which the task writes. It may name the file of `changed` as well, which is then changed in
   /// place.
   TaskFiles& writes(const char* option, FileKind kind, const char* changed = nullptr);
-  /// What speaks against filling a folder: what of others lies in it under the names that are written.
+  /// Why a folder cannot be filled: files of others in it have names that would be written.
   using Objection = std::function<Result<void>(const std::string& folder)>;
   /// An option that names a folder into which files with these endings are written.
   TaskFiles& fills(const char* option, std::vector<std::string> endings, Objection objection = {});

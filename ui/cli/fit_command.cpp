@@ -1,4 +1,4 @@
-// `fit`: the weights that give sites, or groups of them, the volumes or floor areas that they are to have.
+// `fit`: the weights that give sites, or groups of them, their demanded volumes or floor areas.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -162,7 +162,7 @@ class FitRun {
   }
 
   std::string own_reason(const SiteCase& c, const geometry::VolumeFit& fit) const {
-    if (!std::isfinite(fit.max_relative_error)) return "stopped before it was known how near the demands are";
+    if (!std::isfinite(fit.max_relative_error)) return "stopped before the errors of the demands were known";
     std::string state = "the largest relative error is " + rough(fit.max_relative_error);
     if (fit.worst_demand < c.problem.demands.size()) {
       const geometry::VolumeDemand& demand = c.problem.demands[fit.worst_demand];
@@ -172,7 +172,7 @@ class FitRun {
     const std::string effort = counted(static_cast<std::size_t>(fit.evaluations), "evaluation");
     if (fit.status == geometry::FitStatus::cancelled) return "stopped after " + effort + "; " + state;
     if (fit.status == geometry::FitStatus::infeasible) return "the demands cannot be met together; " + state;
-    return "not met after " + effort + "; " + state + ": give it more by --steps" +
+    return "not met after " + effort + "; " + state + ": allow more by --steps" +
            (options_.method == "feedback" ? ", or take --method newton" : "");
   }
 

@@ -1,4 +1,4 @@
-// `import`: adds the surroundings of a site to a scene, and says what became of every element.
+// `import`: adds the surroundings of a site to a scene, and reports the result for every element.
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -65,7 +65,7 @@ class ImportDisplay {
     is_over_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  /// While somebody is asked something.
+  /// While a person is asked a question.
   void pause(bool is_paused) {
     is_paused_ = is_paused;
     if (is_paused) std::this_thread::sleep_for(3 * kLook);
@@ -143,7 +143,7 @@ bool write_refusal(const making::ImportOptions& options, const std::string& why)
 // Pictures alone: as `place` does it.
 int import_pictures(const making::ImportOptions& options) {
   if (options.into.empty()) {
-    complain("pictures are put into a scene: name it by --into");
+    complain("pictures are added to a scene: name the scene by --into");
     return kBadInput;
   }
   PlaceOptions place;
@@ -176,7 +176,7 @@ int import_command(const making::ImportOptions& given) {
   if (std::all_of(given.files.begin(), given.files.end(), making::is_picture_name)) return import_pictures(given);
   making::ImportOptions options = given;
   if (options.keeps && options.clears) {
-    complain("--keep and --clear say two things of the same buildings: choose one.");
+    complain("--keep and --clear contradict each other: choose one.");
     return kBadInput;
   }
   if (options.keeps || options.clears) options.inside = options.clears ? making::InsideChoice::clear : making::InsideChoice::keep;
@@ -185,7 +185,7 @@ int import_command(const making::ImportOptions& given) {
   if (!options.into.empty()) {
     auto reading = load_scene(options.into);
     if (!reading) {
-      (void)write_refusal(options, "the scene that it was to be added to cannot be read");
+      (void)write_refusal(options, "the scene to add to cannot be read");
       return kBadInput;
     }
     scene = std::move(reading->scene);
@@ -193,7 +193,7 @@ int import_command(const making::ImportOptions& given) {
   if (!options.is_forced && is_there(options.out)) {
     // Nothing is imported: accounts of what would have been are easily taken for done.
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
-    (void)write_refusal(options, "the scene that it was to be written to exists already");
+    (void)write_refusal(options, "the scene to write exists already");
     return kBadInput;
   }
   importing::ImportWatch watch;

@@ -1,4 +1,4 @@
-// The small readers that the readers of cases are made of.
+// Small readers of JSON fields for the readers of cases.
 #include "ui/cli/json_fields.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Reads the fields of hand-written JSON input; every complaint has a place and quotes what was found there.
+// Reads the fields of hand-written JSON input; every error has a place and quotes what was found there.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ std::string slash(const std::string& place, std::size_t index);
 std::string excerpt(const Json& json);
 
 Result<double> number_at(const Json& json, const std::string& place);
-/// `form` says what the numbers are together: "a point [x, y, z]".
+/// `form` describes the list: "a point [x, y, z]".
 Result<std::vector<double>> numbers_at(const Json& json, std::size_t count, const std::string& form, const std::string& place);
 /// The list under a key; an error where it is missing or no list.
 Result<const Json*> list_at(const Json& json, const char* key, const std::string& place);

@@ -1,4 +1,4 @@
-// Keeps a run and its connections in step, and tells people about them.
+// Keeps a run and its connections in step, and reports them to people.
 #include "ui/cli/live_run.h"
 
 #include <filesystem>

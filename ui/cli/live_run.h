@@ -1,4 +1,4 @@
-// What a run does with sensors and actuators: recordings are played, and with --live the network is listened and sent to.
+// Sensors and actuators of a run: recordings are played, and with --live messages are received from and sent to the network.
 #pragma once
 
 #include <map>
@@ -17,13 +17,13 @@ class LiveRun {
   LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false,
           host::Clock& clock = host::real_clock());
 
-  /// Hands the session what has come for its next tick.
+  /// Gives the session the readings for its next tick.
   void before_tick(Session& session);
-  /// Sends what has changed, and says what has changed with the connections.
+  /// Sends changed values, and reports changes of the connections.
   void after_tick(const Session& session);
   /// Live, waits until the next tick is due or the run is interrupted.
   void wait(const Session& session);
-  /// Says what has passed through every connection, and what the sensors read at the end.
+  /// Reports the counts of every connection, and the readings of the sensors at the end.
   void sum_up(const State& state) const;
 
  private:

@@ -27,22 +27,21 @@ constexpr const char* kOverview =
 void declare_run(CLI::App& app, RunOptions& o) {
   CLI::App& c = *app.add_subcommand("run", "Runs a scene until it settles, and shows what every volume got.");
   c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();
-  auto* ticks = c.add_option("--ticks", o.ticks, "Runs so many ticks, settled or not.")
+  auto* ticks = c.add_option("--ticks", o.ticks, "Number of ticks to run, settled or not.")
                     ->type_name("N")
                     ->check(CLI::Range(0ll, 1000000000ll));
   c.add_flag("--settle", o.is_settling, "Runs until the scene settles (this is the default); exit code 3 where it does not.")
       ->excludes(ticks);
-  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")
+  c.add_option("--max-ticks", o.max_ticks, "Largest number of ticks to settle. Default: 2000.")
       ->type_name("N")
       ->check(CLI::Range(1ll, 1000000000ll));
   c.add_option("--set", o.set,
-               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\"; "
-               "LINK/PARAMETER=VALUE sets a parameter of a link.")
+               "Sets a value before the first tick; VALUE is JSON or a quantity such as \"12 m\". LINK/PARAMETER=VALUE sets a "
+               "parameter of a link. May be repeated.")
       ->type_name("NODE/TYPIFICATION.PORT=VALUE")
       ->expected(1)
       ->take_all();
-  c.add_option("--script", o.scripts,
-               "Adds a link kind written in Lua before the first tick, or replaces it; as often as needed.")
+  c.add_option("--script", o.scripts, "Adds or replaces a link kind written in Lua before the first tick. May be repeated.")
       ->type_name("FILE.lua")
       ->expected(1)
       ->take_all();
@@ -51,8 +50,8 @@ void declare_run(CLI::App& app, RunOptions& o) {
                           "Connects to the sensors and actuators of the scene, and ticks in real time until Ctrl-C or --ticks. "
                           "Without it, recorded tables are played, and nothing is connected to.");
   c.add_flag("--recordings-anywhere", o.reads_anywhere,
-             "Plays recorded tables that lie outside the folder of the scene, too; for scenes that you trust.");
-  c.add_option("--rate", o.rate, "Ticks per second of a live run. Default: as the tick length of its sensors says.")
+             "Also plays recorded tables outside the folder of the scene; only for scenes that you trust.");
+  c.add_option("--rate", o.rate, "Ticks per second of a live run. Default: the tick length of its sensors.")
       ->type_name("R")
       ->needs(live)
       ->check(CLI::Range(0.001, 1000.0));
@@ -76,33 +75,33 @@ void declare_open(CLI::App& app) {
   CLI::App& c = *app.add_subcommand("open", "Opens the window: wire a scene by hand, and watch it negotiate.");
   c.prefix_command();
   c.footer(
-      "What follows is handed on: SCENE (without one, the start page opens), --paused, and more that\n"
-      "`behaviourlinks-desktop --help` lists.\n\nExample:\n  behaviourlinks open scenes/start/quarter.json");
+      "All arguments are handed on: SCENE (without one, the start page opens), --paused, and more that\n`behaviourlinks-desktop "
+      "--help` lists.\n\nExample:\n  behaviourlinks open scenes/start/quarter.json");
 }
 
 void declare_compare(CLI::App& app, CompareOptions& o) {
-  CLI::App& c = *app.add_subcommand("compare", "Runs two scenes and tells every indicator that differs between them.");
+  CLI::App& c = *app.add_subcommand("compare", "Runs two scenes and lists every indicator that differs between them.");
   c.add_option("first", o.first, "The scene that is compared with.")->type_name("SCENE_A")->required();
   c.add_option("second", o.second, "A second scene, which is compared with the first.")->type_name("SCENE_B")->required();
-  c.add_option("--ticks", o.ticks, "Runs both for so many ticks, settled or not; 0 compares them as they were saved.")
+  c.add_option("--ticks", o.ticks, "Number of ticks to run both, settled or not; 0 compares them as they were saved.")
       ->type_name("N")
       ->check(CLI::Range(0ll, 1000000000ll));
-  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")
+  c.add_option("--max-ticks", o.max_ticks, "Largest number of ticks to settle. Default: 2000.")
       ->type_name("N")
       ->check(CLI::Range(1ll, 1000000000ll));
   add_threads(c, o.threads);
   c.add_option("--report", o.report, "Writes a page with both drawings, bars and every number.")->type_name("FILE");
   files_of(c).reads({"first", "second"}).writes("--report", FileKind::page);
   c.footer(
-      "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
-      "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
-      "Exit codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
+      "Nodes that only one scene has are listed, too. Amounts are summed over all nodes; shares and rates are "
+      "averaged.\n\nExample:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\nExit "
+      "codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
 }
 
 void declare_check(CLI::App& app, CheckOptions& o) {
-  CLI::App& c = *app.add_subcommand("check", "Says everything that is wrong with scene files and link scripts.");
+  CLI::App& c = *app.add_subcommand("check", "Lists all problems of scene files and link scripts.");
   c.add_option("scenes", o.scenes, "The scene files, and link scripts (.lua).")->type_name("FILE")->required();
-  c.add_flag("--write", o.is_writing, "Rewrites each sound file in the one canonical form.");
+  c.add_flag("--write", o.is_writing, "Rewrites each file without errors in its canonical form.");
   c.add_option("--json", o.json, "Writes the problems as JSON.")->type_name("FILE");
   files_of(c).reads({"scenes"}).writes("--json", FileKind::figures);
   c.footer("Example:\n  behaviourlinks check scenes/start/*.json\n\nExit codes: 0 no errors; 2 errors.");
@@ -122,7 +121,7 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
-  d.add_option("--from", docs.from, "Also knows the link kinds of this scene's scripts, or of this link script (.lua).")
+  d.add_option("--from", docs.from, "Includes the link kinds of this scene's scripts, or of this link script (.lua).")
       ->type_name("FILE");
   d.add_option("--out", docs.out, "Writes all pages as Markdown into a folder.")
       ->type_name("DIR")
@@ -130,9 +129,9 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
       ->excludes(list);
   files_of(d).reads({"--from"}).fills("--out", {".md"});
   d.footer(
-      "TYPE may be such a file itself: then the pages of all that it declares are shown. Types of plugins are known with\n"
-      "`behaviourlinks --plugins DIR docs`.\n\nExample:\n  behaviourlinks docs keep_distance\n"
-      "  behaviourlinks docs fair_share --from scene.json\n  behaviourlinks docs links/scripts/fair_share.lua");
+      "TYPE may be such a file itself; the pages of all its types are then shown. Types of plugins are included "
+      "with\n`behaviourlinks --plugins DIR docs`.\n\nExample:\n  behaviourlinks docs keep_distance\n  behaviourlinks docs "
+      "fair_share --from scene.json\n  behaviourlinks docs links/scripts/fair_share.lua");
   CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
   files_of(s).writes("--out", FileKind::figures);
@@ -199,11 +198,12 @@ void load_chosen_plugins(std::vector<std::string> folders) {
 
 int run_program(int count, char** arguments) {
   CLI::App app{kOverview, "behaviourlinks"};
-  app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version and ends.");
+  app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version.");
   app.require_subcommand(0, 1);
   std::vector<std::string> plugins;
-  app.add_option("--plugins", plugins,
-                 "Folder of plugins: link kinds and typifications as shared libraries; as often as needed, before the command.")
+  app.add_option(
+         "--plugins", plugins,
+         "Folder of plugins: link kinds and typifications as shared libraries. Stands before the command; may be repeated.")
       ->type_name("DIR")
       ->expected(1)
       ->take_all();

@@ -1,4 +1,4 @@
-// `new`: from a plan boundary and a programme to a scene that can run.
+// `new`: makes a scene that can run from a plan boundary and a programme.
 #include <sys/stat.h>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// `open`: hands over to the program with the window, which stands beside this one.
+// `open`: starts the program with the window, which lies in the same folder.
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +27,7 @@ std::string desktop_program() {
 int open_command(const OpenOptions& options) {
   const std::string program = desktop_program();
   if (program.empty()) {
-    complain("the program with the window is not there; `./bl open SCENE` installs what it needs and builds it.");
+    complain("the program with the window is not built; `./bl open SCENE` installs what it needs and builds it.");
     return kBadInput;
   }
   std::vector<std::string> words{program};

@@ -1,4 +1,4 @@
-// `place`: puts pictures into a scene, with what their files say of themselves.
+// `place`: adds pictures to a scene, with the metadata of their files.
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
 #include "ui/cli/commands.h"

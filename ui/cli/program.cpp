@@ -66,11 +66,11 @@ int guarded(const std::function<int()>& work) {
   try {
     const int code = work();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
+    complain("the output could not be written: the disk is full, or the reader of the output has ended.");
     return kBadInput;
   } catch (const std::bad_alloc&) { complain(memory_sentence()); } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again) complain(thread_sentence());
-    else complain(std::string("the system refused something that the program needs: ") + error.what());
+    else complain(std::string("a request to the system failed: ") + error.what());
   } catch (const std::exception& error) {
     complain(std::string("this is a defect of the program, please report it: ") + error.what());
   }

@@ -1,4 +1,4 @@
-// What the main functions of the command line programs share: the command line with its complaints, and what ends a run.
+// Shared by the main functions of the command line programs: parsing with its error messages, and exit codes.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace bl::cli {
 
-/// The exit code of `work`. Whatever it throws becomes a sentence on standard error and exit code 1; output that could not be
-/// written, such as onto a full disk, becomes kBadInput.
+/// The exit code of `work`. An exception becomes a sentence on standard error and exit code 1; output that could not be written,
+/// such as onto a full disk, gives kBadInput.
 int guarded(const std::function<int()>& work);
 
-/// Reads the command line into what was declared on `app`. Nothing where the run may go on; else the exit code, after help was
-/// printed or a sentence said what is wrong and what to do.
+/// Parses the command line into the variables declared on `app`. Returns nothing where the run may go on; else the exit code,
+/// after printing help or an error message.
 std::optional<int> refusal(CLI::App& app, int count, char** arguments);
 
 }  // namespace bl::cli

@@ -21,9 +21,10 @@ int replay_command(const ReplayOptions& options) {
   if (log->is_cut_off)
     print_error(options.log, {ErrorCode::parse, "", "warning: the last line is incomplete, as after a crash; it is left out"});
   if (!log->has_end)
-    print_error(options.log, {ErrorCode::parse, "",
-                              "warning: the log has no end. It was cut off, or what wrote it was stopped: what was done after tick " +
-                                  std::to_string(log->last_tick) + " is not in it"});
+    print_error(options.log,
+                {ErrorCode::parse, "",
+                 "warning: the log has no end: it was cut off, or its program was stopped. What was done after tick " +
+                     std::to_string(log->last_tick) + " is not in it"});
   const auto report = replay(*log, full_registry(), options.threads);
   if (!report) {
     print_error(options.log, report.error());
@@ -32,12 +33,12 @@ int replay_command(const ReplayOptions& options) {
   print_line(std::to_string(report->entries) + (report->entries == 1 ? " entry" : " entries") + ", " +
              std::to_string(report->ticks) + " ticks, hash " + report->hash);
   if (report->first_mismatch) {
-    print_line("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) +
-                   ": the log has the hash " + report->first_mismatch->hash,
+    print_line("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) + ": the log has the hash " +
+                   report->first_mismatch->hash,
                Colour::red);
     return kNotMet;
   }
-  if (report->checks == 0) print_line("the log holds no checks to compare with");
+  if (report->checks == 0) print_line("the log holds no hashes to compare with");
   else print_line("agrees with all " + std::to_string(report->checks) + " checks", Colour::green);
   return kDone;
 }

@@ -1,4 +1,4 @@
-// `run`: ticks a scene until it settles, and says what came of it.
+// `run`: ticks a scene until it settles, and reports the result.
 #include <algorithm>
 #include <limits>
 #include <memory>

@@ -1,4 +1,4 @@
-// How a run is told: as tables to people, as JSON to programs.
+// The results of a run: tables for people, JSON for programs.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace bl::cli {
 
-/// Why there are no figures: they are those of the last tick.
+/// The message where there are no figures, since figures are those of the last tick.
 inline constexpr std::string_view kNothingComputed = "nothing has been computed yet; run a tick or more";
 
-/// Nothing of a scene that has not run a tick.
+/// Empty for a scene that has not run a tick.
 void print_survey(const reading::Survey& survey, const State& state);
 
 /// The content of --json. `outcome`: the last line of the run.

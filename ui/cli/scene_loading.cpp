@@ -1,4 +1,4 @@
-// Reading scenes with all of their problems shown.
+// Reads scenes and prints all of their problems.
 #include "ui/cli/scene_loading.h"
 
 #include <filesystem>
@@ -18,7 +18,7 @@ std::optional<SceneReading> load_scene(const std::string& file, bool gets_script
   }
   // Of noise and of archives the reader itself says more.
   if (const std::string kind = foreign_kind(*text); !kind.empty() && !kind.starts_with("binary") && packed_kind(*text).empty()) {
-    print_error(file, {ErrorCode::parse, "", "this is no scene but " + kind + "; a scene is JSON text"});
+    print_error(file, {ErrorCode::parse, "", "this is not a scene but " + kind + "; a scene is JSON text"});
     return std::nullopt;
   }
   SceneReading reading = read_scene(*text, full_registry());

@@ -32,9 +32,10 @@ bool may_extract(const Scripts& scripts, const std::string& folder) {
     std::error_code none;
     if (!std::filesystem::exists(file, none)) continue;
     if (const auto there = read_file(file); there && *there == text) continue;
-    print_error(file,
-                {ErrorCode::conflict, "",
-                 "is there and is not what the scene holds: put it into the scene first, name another folder, or say --force"});
+    print_error(
+        file,
+        {ErrorCode::conflict, "",
+         "exists and differs from the script in the scene: put it into the scene first, choose another folder, or use --force"});
     may = false;
   }
   return may;
@@ -92,7 +93,7 @@ int script_command(const ScriptOptions& options) {
       return kBadInput;
     }
   } else if (!options.files.empty() || !options.removed.empty()) {
-    complain("nothing was written: say with --out where the changed scene goes");
+    complain("nothing was written: name the file for the changed scene with --out");
     return kBadInput;
   }
   list(reading->scene.scripts);

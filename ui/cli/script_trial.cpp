@@ -1,4 +1,4 @@
-// Evaluations on the defaults of what is read, then on numbers and places that differ, inside the ranges of their ports.
+// Evaluates with the defaults of the ports that are read, then with other numbers and positions inside their ranges.
 #include "ui/cli/script_trial.h"
 
 #include <algorithm>
@@ -111,8 +111,7 @@ std::optional<KindFault> fault_of_kind(const LinkDefinition& kind, const Registr
     if (!first) first = KindFault{std::move(*fault), is_unknown_name};
     else first->is_certain = first->is_certain && is_unknown_name;
   }
-  if (!first->is_certain)
-    first->error.message += " (on all values that it was tried with; where a scene has others, it may work)";
+  if (!first->is_certain) first->error.message += " (on all sample values; with the values of a scene it may work)";
   return first;
 }
 

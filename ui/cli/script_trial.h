@@ -1,4 +1,4 @@
-// A link kind that people wrote, tried on values of our own before any scene uses it.
+// Tries a link kind written in Lua on sample values before a scene uses it.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@ namespace bl::cli {
 
 struct KindFault {
   Error error;
-  /// It reads a name that does not exist, which no values can cure. Else nobody knows: the values that it takes may be none of
-  /// ours.
+  /// True where it reads a name that does not exist, so that it fails on all values. Other failures may come from the sample
+  /// values.
   bool is_certain = false;
 };
 
-/// What a kind says where it fails on every one of several sets of values: those that its parameters and ports have by default,
-/// and others inside their ranges. A kind that refuses some values and takes others is sound.
+/// The error of a kind that fails on every one of several sets of values: the defaults of its parameters and ports, and others
+/// inside their ranges. A kind that accepts some of them has no error.
 std::optional<KindFault> fault_of_kind(const LinkDefinition& kind, const Registry& types);
 
 }  // namespace bl::cli

@@ -1,4 +1,4 @@
-// When to give up, and the sentence that says why.
+// The rule for giving up, and the sentence that gives the reason.
 #include "ui/cli/settle_watch.h"
 
 #include <algorithm>

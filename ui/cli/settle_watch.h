@@ -1,4 +1,4 @@
-// Watches a run for signs that it will not settle, so that nobody waits for what cannot come.
+// Watches a run for signs that it will not settle, and ends it early.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace bl::cli {
 /// after 400 such ticks elsewhere. Progress is a worst error below 0.99 of the best one so far.
 class SettleWatch {
  public:
-  /// Is it hopeless after this tick?
+  /// Should the run end after this tick?
   bool is_hopeless(const State& state);
 
  private:
@@ -21,7 +21,7 @@ class SettleWatch {
   long long idle_ = 0;
 };
 
-/// Does a node fail to be evaluated? Its data are at fault, not the demands.
+/// Does the evaluation of a node fail? The cause is then its data, not the demands.
 bool has_node_error(const State& state);
 
 /// Why a state is not settled, as the end of the sentence "not settled: ...". `before`: the state of the tick before, or null.

@@ -1,4 +1,4 @@
-// Cases from JSON text and from tables; of a list, what is wrong with each case is told.
+// Reads cases from JSON text and from tables; the errors of each case of a list are reported.
 #include "ui/cli/site_case.h"
 
 #include <algorithm>
@@ -126,7 +126,7 @@ class Reader {
     const std::string here = slash(place, "boundary");
     const auto own = json.find("boundary");
     if (own != json.end() && boundary_ != nullptr)
-      return Error{ErrorCode::conflict, here, "stands here and in --boundary: keep one of them"};
+      return Error{ErrorCode::conflict, here, "is given here and by --boundary: keep one of them"};
     if (own != json.end()) return boundary_at(*own, here);
     if (boundary_ != nullptr) return *boundary_;
     return Error{ErrorCode::missing, here, "`boundary` is missing: put it into the case, or give it by --boundary FILE"};
@@ -191,7 +191,7 @@ Result<BoundaryReading> read_boundary(const std::string& text) {
   const auto json = json_of(text);
   if (!json) return json.error();
   if (json->is_object() && json->contains("cases"))
-    return Error{ErrorCode::wrong_kind, "cases", "holds a list of cases, where one boundary is wanted: give that alone"};
+    return Error{ErrorCode::wrong_kind, "cases", "holds a list of cases instead of one boundary: give one boundary"};
   return json->is_object() && json->contains("boundary") ? boundary_at((*json)["boundary"], "boundary") : boundary_at(*json, "");
 }
 

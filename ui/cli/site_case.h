@@ -1,4 +1,4 @@
-// The cases that `cells` and `fit` read: a boundary, sites and, for a fit, what each of them is to have.
+// The cases that `cells` and `fit` read: a boundary, sites and, for a fit, their demands.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct SiteCase {
   std::string place;  ///< "cases/3" in a list, else empty
   BoundaryReading boundary;
   geometry::FitProblem problem;    ///< without demands where only cells are wanted
-  std::vector<std::string> names;  ///< what people call the sites; empty: nothing but their numbers
+  std::vector<std::string> names;  ///< names of the sites; empty: they have numbers only
 };
 
 struct SiteCases {
@@ -24,14 +24,14 @@ struct SiteCases {
   bool is_list = false;  ///< {"cases": [...]}: the output is a list as well
 };
 
-/// What a text holds, or everything that is wrong with it.
+/// The cases of a text, or all of its errors.
 struct CaseReading {
   SiteCases content;
   std::vector<std::string> notes;  ///< what was assumed, one sentence each
-  std::vector<Error> errors;       ///< any: the content is not to be used
+  std::vector<Error> errors;       ///< where there are any, the content must not be used
 };
 
-/// `boundary`: of cases without one of their own; may be null.
+/// `boundary`: for cases without one of their own; may be null.
 CaseReading read_site_cases(const std::string& text, bool is_table, const BoundaryReading* boundary, CasePurpose purpose);
 /// A boundary alone, or that of a case.
 Result<BoundaryReading> read_boundary(const std::string& text);
@@ -39,10 +39,10 @@ Result<BoundaryReading> read_boundary(const std::string& text);
 struct CaseFiles {
   std::string input;     ///< JSON; a table where the name ends in .csv, .tsv or .txt
   std::string boundary;  ///< JSON of a boundary, for input without one; may be empty
-  std::string output;    ///< must be none of the others
+  std::string output;    ///< must differ from the other files
 };
 
-/// All cases, or nothing after everything that is wrong with them was printed.
+/// All cases, or nothing after all of their errors were printed.
 std::optional<SiteCases> load_site_cases(const CaseFiles& files, CasePurpose purpose);
 
 }  // namespace bl::cli

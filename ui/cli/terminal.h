@@ -1,4 +1,4 @@
-// What people see: colours where they are wanted, tables, sentences about problems, and one line of progress.
+// Output for people: colours, tables, sentences about problems, and one line of progress.
 #pragma once
 
 #include <string>
@@ -40,15 +40,15 @@ class TextTable {
   std::vector<Row> rows_;
 };
 
-/// On standard output; in a colour where that is a terminal that wants colours.
+/// On standard output; in colour on a terminal that supports it.
 void print_line(std::string_view text = {}, Colour colour = Colour::plain);
 /// One line of parts in colours of their own.
 void print_parts(const std::vector<std::pair<std::string, Colour>>& parts);
-/// Several lines of the program's own making, such as a page of the catalogue: its line feeds are kept.
+/// Several lines made by the program, such as a page of the catalogue; line feeds are kept.
 void print_page(std::string_view text);
 /// "behaviourlinks: sentence" on standard error.
 void complain(std::string_view sentence);
-/// "file: place: message" on standard error. A place that is the file itself is not said twice.
+/// "file: place: message" on standard error. A place that is the file itself is not repeated.
 void print_error(const std::string& file, const Error& error);
 /// All of them, errors before warnings; warnings are marked as such.
 void print_problems(const std::string& file, const std::vector<Problem>& problems);
@@ -56,7 +56,7 @@ void print_problems(const std::string& file, const std::vector<Problem>& problem
 /// Seconds since some fixed moment.
 double now();
 
-/// Says on standard error how far a long task is: nothing in its first second; on a terminal one line that is rewritten;
+/// Prints the progress of a long task on standard error: nothing in the first second; on a terminal one line that is rewritten;
 /// elsewhere a plain line every ten seconds.
 class Progress {
  public:
@@ -64,7 +64,7 @@ class Progress {
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// Is it time for a new line? Ask before a costly text is made.
+  /// Is a new line due? To be checked before a costly text is made.
   bool is_due() const;
   void show(const std::string& text);
   void clear();

@@ -1,4 +1,4 @@
-// Puts what the library for command lines says into sentences of ours; what it says well already is left.
+// Rewrites the messages of the command line library as sentences that say what to do.
 #include "ui/cli/usage.h"
 
 #include <algorithm>

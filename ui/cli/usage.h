@@ -1,4 +1,4 @@
-// What is wrong with a command line, in sentences that say what to do.
+// Errors of a command line as sentences that say what to do.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace bl::cli {
 
-/// `task`: the one that the line is for, or the program itself.
+/// `task`: the command that was called, or the program itself.
 std::string usage_sentence(const CLI::App& task, const CLI::ParseError& error);
 
 }  // namespace bl::cli

@@ -1,13 +1,13 @@
-// Notes at a sensor what its connection says: why there is none, or that all is well.
+// Writes the status of its connection to a sensor.
 #include "core/live/commands.h"
 #include "core/session/support.h"
 
 namespace bl::live {
 
 void NoteConnection::declare(CommandBuilder<NoteConnection>& c) {
-  c.id("note_connection").label("Note connection").doc("Notes at a sensor why its device cannot be reached, or that it can.");
+  c.id("note_connection").label("Note connection").doc("Writes to a sensor whether its device can be reached, and if not, why.");
   c.argument(&In::node, "node").required().doc("Id of the sensor.");
-  c.argument(&In::sentence, "sentence").doc("What is wrong with the connection; empty where all is well.");
+  c.argument(&In::sentence, "sentence").doc("What is wrong with the connection; empty where it works.");
 }
 
 Inverse NoteConnection::apply(SceneEdit& edit, const In& in) {

@@ -1,4 +1,4 @@
-// Hands a sensor what was measured, or why a message of it is no measurement.
+// Gives a sensor a reading, or the reason why a message holds none.
 #include "core/live/commands.h"
 #include "core/session/support.h"
 
@@ -12,16 +12,16 @@ constexpr std::size_t kLongestText = 500;
 
 void Receive::declare(CommandBuilder<Receive>& c) {
   c.id("receive").label("Receive").doc(
-      "A reading of a sensor. Devices give it, and people may; it stands in the log, so that a replay needs no device.");
+      "Gives a sensor a reading. Devices and people can submit it. It is part of the log, so that a replay needs no device.");
   c.argument(&In::node, "node").required().doc("Id of the sensor.");
-  c.argument(&In::value, "value").doc("The number as it came, before scale and offset.");
-  c.argument(&In::time, "time").doc("When it was measured or came, as a text for people.");
+  c.argument(&In::value, "value").doc("The received number, before scale and offset.");
+  c.argument(&In::time, "time").doc("Time of the measurement or its arrival, as a text for people.");
   c.argument(&In::problem, "problem")
-      .doc("Why the message holds no number, as a sentence. The reading before it then stays, and its age goes on.");
+      .doc("Why the message holds no number, as a sentence. The last reading then stays, and its age grows.");
   c.argument(&In::tick, "tick")
       .min(-1e15)
-      .doc("The tick that it was measured in; its age counts from there. -1: never; below it: before the clock began.");
-  c.argument(&In::whole, "whole").doc("When on, all of it is taken as given, as an undo needs it.");
+      .doc("The tick of the measurement, from which its age counts. -1: no measurement; below -1: before the clock began.");
+  c.argument(&In::whole, "whole").doc("When on, all arguments are stored unchanged, as an undo needs it.");
 }
 
 Inverse Receive::apply(SceneEdit& edit, const In& in) {

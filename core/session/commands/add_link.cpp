@@ -1,4 +1,4 @@
-// Lays a link between nodes or sets of nodes.
+// Adds a link between nodes or sets of nodes.
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
@@ -8,11 +8,11 @@
 namespace bl {
 
 void AddLink::declare(CommandBuilder<AddLink>& c) {
-  c.id("add_link").label("Add link").doc("Lays a link between two nodes or sets of nodes.");
+  c.id("add_link").label("Add link").doc("Adds a link between two nodes or sets of nodes.");
   c.argument(&In::id, "id").required().doc("Id of the new link; must not be taken.");
   c.argument(&In::link, "link").required().doc("The link as it stands in a scene file, without its id.");
   c.argument(&In::is_resting, "is_resting")
-      .doc("Keeps it to the letter and does not run it, as links of unknown kinds, whether or not its kind is known.");
+      .doc("When on, the link is kept unchanged and does not run, like links of unknown kinds.");
 }
 
 Inverse AddLink::apply(SceneEdit& edit, const In& in) {

@@ -1,4 +1,4 @@
-// Adds a node, with all of its content where it is pasted or brought back.
+// Adds a node, with its content where it is pasted or restored.
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"

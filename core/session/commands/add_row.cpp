@@ -13,7 +13,9 @@ void AddRow::declare(CommandBuilder<AddRow>& c) {
   c.argument(&In::node, "node").required().doc("Id of the node.");
   c.argument(&In::port, "port").required().doc("Which table, written `typification.port`.");
   c.argument(&In::row, "row").required().doc("The row as an object, as in a scene file.");
-  c.argument(&In::at, "at").min(-1).doc("The number that the row gets, from 0; -1, or more than there are: at the end.");
+  c.argument(&In::at, "at")
+      .min(-1)
+      .doc("The number of the new row, from 0; -1 or a larger number than there are rows adds it at the end.");
 }
 
 Inverse AddRow::apply(SceneEdit& edit, const In& in) {

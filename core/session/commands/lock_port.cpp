@@ -1,4 +1,4 @@
-// Locks a value: links cannot change it any more, their pull is still shown.
+// Locks a value: links cannot change it any more; their proposals are still shown.
 #include "core/session/support.h"
 
 namespace bl {

@@ -1,4 +1,4 @@
-// Removes a node; links and sets that name it lose it too, and links with an empty end go with it.
+// Removes a node, also from the links and sets that name it; links with an empty end are removed as well.
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
@@ -7,7 +7,7 @@
 namespace bl {
 
 void RemoveNode::declare(CommandBuilder<RemoveNode>& c) {
-  c.id("remove_node").label("Remove node").doc("Removes a node, and the links that would lose an end with it.");
+  c.id("remove_node").label("Remove node").doc("Removes a node, and the links that would have an empty end without it.");
   c.argument(&In::id, "id").required().doc("Id of the node.");
 }
 

@@ -7,7 +7,7 @@ namespace bl {
 void RemoveScript::declare(CommandBuilder<RemoveScript>& c) {
   c.id("remove_script")
       .label("Remove script")
-      .doc("Removes a link kind that is written in Lua. Its links stay in the scene as they are, and do not run.");
+      .doc("Removes a link kind that is written in Lua. Its links stay in the scene unchanged, and do not run.");
   c.argument(&In::id, "id").required().doc("The name of the script.");
 }
 

@@ -1,4 +1,4 @@
-// Sets one field of a table, so that people who change other rows at the same time keep what they wrote.
+// Sets one field of a table, so that people can change other rows at the same time.
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"

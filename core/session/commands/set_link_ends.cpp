@@ -1,10 +1,10 @@
-// Joins a link to other nodes.
+// Connects a link to other nodes.
 #include "core/session/support.h"
 
 namespace bl {
 
 void SetLinkEnds::declare(CommandBuilder<SetLinkEnds>& c) {
-  c.id("set_link_ends").label("Reconnect link").doc("Joins a link to other nodes or sets of nodes.");
+  c.id("set_link_ends").label("Reconnect link").doc("Connects a link to other nodes or sets of nodes.");
   c.argument(&In::id, "id").required().doc("Id of the link.");
   c.argument(&In::from, "from").required().doc("Where the link starts.");
   c.argument(&In::to, "to").required().doc("Where it ends.");

@@ -1,4 +1,4 @@
-// Makes a link speak louder or softer.
+// Sets how much the proposals of a link count.
 #include "core/session/support.h"
 
 namespace bl {
@@ -6,7 +6,7 @@ namespace bl {
 void SetLinkStrength::declare(CommandBuilder<SetLinkStrength>& c) {
   c.id("set_link_strength").label("Set strength").doc("Sets how much the proposals of a link count.");
   c.argument(&In::id, "id").required().doc("Id of the link.");
-  c.argument(&In::strength, "strength").unit(Unit::ratio).range(0, 1).doc("Share of full strength, 0 to 1.");
+  c.argument(&In::strength, "strength").unit(Unit::ratio).range(0, 1).doc("Strength as a share of full strength, 0 to 1.");
 }
 
 Inverse SetLinkStrength::apply(SceneEdit& edit, const In& in) {

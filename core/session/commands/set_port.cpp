@@ -4,7 +4,9 @@
 namespace bl {
 
 void SetPort::declare(CommandBuilder<SetPort>& c) {
-  c.id("set_port").label("Set value").doc("Sets a value of a node. A position starts again from the value that is set.");
+  c.id("set_port")
+      .label("Set value")
+      .doc("Sets a value of a node. A position that links move starts again from the value that is set.");
   c.argument(&In::node, "node").required().doc("Id of the node.");
   c.argument(&In::port, "port").required().doc("Which value, written `typification.port`.");
   c.argument(&In::value, "value").doc("The new value as in a scene file; null for the default.");

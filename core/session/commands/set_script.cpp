@@ -14,7 +14,7 @@ void SetScript::declare(CommandBuilder<SetScript>& c) {
   c.argument(&In::id, "id").required().doc("The name of the script: that of its file without .lua.");
   c.argument(&In::text, "text").required().doc("The whole text.");
   c.argument(&In::even_if_broken, "even_if_broken")
-      .doc("When on, a text that cannot be read is kept all the same, and links of its kind rest; undo needs it.");
+      .doc("When on, a text that cannot be read is stored nevertheless, and links of its kind do not run; undo needs it.");
 }
 
 // The script of the scene under another name whose kind the new text declares once more; empty where there is none.

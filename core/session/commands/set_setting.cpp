@@ -1,4 +1,4 @@
-// Sets what holds for the whole scene.
+// Sets a setting of the whole scene.
 #include "core/session/support.h"
 
 namespace bl {

@@ -1,4 +1,4 @@
-// Changes how the scene is laid out and looked at: boxes on the canvas, frames, comments, cameras. The tick never reads it.
+// Changes the view of the scene: boxes on the canvas, frames, comments, cameras. The tick never reads it.
 #include <map>
 #include <string>
 #include <string_view>
@@ -99,11 +99,11 @@ std::string text_of(const Json& view) { return view.empty() ? std::string() : wr
 void SetView::declare(CommandBuilder<SetView>& c) {
   c.id("set_view")
       .label("Arrange")
-      .doc("Changes the layout of the canvas, frames, comments, or cameras. Nothing that is computed depends on it.");
+      .doc("Changes the layout of the canvas, frames, comments, or cameras. Results do not depend on it.");
   c.argument(&In::changes, "changes")
       .required()
       .doc("A JSON object that is merged into the view: objects merge, null removes, everything else replaces.");
-  c.argument(&In::whole, "whole").doc("When on, `changes` is the whole view, and what was there before is gone.");
+  c.argument(&In::whole, "whole").doc("When on, `changes` replaces the whole view.");
 }
 
 Inverse SetView::apply(SceneEdit& edit, const In& in) {

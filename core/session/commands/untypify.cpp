@@ -1,4 +1,4 @@
-// Takes a role away from a node, with its values and locks.
+// Removes a role from a node, with its values and locks.
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
@@ -7,7 +7,7 @@
 namespace bl {
 
 void Untypify::declare(CommandBuilder<Untypify>& c) {
-  c.id("untypify").label("Untypify").doc("Takes a role away from a node. Links that need it stay and say so.");
+  c.id("untypify").label("Untypify").doc("Removes a role from a node. Links that need it stay, and report that it is missing.");
   c.argument(&In::node, "node").required().doc("Id of the node.");
   c.argument(&In::typification, "typification").required().doc("Id of the role.");
 }

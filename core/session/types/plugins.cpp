@@ -1,4 +1,4 @@
-// Reading the ABI text, opening the library, and trying its types in a registry of its own first.
+// Reads the ABI text, opens the library, and tests its types in a separate registry first.
 #include "core/session/types/plugins.h"
 
 #include <algorithm>
@@ -25,9 +25,9 @@ template <class Call>
 Result<void> guarded(const std::string& who, const Call& call) {
   try {
     return call();
-  } catch (const std::exception& thrown) { return Error{ErrorCode::conflict, "", who + " threw: " + thrown.what()}; } catch (...) {
-    return Error{ErrorCode::conflict, "", who + " threw something that is no std::exception"};
-  }
+  } catch (const std::exception& thrown) {
+    return Error{ErrorCode::conflict, "", who + " threw: " + thrown.what()};
+  } catch (...) { return Error{ErrorCode::conflict, "", who + " threw something that is no std::exception"}; }
 }
 
 void guard(LinkDefinition& kind, const std::string& library) {
@@ -53,7 +53,7 @@ std::string misspelt_port(const Registry& types, const std::string& id, const Po
   if (!port) return "`" + id + "`: " + port.error().message;
   if (is_proposed && (*port)->rule == CombineRule::none)
     return "`" + id + "` proposes to `" + path.typification + "." + path.port +
-           "`, which links cannot change: it has no rule that combines what several of them want";
+           "`, which links cannot change: it has no combine rule";
   return "";
 }
 
@@ -61,10 +61,10 @@ std::string misspelt_port(const Registry& types, const std::string& id, const Po
 std::string fault_of(const Registry& registry, const Registry& fresh, std::string_view files) {
   for (const auto& [id, type] : fresh.typifications())
     if (const std::string taken = registry.taken(type); !taken.empty())
-      return "the plugin brings `" + taken + "`, which is there already; give its type another id";
+      return "the plugin brings `" + taken + "`, which exists already; give its type another id";
   for (const auto& [id, kind] : fresh.links())
     if (const std::string taken = registry.taken(kind); !taken.empty())
-      return "the plugin brings `" + taken + "`, which is there already; give its type another id";
+      return "the plugin brings `" + taken + "`, which exists already; give its type another id";
   while (!files.empty()) {
     const std::string stem(files.substr(0, files.find(' ')));
     files.remove_prefix(stem.size() + 1);
@@ -111,11 +111,12 @@ Error nothing_in(const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(below, error))
       if (entry.path().extension() == ".so" && inside.empty()) inside = below.string();
   const bool has_sources = std::filesystem::exists(folder + "/CMakeLists.txt", error);
-  return refused(ErrorCode::missing, folder,
-                 std::string("there is no plugin (.so) in this folder") +
-                     (!inside.empty() ? "; " + inside + " has one"
-                      : has_sources   ? "; these are sources: build them by `./bl plugin '" + folder + "'`, which says where the library is"
-                                      : "; build one by `./bl plugin FOLDER`, which says where it is"));
+  return refused(
+      ErrorCode::missing, folder,
+      std::string("there is no plugin (.so) in this folder") +
+          (!inside.empty() ? "; " + inside + " has one"
+           : has_sources   ? "; these are sources: build them by `./bl plugin '" + folder + "'`, which says where the library is"
+                           : "; build one by `./bl plugin FOLDER`, which says where it is"));
 }
 
 }  // namespace

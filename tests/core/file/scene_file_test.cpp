@@ -94,9 +94,9 @@ TEST(SceneFile, ListsAllErrorsNotOnlyTheFirst) {
 }
 
 TEST(SceneFile, DeepNestingIsAnError) {
-  EXPECT_EQ(
-      first_error(std::string(100000, '[')),
-      "line 1, column 65: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
+  EXPECT_EQ(first_error(std::string(100000, '[')),
+            "line 1, column 65: The text is nested deeper than 64 levels from here on. No file of this kind needs that many: it "
+            "is not read.");
 }
 
 TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
@@ -132,8 +132,7 @@ TEST(SceneFile, WhatARunSaysOfUnknownTypificationsIsLeftOutWithAWarning) {
             "}");
   };
   const std::string warning =
-      "`hologram` is unknown to this program, so that what the run had made of it is left out: keep the file for the program "
-      "that knows it";
+      "`hologram` is unknown to this program, so its results are left out: keep the file for the program that knows it";
   const std::pair<const char*, const char*> rows[] = {
       {R"("nodes": {"a": {"hologram.v": 3, "smart_volume.demand": 40}})", "state/nodes/a/hologram.v"},
       {R"("errors": {"a/hologram": {"code": "io", "message": "x"}})", "state/errors/a/hologram"},

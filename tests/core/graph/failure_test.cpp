@@ -105,7 +105,7 @@ TEST(Failure, TrueNorthIsSaidOnceForTheScene) {
     {"id": "sun", "locked": ["sun_and_sky.true_north"], "types": {"sun_and_sky": {}}}, {"id": "style", "types": {"facade_style": {}}}], "links": []})");
   world.tick();
   const Vector3 before = world.point("sun", "sun_and_sky.direction");
-  EXPECT_NE(world.submit(command<LockPort>({"sun", {"sun_and_sky.true_north"}})).find("set in the scene's settings"),
+  EXPECT_NE(world.submit(command<LockPort>({"sun", {"sun_and_sky.true_north"}})).find("set it in the scene's settings"),
             std::string::npos);
   // Older logs set it at the node.
   ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.true_north"}, {"90"}})), "");

@@ -36,7 +36,7 @@ TEST(DataLayerImport, DegreesNeedNoCrsAndMetresDo) {
 
 TEST(DataLayerImport, TheValueHasToBeClear) {
   EXPECT_EQ(read_layer_csv("x,y,a,b\n1,2,3,4\n", kDutch).error().message,
-            "Several columns hold numbers (`a`, `b`): say which one is the value.");
+            "Several columns hold numbers (`a`, `b`): choose the one with the values.");
   EXPECT_EQ(read_layer_csv("x,y,a,b\n1,2,3,4\n", kDutch, "c").error().code, ErrorCode::not_found);
   EXPECT_EQ(read_layer_csv("a,b\n1,2\n", kDutch).error().place, "line 1");
   EXPECT_FALSE(read_layer_csv("", kDutch).ok());

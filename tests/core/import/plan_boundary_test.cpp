@@ -142,9 +142,9 @@ TEST(PlanBoundary, SpikesAreCutOff) {
 
 TEST(PlanBoundary, DeepNestingIsAnError) {
   const std::string deep = std::string(100000, '[') + std::string(100000, ']');
-  EXPECT_EQ(
-      boundary_error_of(polygon(deep)),
-      "line 1, column 96: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
+  EXPECT_EQ(boundary_error_of(polygon(deep)),
+            "line 1, column 96: The text is nested deeper than 64 levels from here on. No file of this kind needs that many: it "
+            "is not read.");
 }
 
 TEST(PlanBoundary, SiteOutsideItsCrsIsNoted) {

@@ -26,7 +26,7 @@ TEST(Ledger, AnOperationIsTakenOnce) {
   const auto again = ledger.submit(rename("three", {"window 1", 1}), 0);
   ASSERT_FALSE(again.ok());
   EXPECT_EQ(again.error().code, ErrorCode::duplicate);
-  EXPECT_EQ(again.error().text(), "operation: the operation 1 of `window 1` was taken already, or comes too late");
+  EXPECT_EQ(again.error().text(), "operation: the operation 1 of `window 1` was applied already, or comes too late");
   EXPECT_EQ(ledger.scene().nodes.at("a").name, "two");
   ASSERT_TRUE(ledger.submit(rename("four", {"window 1", 5}), 0).ok());
   EXPECT_FALSE(ledger.submit(rename("five", {"window 1", 4}), 0).ok());
@@ -117,7 +117,7 @@ TEST(Ledger, ARewindIsNoStepAndCannotBeUndone) {
   ASSERT_TRUE(world.session().rewind(1, "anna").ok());
   Ledger& ledger = world.session().ledger();
   const std::int64_t gesture = ledger.log().back().gesture;
-  EXPECT_EQ(ledger.undo("anna", 1, gesture).error().text(), "a rewind cannot be undone: the ticks after it were given up");
+  EXPECT_EQ(ledger.undo("anna", 1, gesture).error().text(), "a rewind cannot be undone: the later states were discarded");
   ASSERT_TRUE(ledger.undo("anna", 1).ok());
   EXPECT_EQ(world.session().scene().nodes.at("a").name, "");
 }
@@ -155,8 +155,10 @@ TEST(Ledger, LinesOfRewindsThatCannotBeAreRefused) {
   const std::string head = R"({"seq": 1, "tick": 5, "author": "anna", "gesture": 1, )";
   EXPECT_EQ(why(head + R"("rewind": 3})"), "");
   EXPECT_EQ(why(head + R"("rewind": 5})"), "line 2/rewind: goes back to tick 5, which is not before its own");
-  EXPECT_EQ(why(head + R"("rewind": 3, "undoes": 1})"), "line 2/undoes: a rewind is no command and takes none back");
-  EXPECT_EQ(why(head + R"("rewind": 3, "command": "batch"})"), "line 2/command: a rewind is no command and takes none back");
+  EXPECT_EQ(why(head + R"("rewind": 3, "undoes": 1})"),
+            "line 2/undoes: a rewind has no command and undoes none: remove the other fields");
+  EXPECT_EQ(why(head + R"("rewind": 3, "command": "batch"})"),
+            "line 2/command: a rewind has no command and undoes none: remove the other fields");
   EXPECT_EQ(why(head + R"("rewind": -1})"), "line 2/rewind: expects a whole number from 0 to 2^53");
   const std::string after = R"({"seq": 2, "tick": 2, "author": "anna", "gesture": 2, "rewind": 0})";
   EXPECT_EQ(why(head + "\"rewind\": 3}\n" + after), "line 3/seq: the entries are not in order");

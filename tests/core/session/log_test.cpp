@@ -42,17 +42,16 @@ TEST(Log, WhatCannotBeIsRefusedWithItsLine) {
   EXPECT_EQ(why_refused(mark("end", 60) + mark("check", 120)),
             "line 3: stands after the end of the log; were two logs put together?");
   EXPECT_EQ(why_refused(entry(1, 0, 1) + entry(2, 9007199254740992, 2)),
-            "line 3/tick: tick 9007199254740992 lies more than 100000000 ticks after the line before; no session runs that long");
+            "line 3/tick: tick 9007199254740992 is more than 100000000 ticks after the line before, longer than any session");
   EXPECT_EQ(why_refused(mark("end", 9007199254740992)),
-            "line 2/tick: tick 9007199254740992 lies more than 100000000 ticks after the line before; no session runs that long");
-  EXPECT_EQ(why_refused(entry(1, 0, 1, R"(, "undoes": 7)")),
-            "line 2/undoes: there is no gesture 7 of anna that could be taken back");
+            "line 2/tick: tick 9007199254740992 is more than 100000000 ticks after the line before, longer than any session");
+  EXPECT_EQ(why_refused(entry(1, 0, 1, R"(, "undoes": 7)")), "line 2/undoes: there is no gesture 7 of anna that could be undone");
   EXPECT_EQ(why_refused(entry(1, 0, 1) + entry(2, 0, 2, R"(, "undoes": 1)") + entry(3, 0, 3, R"(, "undoes": 1)")),
-            "line 4/undoes: there is no gesture 1 of anna that could be taken back");
+            "line 4/undoes: there is no gesture 1 of anna that could be undone");
   EXPECT_EQ(why_refused(entry(1, 0, 1) + entry(2, 0, 2, R"(, "redoes": 1)")),
-            "line 3/redoes: there is no gesture 1 of anna that could be brought back");
+            "line 3/redoes: there is no gesture 1 of anna that could be redone");
   EXPECT_EQ(why_refused(entry(1, 0, 1) + entry(2, 0, 2, R"(, "undoes": 1, "redoes": 1)")),
-            "line 3/undoes: an entry takes something back or brings it back, not both");
+            "line 3/undoes: an entry is either an undo or a redo, not both: remove one of the marks");
   EXPECT_EQ(why_refused(entry(1, 5, 1) + entry(2, 3, 2)), "line 3/seq: the entries are not in order");
   EXPECT_EQ(why_refused(R"({"check": {"tick": 3, "hash": "green"}})"), "line 2/hash: expects 16 hexadecimal digits");
 }

@@ -151,7 +151,7 @@ TEST_F(FileRule, ReportsLeaveWhatIsSomebodyElses) {
 TEST_F(FileRule, TheCatalogueLeavesWhatIsSomebodyElses) {
   std::filesystem::create_directory(place.path("pages"));
   place.write("pages/README.md", "# Mine\n");
-  expect_refused({"docs", "--out", "pages"}, "pages/README.md: is there already and is no page of the catalogue");
+  expect_refused({"docs", "--out", "pages"}, "pages/README.md: exists already and is no page of the catalogue");
   EXPECT_FALSE(std::filesystem::exists(place.path("pages/nodes"))) << "all or nothing";
   place.write("pages/README.md", "");
   for (int i = 0; i < 2; ++i) EXPECT_EQ(place.run({"docs", "--out", "pages"}).code, 0);
@@ -204,7 +204,7 @@ TEST_F(FileRule, ExtractedScriptsThatWereChangedStay) {
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua"}).code, 0);
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua"}).code, 0) << "the same text may be written again";
   place.write("lua/f.lua", kHoldingScript + "-- an afternoon's work\n");
-  expect_refused({"script", "s.json", "--extract", "lua"}, "lua/f.lua: is there and is not what the scene holds");
+  expect_refused({"script", "s.json", "--extract", "lua"}, "lua/f.lua: exists and differs from the script in the scene");
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua", "--force"}).code, 0);
   EXPECT_EQ(place.text("lua/f.lua"), kHoldingScript);
 }

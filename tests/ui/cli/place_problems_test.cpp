@@ -76,9 +76,9 @@ TEST(PlaceProblems, WhereAStandRunsItSaysWhatHoldsTheVolumeUp) {
     return std::string();
   };
   const std::string running = text_of(world.state(), "lifted");
-  EXPECT_EQ(running.find("lay a `stand`"), std::string::npos) << running;
+  EXPECT_EQ(running.find("add a `stand`"), std::string::npos) << running;
   EXPECT_NE(running.find("`standing` lets it down, but `hoist` holds it up"), std::string::npos) << running;
-  EXPECT_NE(text_of(world.state(), "high").find("lay a `stand`"), std::string::npos) << "nothing lets that one down";
+  EXPECT_NE(text_of(world.state(), "high").find("add a `stand`"), std::string::npos) << "nothing lets that one down";
   World alone = World::from_text(placed_scene(volumes, stand));
   alone.tick(1);
   const std::string sinking = text_of(alone.state(), "lifted");

@@ -82,7 +82,7 @@ TEST(Run, LogIsReplayed) {
   place.write("short.log", whole.substr(0, whole.find("{\"end\"")));
   const Outcome shortened = place.run({"replay", "short.log"});
   EXPECT_EQ(shortened.code, 0) << shortened.err;
-  EXPECT_NE(shortened.err.find("the log has no end. It was cut off, or what wrote it was stopped: what was done after tick 120"),
+  EXPECT_NE(shortened.err.find("the log has no end: it was cut off, or its program was stopped. What was done after tick 120"),
             std::string::npos)
       << shortened.err;
   EXPECT_EQ(shortened.last_line(), "agrees with all 2 checks");

@@ -17,7 +17,7 @@ TEST(JournalNotice, PeopleHearOnceThatItCannotBeWritten) {
   desktop.frames(2);
   const auto told = [&] {
     return std::count_if(editor.notices.begin(), editor.notices.end(),
-                         [](const Notice& n) { return n.text.find("not safe from a crash") != std::string::npos; });
+                         [](const Notice& n) { return n.text.find("crash would lose your changes") != std::string::npos; });
   };
   EXPECT_EQ(told(), 1);
   editor.notices.clear();

@@ -64,7 +64,7 @@ TEST(NewVolume, SaysWhichUseItTakes) {
   ASSERT_TRUE(desktop.editor().submit(command<RemoveNode>({"theatre"})));
   desktop.ticks(2);
   desktop.add();
-  EXPECT_TRUE(desktop.is_told("use `theatre`, which lacks most"));
+  EXPECT_TRUE(desktop.is_told("use `theatre`, which lacks the most"));
   EXPECT_TRUE(desktop.is_told("inspector"));
   NewVolumeDesktop without("scenes/studies/sixty_volumes.json");
   without.ticks(1);

@@ -43,7 +43,7 @@ TEST(WindowScarcity, MemoryThatRunsOutInAFrameEndsInASentenceAndKeepsTheJournal)
   if (test::kIsSanitized) GTEST_SKIP() << "sanitizers need more address space than any limit leaves";
   const std::string folder = ::testing::TempDir() + "scarce-" + std::to_string(getpid());
   EXPECT_EXIT(work_until_memory_ends(folder), ::testing::ExitedWithCode(1),
-              "behaviourlinks: memory ran out: .*What you did since the last save is kept");
+              "behaviourlinks: memory ran out: .*Your changes since the last save are kept");
   std::size_t kept = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder + "/behaviourlinks/journals"))
     kept += read_file(entry.path().string()).value().find("Kept by the journal") != std::string::npos ? 1 : 0;

@@ -161,7 +161,7 @@ TEST_F(ViewIsochrones, TellWhenTheFlowsStillMove) {
   set("suburb", "traffic_zone.trips_out", "900");
   desktop.ticks(1);
   const auto by_car = isochrones_of(state(), index("library"), true);
-  EXPECT_EQ(by_car->tentative, "tentative: flows still move");
+  EXPECT_EQ(by_car->tentative, "tentative: flows still change");
   EXPECT_NE(isochrone_legend(*editor().view->facts(), by_car.get(), editor().theme).title.find("tentative"), std::string::npos);
   EXPECT_EQ(isochrones_of(state(), index("library"), false)->tentative, "") << "walks do not depend on flows";
 }

@@ -84,7 +84,7 @@ TEST(Account, FloorAreaThatTheShapeDoesNotHoldIsMissing) {
   ASSERT_LT(stage.floor_area, 0.98 * stage.asked_area) << "the case that is tested has gone; take another height";
   EXPECT_TRUE(stage.is_short(accounts.tolerance));
   EXPECT_TRUE(accounts.uses.front().is_short(accounts.tolerance));
-  EXPECT_NE(reading::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of the shape hold less floor"),
+  EXPECT_NE(reading::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of the shape have less floor"),
             std::string::npos);
 }
 

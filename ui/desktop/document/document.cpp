@@ -93,9 +93,10 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
     return 0;  // somebody has taken the node away: then it names no file any more
   if (!named.copies.empty())
     note(reading::counted(named.copies.size(), "recorded table") +
-         " copied into the scene's new folder, where recordings are played from.");
+         " copied into the scene's new folder, since recordings are played from there only.");
   if (const std::size_t rest = named.commands.size() - named.copies.size(); rest > 0)
-    note(reading::counted(rest, "file") + " that the scene names stayed in place; the scene names them from its new folder.");
+    note(reading::counted(rest, "file") +
+         " that the scene uses stayed in place; the scene now refers to them from its new folder.");
   return gesture;
 }
 
@@ -115,7 +116,7 @@ Result<void> copy_all(const std::vector<std::pair<std::string, std::string>>& co
 Result<void> Document::save(const std::string& path) {
   if (is_shipped(path))
     return Error{ErrorCode::conflict, path,
-                 "The scenes of this folder come with the program and stay as they are: choose another folder."};
+                 "The scenes in this folder come with the program and are not overwritten: choose another folder."};
   save_note_.clear();
   const NamedFiles named = files_named_from(scene(), folder(), std::filesystem::path(path).parent_path().string());
   const std::int64_t gesture = name_files_from(named);
@@ -159,7 +160,7 @@ void Document::read_imports(std::vector<Problem>& problems) {
   const auto text = read_file(path);
   auto reports = text ? importing::read_import_csv(*text) : Result<importing::ImportReports>(text.error());
   if (!reports)
-    problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene is not touched by it."}});
+    problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene itself is unchanged."}});
   else add_imports(*reports);
 }
 

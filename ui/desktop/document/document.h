@@ -1,4 +1,4 @@
-// One open scene: its file, the host that runs it, and what has been saved of it.
+// One open scene: its file, the host that runs it, and its saved state.
 #pragma once
 
 #include <cstdint>
@@ -17,52 +17,51 @@ namespace bl::desktop {
 /// Does the file lie among the scenes that come with the program? Those are never written over.
 bool is_shipped(const std::string& path);
 
-/// Ticks on one thread: the other cores are the window's.
+/// Ticks run on one thread; the other cores are left to the window.
 inline constexpr int kTickThreads = 1;
 
 class Document {
  public:
-  /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.
+  /// Reads a scene; `problems` gets warnings and errors. Returns nothing where there are errors.
   static std::unique_ptr<Document> open(const Registry& registry, const std::string& path, int threads,
                                         std::vector<Problem>& problems);
-  /// A scene that has no file yet (path empty), or one that was recovered. One that comes with the program is a copy that has
-  /// no file yet, either.
+  /// A scene that has no file yet (path empty), or one that was recovered. A scene that comes with the program opens as a copy
+  /// without a file.
   static std::unique_ptr<Document> from_text(const Registry& registry, const std::string& text, const std::string& path,
                                              int threads, std::vector<Problem>& problems);
-  /// From the journal of a window that did not end well; the commands in it are applied again.
+  /// From the journal of a window that crashed; the commands in it are applied again.
   static std::unique_ptr<Document> recover(const Registry& registry, const host::Journal::UnsavedJournal& remains, int threads,
                                            std::vector<Problem>& problems);
 
-  /// No other document that this window has opened has it: an address can come again.
+  /// Unique among all documents that this window has opened; addresses may be reused.
   std::uint64_t id() const { return id_; }
   host::LiveSession& session() { return host_->session(); }
   const Scene& scene() const { return host_->session().scene(); }
-  /// Where Save writes; empty where it has to ask.
+  /// The path that Save writes to; empty where it has to ask.
   const std::string& path() const { return path_; }
   /// The file that the scene was read from, or written to last: that of a copy is its original. Empty where there is none.
   const std::string& source() const { return path_.empty() ? origin_ : path_; }
-  /// Where the scene's pictures and tables are looked for. Empty: where the program was started.
+  /// The folder in which the scene's pictures and tables are found. Empty: the folder where the program was started.
   std::string folder() const;
-  /// The file's name, or what a scene without one is called.
+  /// The file's name, or a title for a scene without a file.
   std::string name() const;
 
-  /// Writes the scene (with the running state, so that it opens as it was left) and takes on the path. Files that it names
-  /// relative to another folder are named anew, so that they are found from there as well. Into the folder of shipped scenes
-  /// nothing is written.
+  /// Writes the scene with its running state, so that it opens as it was left, and adopts the path. Relative names of files are
+  /// adapted to the new folder. Nothing is written into the folder of shipped scenes.
   Result<void> save(const std::string& path);
-  /// What people should know of the last save beside that it went well; empty where nothing.
+  /// Notices about the last successful save; empty where there are none.
   const std::string& save_note() const { return save_note_; }
 
-  /// What became of every element of imported files. Kept beside the scene's file, and read from there.
+  /// The import reports, with the result for every element. They are kept in a file beside the scene's file, and read from there.
   const importing::ImportReports& imports() const { return imports_; }
-  /// Grows with each change of them.
+  /// A number that grows with each change of the reports.
   std::uint64_t imports_revision() const { return imports_revision_; }
   void add_imports(const importing::ImportReports& reports);
   /// Where the reports of a scene file are kept: quarter.import.csv beside quarter.json.
   static std::string imports_path(const std::string& scene_path);
-  /// Why a crash would lose what has not been saved; empty where it would not.
+  /// Why a crash would lose unsaved changes; empty where it would not.
   std::string journal_problem() const { return host_->journal_problem(); }
-  /// Is there anything that the file does not have? Looked at again only after changes.
+  /// Does the scene differ from its file? Compared again only after changes.
   bool is_unsaved();
   /// Writes the log since the scene was opened, for `replay`.
   Result<void> save_log(const std::string& path) const;
@@ -70,7 +69,8 @@ class Document {
   const std::vector<host::HistoryStep>& history() const { return host_->history().steps(); }
   std::int64_t last_step() const { return host_->history().last_step(); }
 
-  /// Commands as one step; `label`: what it is called, where they alone do not say what was meant: "Solo · Hotel".
+  /// Submits commands as one step. `label`: the name of the step, where the commands alone do not say what was meant: "Solo ·
+  /// Hotel".
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "") {
     return host_->submit(commands, gesture, label);
   }
@@ -88,7 +88,7 @@ class Document {
   std::string path_, origin_, save_note_;
   importing::ImportReports imports_;
   std::uint64_t imports_revision_ = 0;
-  std::optional<Scene> saved_;  ///< what the file holds; none where there is none, or something else
+  std::optional<Scene> saved_;  ///< the content of the file; none where there is no file, or another content
   std::unique_ptr<host::Host> host_;
   std::size_t compared_size_ = 0;  ///< of the log
   bool is_unsaved_ = false;

@@ -1,4 +1,4 @@
-// One thread for one import; whatever is thrown in it ends as an error.
+// One thread for one import; an exception in it becomes an error.
 #include "ui/desktop/document/import_task.h"
 
 #include <exception>

@@ -11,19 +11,19 @@ namespace bl::desktop {
 
 class ImportTask {
  public:
-  /// Begins at once. `scene` is the one that is added to; it is not changed. The registry outlives the task.
+  /// Begins at once. `scene` is the scene to add to; it is not changed. The registry must outlive the task.
   ImportTask(Scene scene, making::ImportOptions options, const Registry& registry);
-  /// Stops it, and waits until it has.
+  /// Stops the import, and waits until it has ended.
   ~ImportTask();
   ImportTask(const ImportTask&) = delete;
   ImportTask& operator=(const ImportTask&) = delete;
 
   const importing::ImportWatch& watch() const { return watch_; }
-  /// Asks it to end; it answers between two elements.
+  /// Asks the import to end; it ends between two elements.
   void stop() { watch_.is_stopped = true; }
   bool is_done() const { return is_done_; }
   void wait();
-  /// What came of it, once it is done.
+  /// The result, once the import is done.
   making::ImportedScene& result() { return *result_; }
 
  private:

@@ -1,4 +1,4 @@
-// The person's settings as a small JSON file, read forgivingly: a window never fails to open because of it.
+// The person's settings as a small JSON file. Errors in it are ignored, so that the window always opens.
 #include "ui/desktop/document/person_settings.h"
 
 #include <algorithm>

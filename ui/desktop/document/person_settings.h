@@ -1,4 +1,4 @@
-// What a person has chosen for windows of this program: kept between runs, no part of any scene.
+// A person's settings for windows of this program: kept between runs, no part of any scene.
 #pragma once
 
 #include <map>
@@ -28,10 +28,10 @@ struct PersonSettings {
 struct Extent {
   int width = 0, height = 0;
 };
-/// The size of a new window: as wished, and wholly on a screen that has `room` (0: not known), with its title bar.
+/// The size of a new window: the wanted size, reduced to fit a screen of the size `room` with its title bar (0: not known).
 Extent fitting_window(Extent wished, Extent room);
 
-/// Reads the person's file; what is missing or unreadable is as a new person would have it.
+/// Reads the person's file; settings that are missing or unreadable get their defaults.
 PersonSettings read_person_settings(const std::string& file);
 Result<void> write_person_settings(const PersonSettings& settings);
 

@@ -1,4 +1,4 @@
-// The shared verbs of the panels: submit, undo, open, tell.
+// The actions that panels share: submit, undo, open, notify.
 #include "ui/desktop/editor/editor.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void tell_left(Editor& editor, const Result<TakenBack>& done, const char* nothin
   if (done->left.empty()) return;
   const std::size_t more = done->left.size() - 1;
   editor.notify(NoticeKind::told,
-                "Left as it is: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
+                "Not changed: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What all panels of a window share: the document, what is chosen, the theme, and the one verb to change a scene.
+// What all panels of a window share: the document, the selection, the theme, and `submit`, which changes the scene.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,18 @@ namespace bl::desktop {
 
 struct PanelMemory;
 
-/// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
+/// The selected and hovered elements, shared by all panels. It is no part of the scene, and is not undone.
 struct Picks {
   std::set<std::string> nodes, links;
-  std::string hovered_node, hovered_link;  ///< pointed at in this frame, in whatever panel
-  std::string lit_node, lit_link;          ///< the same of the frame before, so that panels drawn earlier know it too
+  std::string hovered_node, hovered_link;  ///< hovered in this frame, in any panel
+  std::string lit_node, lit_link;          ///< hovered in the frame before, for panels that are drawn earlier
 
   void clear() { nodes.clear(), links.clear(); }
   void only_node(const std::string& id) { links.clear(), nodes = {id}; }
   void only_link(const std::string& id) { nodes.clear(), links = {id}; }
 };
 
-/// What keys go to: canvas or 3D view once the mouse has moved over them, lists and inspector after a click into them; F6 takes
-/// turns.
+/// The area that gets keys: canvas or 3D view once the mouse has moved over them, lists and inspector after a click; F6 switches.
 enum class Area { none, canvas, view, panels };
 
 enum class NoticeKind { told, warning, error };
@@ -40,10 +39,10 @@ struct Notice {
   double until = 0;  ///< on the window's clock [s]
 };
 
-/// The wish, or the first of wish-2, wish-3 and so on that is not taken.
+/// The wanted id, or the first free one of wish-2, wish-3 and so on.
 std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
 
-/// How an actuator's messages fare, as the connection knows it; no part of the state.
+/// The status of an actuator's messages according to its connection; no part of the state.
 struct Delivery {
   std::int64_t messages = 0;
   double sent_at = -1;  ///< on the window's clock [s]; -1: nothing was sent yet
@@ -61,33 +60,33 @@ class Editor {
   std::unique_ptr<Document> document;          ///< none: the start page
   std::vector<Problem> problems;               ///< of the last file that was opened, or tried: set by `list_problems`
   std::string problem_file;                    ///< that file
-  std::uint64_t problems_revision = 0;         ///< another one for each list
+  std::uint64_t problems_revision = 0;         ///< changes with each list
   std::shared_ptr<const host::Moment> moment;  ///< taken once for each frame; none without a document
   double now = 0;                              ///< the window's clock [s]
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
-  bool serves_ticks = false;                   ///< somebody serves each tick of a scene with recordings: they wait for it
+  bool serves_ticks = false;                   ///< each tick of a scene with recordings waits until it was served
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
-  std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
-  std::uint64_t bytes_sent = 0;                ///< to the graphics processor, since the window opened
+  std::shared_ptr<PanelMemory> panels;         ///< memory of inspector, lists and charts for this document
+  std::uint64_t bytes_sent = 0;                ///< bytes sent to the graphics processor since the window opened
   std::map<std::string, Delivery> deliveries;  ///< by actuator, where there is a connection
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }
   const State& state() const { return *moment->state; }
-  /// The types of the program and the kinds of the scene's scripts. Pointers into it stay good until the frame after the next.
+  /// The types of the program and the kinds of the scene's scripts. Pointers into it stay valid until the frame after the next.
   const Registry& types() const;
-  /// Index of the node in the state; state().nodes.size() where no tick has seen it yet.
+  /// Index of the node in the state; state().nodes.size() where no tick has evaluated it yet.
   std::uint32_t index_of(const std::string& node) const { return state().plan->node_index(node); }
   /// Name, or id where there is none.
   std::string name_of(const std::string& node) const;
 
   // --- Changing. Errors become notices; whether it went well.
-  /// `label`: what the step is called in the history, where its commands alone do not say what was meant.
+  /// `label`: the name of the step in the history, where its commands alone do not say what was meant.
   bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "");
   bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
-  /// One frame of a gesture: values that the next frame sets anew. It is seen at once.
+  /// One frame of a gesture: values that the next frame sets anew. It is shown at once.
   bool show(const std::vector<Command>& commands, std::int64_t gesture);
   void end_gesture(std::int64_t gesture);
   /// A patch of the scene's view (canvas layout, cameras), as one step.
@@ -95,19 +94,18 @@ class Editor {
   std::int64_t new_gesture() { return document->session().new_gesture(); }
   void undo();
   void redo();
-  /// An id of a new node or link, from a wish such as "tower", not taken by either.
+  /// A free id for a new node or link, made from a wanted one such as "tower".
   std::string fresh_id(const std::string& wish) const;
 
-  /// The mouse is over this area. One that rests there does not take the keys away from another.
+  /// The mouse is over this area. A mouse that does not move leaves the keys with the other area.
   void point_at(Area where);
   void notify(NoticeKind kind, std::string text);
-  /// What is wrong with a file, in place of what was wrong with the last one.
+  /// Sets the problems of a file in place of those of the last one.
   void list_problems(std::string file, std::vector<Problem> found);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);
-  /// At the beginning of a frame: says what a gesture still shows once it is due, and lets go of scripts that nobody can hold
-  /// pointers into any more.
+  /// At the beginning of a frame: submits due values of gestures, and releases scripts that nothing can point into any more.
   void begin_frame();
 
  private:

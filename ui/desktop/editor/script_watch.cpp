@@ -1,4 +1,4 @@
-// From a file to a set_script command; what cannot be read stands in the problems list, and the old version stays in force.
+// Makes set_script commands of files; one that cannot be read is listed among the problems, and its old version stays in force.
 #include "ui/desktop/editor/script_watch.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Lua files that people gave to the open scene: read again whenever they are saved, while the scene runs.
+// Lua files that people added to the open scene. They are read again whenever they are saved, while the scene runs.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ class ScriptWatch {
  public:
   /// Puts the file's text into the scene as a link kind, and watches the file from now on, even where it cannot be read yet.
   void add(Editor& editor, const std::string& path);
-  /// Looks for files that were saved since, a few times a second of the window's clock.
+  /// Looks for newly saved files a few times a second of the window's clock.
   void poll(Editor& editor);
-  /// Forgets all files, with the scene they belonged to.
+  /// Forgets all files when their scene is closed.
   void clear() { files_.clear(); }
   std::size_t size() const { return files_.size(); }
 

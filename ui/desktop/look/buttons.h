@@ -7,10 +7,10 @@
 
 namespace bl::desktop {
 
-/// The button that a dialog is there for, in the colour of the accent.
+/// The main button of a dialog, in the accent colour.
 bool chief_button(const Theme& theme, const char* label, ImVec2 size);
 
-/// A place to press, without a look of its own. A pane may be too narrow for it: then it has a pixel.
+/// An area that can be pressed and draws nothing. In a pane that is too narrow it is one pixel wide.
 bool press_area(const char* id, ImVec2 size, ImGuiButtonFlags flags = ImGuiButtonFlags_None);
 
 }  // namespace bl::desktop

@@ -133,7 +133,7 @@ std::string Theme::load_fonts(float scale) {
   for (const float size : kCanvasSizes) fonts_.canvas.push_back(add(regular, size, kCanvasRanges, false));
   atlas.Build();
   if (regular.find("inter") != std::string::npos) return "";
-  return "The packaged typeface (fonts-inter) is missing; another one stands in.";
+  return "The packaged typeface (fonts-inter) is missing; another one is used.";
 }
 
 ImFont* Theme::canvas_font(float pixels) const {

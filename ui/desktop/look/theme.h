@@ -13,21 +13,21 @@ namespace bl::desktop {
 
 /// Colours by meaning, never by hue; packed as ImGui wants them.
 struct Colours {
-  ImU32 window, panel, raised, sunken, line;         ///< surfaces, from the window's ground to what is pressed in; hairlines
+  ImU32 window, panel, raised, sunken, line;         ///< surfaces, from the window's background to pressed fields; hairlines
   ImU32 text, text_soft, text_faint;                 ///< body, labels, hints
-  ImU32 accent, accent_soft, on_accent;              ///< what is chosen or can be pressed; its quiet form; text upon it
-  ImU32 good, warning, bad;                          ///< met, in tension, failing: always beside a word or a sign
+  ImU32 accent, accent_soft, on_accent;              ///< selected or pressable elements; their subdued form; text on them
+  ImU32 good, warning, bad;                          ///< met, in tension, failing: always used with a word or a sign
   ImU32 canvas, grid, grid_strong, node, node_head;  ///< the node canvas
   ImU32 sky, ground;                                 ///< the 3D view
 };
 
-/// Families of links: each has a colour and a name. Both are the report's.
+/// Families of links: each has a colour and a name, the same as in the report.
 struct Family {
   std::string_view label;
   ImU32 colour;
 };
 
-/// Text in sizes of one scale; `canvas` holds the same face in growing sizes, so that a zoomed canvas stays crisp.
+/// Text in sizes of one scale; `canvas` holds the same face in growing sizes, so that a zoomed canvas stays sharp.
 struct Fonts {
   ImFont *body = nullptr, *small = nullptr, *strong = nullptr, *title = nullptr, *display = nullptr;
   std::vector<ImFont*> canvas;  ///< ascending size
@@ -37,7 +37,8 @@ class Theme {
  public:
   /// Sets ImGui's style. `scale` 1 to 2: pixels per point.
   void apply(bool is_dark, float scale);
-  /// Builds the font atlas of the current ImGui context; a sentence where the packaged face is missing and another one stands in.
+  /// Builds the font atlas of the current ImGui context; returns a sentence where the packaged face is missing and another one is
+  /// used.
   std::string load_fonts(float scale);
 
   const Colours& colours() const { return colours_; }
@@ -51,11 +52,11 @@ class Theme {
 
   /// `kind` is nullptr for links of unknown kinds.
   Family family_of(const LinkDefinition* kind) const;
-  /// A colour for the k-th of several categories (uses), told apart under any colour vision.
+  /// A colour for the k-th of several categories (uses), distinguishable under any colour vision.
   ImU32 category(std::size_t k) const;
   /// Perceptually even ramp (dark blue to yellow), t in 0 to 1.
   static ImU32 ramp(double t);
-  /// Ramp with a middle: blue for too little, light for right, red-brown for too much; t in -1 to 1.
+  /// Diverging ramp: blue for too little, light for right, red-brown for too much; t in -1 to 1.
   ImU32 diverging(double t) const;
 
  private:

@@ -84,8 +84,8 @@ void tell_uses(Workbench& editor, const std::vector<std::string>& nodes) {
   std::string names;
   for (const std::string& use : uses) names += (names.empty() ? "`" : ", `") + use + "`";
   editor.notify(NoticeKind::told,
-                (uses.size() == 1 ? "It takes the use " + names + ", which lacks most, and a share of its demand"
-                                  : "They take the uses that lack most, " + names) +
+                (uses.size() == 1 ? "It takes the use " + names + ", which lacks the most, and a share of its demand"
+                                  : "They take the uses that lack the most, " + names) +
                     "; choose another in the inspector.");
 }
 

@@ -75,7 +75,7 @@ void draw_standing(Workbench& editor) {
     text = "negotiating: worst error " + fixed(100 * state.largest_residual, 2) + " %, moves up to " +
            distance_text(state.largest_move) + " a tick";
   } else {
-    text = "press P to let the links and the solver run";
+    text = "press P to run the links and the solver";
   }
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
@@ -97,7 +97,7 @@ void draw_clock(Workbench& editor) {
   if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(kSlowest), static_cast<float>(kFastest), "%.3g ticks/s",
                          ImGuiSliderFlags_Logarithmic))
     editor.document->session().set_rate(rate);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ticks per second that are wanted (- slower, = faster)");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Wanted ticks per second (- slower, = faster)");
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(theme.fonts().strong);

@@ -246,7 +246,7 @@ Dialogs::Recovered Dialogs::recover(const host::Journal::UnsavedJournal& remains
     editor_->notify(NoticeKind::told, "Recovered. Save it to keep it.");
     return Recovered::all;
   }
-  editor_->notify(NoticeKind::warning, "Recovered as far as it goes: the problems list says what is amiss. The journal is kept.");
+  editor_->notify(NoticeKind::warning, "Recovered in part: the problems list says what is missing. The journal is kept.");
   return Recovered::in_part;
 }
 
@@ -254,7 +254,7 @@ void Dialogs::draw_recovery() {
   if (!begin("Recover unsaved work", 620, 300)) return;
   const Theme& theme = editor_->theme;
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted("A window did not end well. What was done in it is kept in its journal:");
+  ImGui::TextUnformatted("A window was not closed properly. Its changes are kept in its journal:");
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(6)});
   for (std::size_t k = 0; k < remains_.size(); ++k) {

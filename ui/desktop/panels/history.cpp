@@ -51,9 +51,9 @@ bool draw_step(Workbench& editor, int index, const std::string& label, const std
   list.AddText(small, small->FontSize, {at.x + width - detail_width - theme.px(8), middle - small->FontSize / 2}, c.text_faint,
                detail.c_str());
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s", is_undone    ? "Bring back everything up to here"
+    ImGui::SetTooltip("%s", is_undone    ? "Redo everything up to here"
                             : is_current ? "This is how the scene is now"
-                                         : "Take back everything after this");
+                                         : "Undo everything after this");
   return is_pressed;
 }
 

@@ -1,4 +1,4 @@
-// Surroundings come into the open scene: which files, the few things that matter about them, and how far the reading is.
+// The import of surroundings into the open scene: the files, their options, and the progress.
 #include "ui/desktop/panels/dialogs.h"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ void Dialogs::draw_import_options() {
   const char* as_the_file_says = "as the file says";
   const auto& kinds = making::kImportKinds;
   const auto chosen = std::find_if(kinds.begin(), kinds.end(), [&](const making::ImportKind& k) { return import_.kind == k.id; });
-  label(theme, "What is in the files", "What polygons, lines or cells are, where the file itself does not say it.");
+  label(theme, "What is in the files", "Kind of the polygons, lines or cells, where the file does not give it.");
   ImGui::SetNextItemWidth(theme.px(250));
   if (ImGui::BeginCombo("##kind", chosen == kinds.end() ? as_the_file_says : chosen->label)) {
     if (ImGui::Selectable(as_the_file_says, import_.kind.empty())) import_.kind.clear();
@@ -113,7 +113,7 @@ void Dialogs::draw_import_options() {
       if (ImGui::Selectable(kind.label, import_.kind == kind.id)) import_.kind = kind.id;
     ImGui::EndCombo();
   }
-  text_field(theme, "Coordinates are in", "A CRS in place of what the files say of themselves.", context.crs,
+  text_field(theme, "Coordinates are in", "A CRS in place of the one in the files.", context.crs,
              "as the file says, or EPSG:28992");
   const std::string crs = editor_->document ? settings_of(editor_->scene()).coordinate_system : std::string();
   if (crs.empty()) {
@@ -121,19 +121,19 @@ void Dialogs::draw_import_options() {
                import_.origin, "the middle of the first file");
   } else {
     import_.origin.clear();
-    label(theme, "Origin of the scene", "Decided by the first file that was imported, or by the plan it was made from.");
+    label(theme, "Origin of the scene", "Set by the first imported file, or by the plan that the scene was made from.");
     ImGui::TextDisabled("stays where it is, in %s", crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
   }
-  number_field(theme, "Radius around the origin", "What begins farther away is skipped, and reported. 0: no limit.",
+  number_field(theme, "Radius around the origin", "Elements that begin farther away are skipped, and reported. 0: no limit.",
                context.radius, "%.5g m");
-  number_field(theme, "Finest level of detail", "Of city models: the finest geometry up to this, such as 1.2 or 2.2.",
+  number_field(theme, "Finest level of detail", "The finest level of detail that is taken from city models, such as 1.2 or 2.2.",
                context.level_of_detail, "%.3g");
-  number_field(theme, "Storey height", "Where only a number of storeys is known.", context.storey_height, "%.4g m");
+  number_field(theme, "Storey height", "Used where only the number of storeys is known.", context.storey_height, "%.4g m");
   number_field(theme, "Height of unknown buildings",
-               "Where neither the file nor three neighbours tell one. It is marked as assumed.", context.default_height,
-               "%.4g m");
-  text_field(theme, "Column with the values", "Of a layer of data.", import_.value, "the only one with numbers");
-  text_field(theme, "Unit, licence of the values", "Of a layer of data: such as dB, and what may be done with it.", import_.unit,
+               "Used where neither the file nor three neighbours give a height. The height is marked as assumed.",
+               context.default_height, "%.4g m");
+  text_field(theme, "Column with the values", "For a data layer.", import_.value, "the only one with numbers");
+  text_field(theme, "Unit, licence of the values", "For a data layer: its unit, such as dB, and its licence.", import_.unit,
              "unit", 90);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(theme.px(152));
@@ -169,7 +169,7 @@ void Dialogs::draw_import_progress() {
   ImGui::PopStyleColor();
   ImGui::TextDisabled("%s %s", watch.step.load(), count.c_str());
   ImGui::Dummy({0, theme.px(10)});
-  ImGui::TextDisabled("The scene goes on meanwhile. Nothing is added before all files are read.");
+  ImGui::TextDisabled("The scene keeps running. Nothing is added before all files are read.");
   ImGui::Dummy({0, theme.px(10)});
   if (ImGui::Button("Stop", {theme.px(110), 0})) stop_import();
   note_place(*editor_, "import/stop");
@@ -253,14 +253,13 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
     skipped += report.count(importing::ImportOutcome::skipped);
     repaired += report.count(importing::ImportOutcome::repaired);
   }
-  editor_->notify(
-      NoticeKind::told,
-      "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
-          (repaired == 0 ? "" : reading::counted(repaired, "element") + " repaired, ") +
-          (skipped == 0
-               ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import says what was mended.")
-               : (repaired == 0 ? reading::counted(skipped, "element") : reading::grouped(static_cast<double>(skipped))) +
-                     " skipped; the tab Import says why."));
+  editor_->notify(NoticeKind::told,
+                  "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
+                      (repaired == 0 ? "" : reading::counted(repaired, "element") + " repaired, ") +
+                      (skipped == 0 ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import lists the repairs.")
+                                    : (repaired == 0 ? reading::counted(skipped, "element")
+                                                     : reading::grouped(static_cast<double>(skipped))) +
+                                          " skipped; the tab Import lists the reasons."));
   editor_->person.shows_bottom = true;
   memory_of(*editor_).wanted_tab = "Import";
   const auto& [low, high] = imported.bounds;

@@ -1,4 +1,4 @@
-// The tab Import: what was taken, repaired and skipped at the left, element by element at the right; a press goes there.
+// The tab Import: counts of taken, repaired and skipped elements at the left, the elements at the right; a click goes to one.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -77,9 +77,9 @@ void go_to(Workbench& editor, const importing::ImportRow& row) {
                              (special_of(row).empty() ? "" : "\n" + special_of(row));
     return editor.view->put_pin({{(*row.place)[0], (*row.place)[1], ground}, what});
   }
-  editor.notify(NoticeKind::told, row.count > 1 ? "This row speaks of " + number(row.count) +
-                                                      " elements together, which have no place of their own."
-                                                : "The file does not say where " + title_of(row) + " lies.");
+  editor.notify(NoticeKind::told,
+                row.count > 1 ? "This row stands for " + number(row.count) + " elements, which have no place of their own."
+                              : "The file does not say where " + title_of(row) + " lies.");
 }
 
 void draw_outcomes(Workbench& editor, ImportList& list) {
@@ -151,7 +151,8 @@ void draw_row(Workbench& editor, const ImportEntry& entry, int index, bool has_f
     if (!row.made.empty() && editor.scene().nodes.contains(row.made.front())) editor.picks.hovered_node = row.made.front();
     const bool goes = row.place || !nodes_of(editor, row).empty();
     card(editor, title_of(row), why_of(row) + (special_of(row).empty() ? "" : "\n" + special_of(row)),
-         nodes_of(editor, row).empty() ? goes ? "press for its place" : "it has no place" : "press to go to what was made of it");
+         nodes_of(editor, row).empty() ? goes ? "press for its place" : "it has no place"
+                                       : "press to go to the node made from it");
   }
   ImGui::PopID();
   const RowSign sign = sign_of(theme, row.outcome);
@@ -217,7 +218,7 @@ void draw_table(Workbench& editor, ImportList& list) {
 void draw_no_imports(Workbench& editor) {
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::TextUnformatted(
-      "Nothing was imported into this scene. After an import, every element of the files stands here, with what became of it.");
+      "Nothing was imported into this scene yet. After an import, this list shows every element of the files and its result.");
   ImGui::Dummy({0, editor.theme.px(4)});
   if (ImGui::Button("Import surroundings ...")) editor.dialogs->show_import();
 }

@@ -1,4 +1,4 @@
-// Below a setting: what the links have made of it, who moved it, and how hard they pull against each other.
+// Below a setting: its effective value, the links that changed it, and the tension between them.
 #include <algorithm>
 #include <cmath>
 
@@ -87,10 +87,11 @@ void draw_effective(Workbench& editor, InspectorView& view, PortRef ref, const V
   std::string text;
   for (const std::string& pull : row.pulls) text += (text.empty() ? "" : "\n") + pull;
   std::string facts = "set " + value_text(set, port, port.unit) +
-                      (type.is_set[ref.port] ? "" : " (the default, which has no voice)") + "  \xE2\x86\x92  effective " +
-                      glance(effective, port);
+                      (type.is_set[ref.port] ? "" : " (the default, which does not count as a proposal)") +
+                      "  \xE2\x86\x92  effective " + glance(effective, port);
   if (is_tense)
-    facts += "\ntension " + reading::quantity(tension, port.unit) + ", " + reading::percent(severity) + " of what is pulled at";
+    facts +=
+        "\ntension " + reading::quantity(tension, port.unit) + ", " + reading::percent(severity) + " of the size of the value";
   card(editor, is_tense ? "Who pulls here" : "What moves it", text, facts);
 }
 

@@ -69,7 +69,7 @@ bool read_field(Workbench& editor, const Grid& grid, const ColumnDefinition& col
     if (auto checked = check_value(port, *number, ""); !checked) refusal = checked.error().message;
   }
   if (!refusal.empty()) {
-    complain(editor, grid.key, "`" + text + "` was not taken for " + label_of(column.id) + ": " + refusal);
+    complain(editor, grid.key, "`" + text + "` was refused for " + label_of(column.id) + ": " + refusal);
     return false;
   }
   out = *number;
@@ -142,7 +142,7 @@ GridEdit draw_rows(Workbench& editor, const Grid& grid) {
         if (!grid.is_fixed) {
           const float top = ImGui::GetCursorScreenPos().y, mouse = ImGui::GetIO().MousePos.y;
           const bool is_near = ImGui::IsWindowHovered() && mouse >= top && mouse < top + line;
-          if (sign_button(editor, icon::kClose, "Take this row away", theme.colours().text_faint, is_near))
+          if (sign_button(editor, icon::kClose, "Remove this row", theme.colours().text_faint, is_near))
             edit = {GridEdit::What::remove, r, 0, 0.0};
           note_place(editor, grid.key + "/" + std::to_string(r) + "/remove");
           ImGui::SameLine(0, 0);

@@ -1,4 +1,4 @@
-// Chosen links: what they are, whom they join, how loud they are, their parameters, and what they say now.
+// Selected links: their kind, ends, strength and parameters, and their present proposals.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -69,7 +69,7 @@ void draw_ends(Workbench& editor, const InspectorView& view) {
   end_row();
   ImGui::EndDisabled();
   if (!can_swap && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("The other way round, this kind of link would not find the ports that it needs.");
+    ImGui::SetTooltip("Swapped, this kind of link would not find the ports that it needs.");
   if (is_swapped && can_swap) editor.submit(command<SetLinkEnds>({id, link.to, link.from}));
 }
 
@@ -80,7 +80,7 @@ void draw_strength(Workbench& editor, const InspectorView& view) {
   static const PortDefinition port = [] {
     PortDefinition p;
     p.id = "strength";
-    p.doc = "How loud its voice is among others.";
+    p.doc = "How much its proposals count among others, from 0 to 1.";
     p.unit = Unit::ratio;
     p.default_value = 1.0;
     p.hard_minimum = 0;
@@ -117,10 +117,10 @@ void draw_switches(Workbench& editor, const InspectorView& view) {
     is_mixed[1] = is_mixed[1] || link.is_muted != first.is_muted;
   }
   float width = 0;
-  begin_row(editor, "enabled", "Enabled", "Off: it is not evaluated at all.", "", {}, width);
+  begin_row(editor, "enabled", "Enabled", "When off, the link is not evaluated.", "", {}, width);
   const bool is_enabled_hit = switch_field(editor, "enabled", first.is_enabled, is_mixed[0]);
   end_row();
-  begin_row(editor, "muted", "Muted", "On: it is evaluated and shown, but what it says does not count.", "", {}, width);
+  begin_row(editor, "muted", "Muted", "When on, the link is evaluated and shown, but its proposals do not count.", "", {}, width);
   const bool is_muted_hit = switch_field(editor, "muted", first.is_muted, is_mixed[1]);
   end_row();
   if (is_enabled_hit)
@@ -176,8 +176,7 @@ void draw_voices(Workbench& editor, const std::string& id) {
   if (at >= state.links.size()) return;
   const auto& error = state.links[at].error ? state.links[at].error : state.plan->links[at].error;
   if (error) small_text(editor, std::string(icon::kError) + "  " + error->text(), c.bad);
-  if (!section(editor, "voices", "What it says now", "The last words of the link, one for each value that it speaks to.",
-               nullptr))
+  if (!section(editor, "voices", "What it says now", "The last proposal of the link for each value that it changes.", nullptr))
     return;
   const std::vector<Voice>& voices = state.links[at].voices;
   if (voices.empty()) small_text(editor, state.tick == 0 ? "nothing yet: no tick has run" : "nothing", c.text_faint);
@@ -256,7 +255,7 @@ void inspect_links(Workbench& editor, InspectorView& view) {
   const bool is_single = view.links().size() == 1;
   if (is_single && !first.ghost.empty()) {
     heading(editor, first.kind.empty() ? view.links().front() : first.kind, view.links().front());
-    draw_ghost(editor, first.ghost, "This program does not know this kind of link; it is kept as it is and does nothing.");
+    draw_ghost(editor, first.ghost, "This program does not know this kind of link; it is kept unchanged and does nothing.");
     return;
   }
   const LinkDefinition* kind = view.kind();

@@ -31,7 +31,7 @@ void draw_name(Workbench& editor, const InspectorView& view) {
   const std::string& id = view.nodes().front();
   const std::string& name = editor.scene().nodes.at(id).name;
   float width = 0;
-  begin_row(editor, "name", "Name", "What people call it; the id never changes.", "", {}, width);
+  begin_row(editor, "name", "Name", "The name that people see; the id never changes.", "", {}, width);
   CellLook look;
   look.hint = id.c_str();
   const CellEvent event = cell(editor, "name", name, name, width, look);
@@ -205,14 +205,14 @@ void inspect_nodes(Workbench& editor, InspectorView& view) {
     const std::string& id = view.nodes().front();
     heading(editor, editor.name_of(id), id);
   } else {
-    heading(editor, reading::counted(count, "node"), "edited together; what differs shows as several");
+    heading(editor, reading::counted(count, "node"), "edited together; different values are shown as 'several'");
   }
   draw_name(editor, view);
   for (const SharedType& shared : view.types()) draw_type(editor, view, shared);
   if (count == 1)
     for (const auto& [type, json] : editor.scene().nodes.at(view.nodes().front()).ghosts) {
       if (!section(editor, "ghost/" + type, type, "A role that this program does not know.", nullptr)) continue;
-      draw_ghost(editor, json, "This program does not know the role; it is kept as it is and does nothing.");
+      draw_ghost(editor, json, "This program does not know the role; it is kept unchanged and does nothing.");
     }
   draw_add_role(editor, view);
   if (count == 1) list_links(editor, view);

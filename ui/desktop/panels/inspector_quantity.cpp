@@ -26,7 +26,7 @@ std::string words_of(const Dimension& dimension) {
   for (const UnitInfo& row : unit_table())
     if (row.dimension == dimension && row.scale == 1)
       return dimension == Dimension{} ? "a plain number" : "in " + std::string(row.name) + "s";
-  return "of a unit that is not known here";
+  return "of an unknown unit";
 }
 
 // Rates are counted by the hour and times in seconds: only as long as nothing turns one into the other.
@@ -213,13 +213,13 @@ Result<double> typed_number(std::string_view text, Unit unit, double now) {
   if (is_share) text.remove_suffix(1);
   auto quantity = Calculator(text).whole();
   if (!quantity) return quantity.error();
-  if (!std::isfinite(quantity->value)) return Error{ErrorCode::not_finite, "", "this comes to no finite number"};
+  if (!std::isfinite(quantity->value)) return Error{ErrorCode::not_finite, "", "the result is not a finite number"};
   if (is_share) return now * (1 + (sign == '+' ? 0.01 : -0.01) * quantity->value);
   if (is_change && sign != '+') {
     if (!quantity->is_plain && !(quantity->dimension == Dimension{}))
       return Error{ErrorCode::wrong_unit, "", "a factor has no unit: write *1.5 or /2"};
     const double result = sign == '*' ? now * quantity->value : now / quantity->value;
-    if (!std::isfinite(result)) return Error{ErrorCode::not_finite, "", "this comes to no finite number"};
+    if (!std::isfinite(result)) return Error{ErrorCode::not_finite, "", "the result is not a finite number"};
     return result;
   }
   if (!quantity->is_plain && !(quantity->dimension == info(unit).dimension))
@@ -273,7 +273,7 @@ std::string facts_of(const PortDefinition& port, Unit unit) {
   if (is_number && !port.is_computed) {
     const double by_default = as_number(port.default_value);
     line("default", (is_no_limit(port, by_default) ? kNoLimit : shown_number(by_default, unit)) +
-                        (port.of_scene == OfScene::unless_set ? ", or what the scene's settings say" : ""));
+                        (port.of_scene == OfScene::unless_set ? ", or the scene's setting" : ""));
     const bool has_low = std::isfinite(port.hard_minimum), has_high = std::isfinite(port.hard_maximum);
     if (has_low && has_high)
       line("range", shown_number(port.hard_minimum, unit) + " to " + shown_number(port.hard_maximum, unit));

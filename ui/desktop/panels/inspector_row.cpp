@@ -35,8 +35,8 @@ RowEvent begin_row(Workbench& editor, const std::string& key, const std::string&
     return is_pressed;
   };
   if (signs.can_lock) {
-    const std::string hint =
-        signs.is_locked ? "Locked: links cannot change it. Press to let them." : "Lock it: links can pull, but change nothing.";
+    const std::string hint = signs.is_locked ? "Locked: links cannot change the value. Press to unlock it."
+                                             : "Lock the value, so that links cannot change it.";
     event.wants_lock = place(signs.is_locked ? icon::kLock : icon::kUnlock, hint, signs.is_locked ? c.accent : c.text_faint,
                              signs.is_locked || is_in_row, "lock");
   } else x -= sign;  // signs of one sort stand below each other
@@ -80,7 +80,7 @@ bool section(Workbench& editor, const std::string& key, const std::string& label
   list.AddText(font, font->FontSize, {at.x + theme.px(14), middle - font->FontSize / 2}, c.text, label.c_str());
   if (wants_removal != nullptr) {
     ImGui::SetCursorPos({left + width - theme.px(20), top + theme.px(4)});
-    *wants_removal = sign_button(editor, icon::kClose, "Take this away", c.text_faint, is_hovered);
+    *wants_removal = sign_button(editor, icon::kClose, "Remove this", c.text_faint, is_hovered);
     note_place(editor, "section/" + key + "/remove");
   }
   ImGui::SetCursorPos({left, top + height + theme.px(8)});

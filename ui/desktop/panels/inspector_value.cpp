@@ -47,14 +47,14 @@ std::optional<Change> typed_change(Workbench& editor, const Subject& subject, co
   const double now = as_number(subject.value);
   if (text == kNoLimit && is_no_limit(*subject.port, subject.port->hard_maximum)) return constant(subject.port->hard_maximum);
   const auto number = typed_number(text, subject.unit, now);
-  const std::string what = "`" + text + "` was not taken: ";
+  const std::string what = "`" + text + "` was refused: ";
   if (!number) {
     complain(editor, subject.key, what + number.error().message);
     return std::nullopt;
   }
   const PortDefinition& port = *subject.port;
   if (port.kind == ValueKind::integer && std::floor(*number) != *number) {
-    complain(editor, subject.key, what + "a whole number is wanted");
+    complain(editor, subject.key, what + "type a whole number");
     return std::nullopt;
   }
   if (is_relative(text))

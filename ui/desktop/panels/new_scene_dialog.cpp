@@ -83,7 +83,8 @@ void Dialogs::make_scene() {
   editor_->document->session().play(true);
   told_.push_back("done");
   if (made.fill() > 1)
-    editor_->notify(NoticeKind::warning, "The demands do not fit into the boundary; the problems list says who goes short.");
+    editor_->notify(NoticeKind::warning,
+                    "The demands do not fit into the boundary; the problems list names the volumes that get too little.");
 }
 
 }  // namespace bl::desktop

@@ -35,9 +35,9 @@ std::string missing_words(const reading::Account& account) {
   const bool is_area = account.is_by_area && account.short_share() > by_volume;
   const Unit unit = is_area ? Unit::square_metre : Unit::cubic_metre;
   const double asked = is_area ? account.asked_area : account.asked, had = is_area ? account.floor_area : account.volume;
-  return "asked for are " + reading::quantity(asked, unit) + (is_area ? " of floor area" : "") + ", there are " +
-         reading::quantity(had, unit) + ": " + reading::quantity(asked - had, unit) + " (" +
-         reading::percent(account.short_share()) + ") go without";
+  return "asked for: " + reading::quantity(asked, unit) + (is_area ? " of floor area" : "") +
+         ", available: " + reading::quantity(had, unit) + "; missing: " + reading::quantity(asked - had, unit) + " (" +
+         reading::percent(account.short_share()) + ")";
 }
 
 // Names and reasons come from data, and data can be long: as much as errors quote.
@@ -55,7 +55,7 @@ std::string lower_first(std::string text) {
 // A link that fails, or one that runs and says what it cannot reach.
 std::string what_of(const State& state, const std::string& link) {
   if (const std::size_t l = reading::link_index(*state.plan, link); l < state.links.size() && state.links[l].remark)
-    return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met" : "Somebody goes without what is asked for";
+    return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met" : "A demand is not met";
   return "Link " + link + " fails";
 }
 
@@ -75,8 +75,8 @@ const char* label_of(ProblemKind kind) {
 }
 
 std::string all_is_well(bool has_run) {
-  return has_run ? "Nothing is in the way: no conflicts, no failures, everybody has room."
-                 : "Nothing is in the way so far; conflicts show once it runs.";
+  return has_run ? "No problems: no conflicts, no failures, and every volume has its room."
+                 : "No problems so far; conflicts appear once the scene runs.";
 }
 
 std::size_t ProblemList::pressing() const { return items_.size() - count(ProblemKind::idle); }
@@ -145,7 +145,7 @@ void ProblemList::add_shortages(const State& state, const reading::ReportModel& 
   };
   for (const reading::UseAccount& use : accounts_.uses) {
     ProblemItem* item =
-        add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be had" : "Not all " + use.use + " can be had");
+        add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be met" : "Not all " + use.use + " can be met");
     if (item == nullptr) continue;
     listed_uses.insert(use.use);
     item->text += ", in " + reading::counted(use.volumes, "volume");
@@ -225,9 +225,9 @@ void ProblemList::add_idle(const State& state) {
   };
   for (const LinkPlan& link : state.plan->links) {
     if (link.definition == nullptr)
-      add(link, " does not run", "this program does not know its kind; it is kept and saved as it is");
-    else if (!link.is_enabled) add(link, " is off", link.definition->label + ": it is not evaluated at all");
-    else if (link.is_muted) add(link, " is muted", link.definition->label + ": it is evaluated, but what it says does not count");
+      add(link, " does not run", "this program does not know its kind; it is kept and saved unchanged");
+    else if (!link.is_enabled) add(link, " is off", link.definition->label + ": it is not evaluated");
+    else if (link.is_muted) add(link, " is muted", link.definition->label + ": it is evaluated, but its proposals do not count");
   }
 }
 

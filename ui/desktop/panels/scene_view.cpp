@@ -268,7 +268,7 @@ void SceneView::store_camera(int number) {
   const std::string key = std::to_string(number);
   if (editor_->arrange("{\"cameras\": {\"" + key + "\": " + to_json_text(choices_.camera) + "}}"))
     editor_->notify(NoticeKind::told,
-                    "This view is kept as number " + key + "; in beamer mode (F1) the key " + key + " goes back to it.");
+                    "This view is saved as number " + key + "; in beamer mode (F1) the key " + key + " goes back to it.");
 }
 
 void SceneView::recall_camera(int number) {
@@ -278,7 +278,7 @@ void SceneView::recall_camera(int number) {
   const bool has_cameras = view.is_object() && cameras != view.end() && cameras->is_object();
   const std::string key = std::to_string(number);
   if (!has_cameras || !cameras->contains(key)) {
-    editor_->notify(NoticeKind::told, "There is no view number " + key + " yet: Ctrl+" + key + " keeps the present one.");
+    editor_->notify(NoticeKind::told, "There is no view number " + key + " yet: Ctrl+" + key + " saves the present one.");
     return;
   }
   is_walking_ = false;

@@ -105,7 +105,7 @@ void SceneView::set_sun_in_scene() {
       if (!link.is_muted && link.is_enabled && plan.nodes[target.node].id == node &&
           reading::port_of<&reading::SunFigures::time>(plan, target.node) == target)
         editor_->notify(NoticeKind::warning,
-                        "The link `" + link.id + "` has a say in the time of `" + node + "`: it may not stay.");
+                        "The link `" + link.id + "` proposes the time of `" + node + "`, so it may change again.");
   end_preview();
 }
 
@@ -202,7 +202,7 @@ void SceneView::draw_sun_words(const SunFacts& sun, const ImVec2& corner) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
   };
   if (ImGui::SmallButton(is_sun_running_ ? icon::kPause : icon::kPlay)) toggle_sun_run();
-  hint("Lets the sun run through the day, in the view only");
+  hint("Runs the sun through the day, in the view only");
   ImGui::SameLine();
   if (ImGui::SmallButton("<")) step_sun(0, ImGui::GetIO().KeyShift ? -30 : -1);
   hint("A day earlier; with Shift a month");
@@ -254,8 +254,8 @@ void SceneView::draw_sun_track(const SunFacts& sun, const ImVec2& corner, float 
   if (is_hovered && io.MouseWheel != 0) step_sun(step * static_cast<double>(io.MouseWheel > 0 ? 1 : -1), 0);
   if (is_hovered)
     ImGui::SetTooltip(
-        "Pull: the sun of another time, in the view only (Shift: minutes, Ctrl: half hours)\nDouble-click or Esc: "
-        "back to the scene's");
+        "Drag to show the sun of another time in the view only (Shift: minutes, Ctrl: half hours)\nDouble-click or Esc: back to "
+        "the scene's time");
   list.AddRectFilled({corner.x, top}, {corner.x + length, bottom}, theme.is_dark() ? 0xff3a2c22u : 0xffa08870u, bar / 2);
   const Colour light = theme.is_dark() ? 0xff6fbfe6u : 0xff7fd2f6u;
   const double rise = day.sunrise.value_or(0), set = day.sunset.value_or(kDay);

@@ -79,7 +79,8 @@ void StartPage::draw_beginnings(float width) {
   ImGui::PopFont();
   ImGui::PushStyleColor(ImGuiCol_Text, c.text_soft);
   ImGui::PushTextWrapPos(width);
-  ImGui::TextUnformatted("Volumes want room, links pull at them, and every tick they negotiate. Open a scene and pull along.");
+  ImGui::TextUnformatted(
+      "Volumes ask for space, and links relate them to each other. They negotiate in every tick. Open a scene and take part.");
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::Dummy({0, theme.px(20)});

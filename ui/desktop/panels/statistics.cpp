@@ -189,7 +189,7 @@ void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, d
        reading::quantity(use.floor_area, Unit::square_metre) + " of " + reading::quantity(use.asked_area, Unit::square_metre) +
            " floor area asked for",
        reading::counted(use.volumes, "volume") + ", " + reading::quantity(use.volume, Unit::cubic_metre) +
-           (use.is_in_programme ? "" : "\nnot in any programme: what its volumes ask for counts"));
+           (use.is_in_programme ? "" : "\nnot in any programme: the demands of its volumes count"));
 }
 
 void draw_programme(Workbench& editor, const reading::ReportModel& model) {

@@ -106,7 +106,7 @@ void Desktop::offer_recovery() {
 void Desktop::watch_journal() {
   const std::string problem = editor_->document->journal_problem();
   if (problem != told_problem_ && !problem.empty())
-    editor_->notify(NoticeKind::warning, "What you do is not safe from a crash until it is saved: " + problem);
+    editor_->notify(NoticeKind::warning, "A crash would lose your changes until they are saved: " + problem);
   told_problem_ = problem;
 }
 

@@ -90,7 +90,7 @@ class Window {
   bool open(PersonSettings& person) {
     glfwSetErrorCallback([](int, const char* text) { last_error = text; });
     if (glfwInit() == GLFW_FALSE) {
-      complain("there is no display to open a window on: " + last_error);
+      complain("no display was found to open a window on: " + last_error);
       return false;
     }
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

@@ -19,7 +19,7 @@ struct WindowOptions {
 
 /// What is said where memory runs out, besides that: every change lies in the journal as soon as it is made.
 inline constexpr std::string_view kComfort =
-    " What you did since the last save is kept, and offered when the window opens again.";
+    " Your changes since the last save are kept, and offered when the window opens again.";
 
 /// Opens the window and stays in it until it is closed. Exit codes as those of the command line program. What nobody has caught
 /// ends the program without taking down the open scene, whose journal is thereby kept.

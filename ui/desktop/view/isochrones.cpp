@@ -74,7 +74,7 @@ std::string doubt_of(const State& state, std::uint32_t node, const reading::Netw
   for (std::size_t t = 0; t < types.size(); ++t)
     if (reading::is_a<reading::NetworkFigures>(*types[t].definition) && state.nodes[node].types[t].error)
       return "tentative: the traffic network fails, these are its last good times";
-  return by_car && network.relative_gap > network.gap ? "tentative: flows still move" : "";
+  return by_car && network.relative_gap > network.gap ? "tentative: flows still change" : "";
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ DecodedPicture decode_where_there_is_room(const std::string& path) {
   const int size = static_cast<int>(std::min<std::size_t>(bytes->size(), 0x7fffffff));
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
-    picture.reason = "it is no picture that can be read: pictures are JPEG or PNG files";
+    picture.reason = "it is no picture that can be read: use a JPEG or PNG file";
     return picture;
   }
   if (static_cast<std::int64_t>(width) * height > kMostPixels) {
@@ -64,7 +64,7 @@ DecodedPicture decode_where_there_is_room(const std::string& path) {
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
   if (!pixels) {
-    picture.reason = "it is damaged and cannot be read to its end";
+    picture.reason = "it is damaged or cut off: copy it again";
     return picture;
   }
   picture.width = width;
@@ -83,7 +83,7 @@ DecodedPicture decode_picture(const std::string& path) {
   } catch (const std::bad_alloc&) {
     DecodedPicture none;
     none.standing = DecodedPicture::Standing::failed;
-    none.reason = "memory ran out while it was read: make it smaller, or give the program more";
+    none.reason = "memory ran out while it was read: make the picture smaller, or give the program more memory";
     return none;
   }
 }

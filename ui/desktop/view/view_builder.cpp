@@ -26,7 +26,7 @@ constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", tr
                                                      {"weights", "Weights as circles", false},
                                                      {"neighbours", "Neighbours (Delaunay edges)", false},
                                                      {"cells", "Cells before the shrink-wrap", false},
-                                                     {"pulls", "Pulls on places", false},
+                                                     {"pulls", "Proposals for positions", false},
                                                      {"streets", "Streets and their load", true},
                                                      {"isochrones", "Isochrones of the chosen zone or junction", true},
                                                      {"isochrones_by_car", "Isochrones by car, not on foot", false},

@@ -300,7 +300,7 @@ void open_find(Board& board) {
   const Box& pane = board.camera.pane();
   picker.at = {pane.high().x - board.theme().px(400), pane.low().y + board.theme().px(44)};
   picker.title = "Find";
-  picker.hint = "Name, id or role; arrows go from one to the next";
+  picker.hint = "Name, id or role; arrow keys go from one to the next";
   picker.empty_text = "No node of that name";
   // What the entered frame holds comes first.
   for (const auto* boxes : {&board.model.boxes, &board.model.outside_boxes})

@@ -150,8 +150,8 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
   y += kSectionHeight;
   if (section.type == nullptr) {
     if (ink.zoom >= kTextZoom)
-      draw_text(ink.board, ink.at(box.box.at.x + kPad, y + 1), kRowText * ink.k, ink.c.text_faint, "kept as it is, not run",
-                (kBoxWidth - 2 * kPad) * ink.k);
+      draw_text(ink.board, ink.at(box.box.at.x + kPad, y + 1), kRowText * ink.k, ink.c.text_faint,
+                "unknown here: kept unchanged, not run", (kBoxWidth - 2 * kPad) * ink.k);
     return y + kRowHeight;
   }
   if (section.has_bar) draw_bar_line(ink, box, y), y += kBarHeight;

@@ -116,7 +116,7 @@ void draw_hints(Board& board) {
   }
   if (board.model.undrawn > 0)
     draw_text(board, {pane.low().x + 12 * scale, board.camera.pane().low().y + 64 * scale}, 11 * scale, c.warning,
-              reading::counted(board.model.undrawn, "link") + " of an unknown kind: kept as it is, not drawn");
+              reading::counted(board.model.undrawn, "link") + " of an unknown kind: kept unchanged, not drawn");
 }
 
 struct CardRow {
@@ -225,11 +225,12 @@ void draw_link_card(Board& board, const Line& line) {
       const auto* text = std::get_if<std::string>(&value);
       rows.push_back({parameter, text != nullptr ? *text : reading::quantity(as_number(value), port->unit)});
     }
-  if (link.is_muted) rows.push_back({"muted: shown, but its voice does not count", "", c.warning});
+  if (link.is_muted) rows.push_back({"muted: shown, but its proposals do not count", "", c.warning});
   if (!link.is_enabled) rows.push_back({"off: not evaluated", "", c.warning});
   if (const LinkPulse* pulse = board.live.pulse(line.id); pulse != nullptr && !pulse->text.empty())
     rows.push_back({"last change", pulse->text});
-  if (line.definition == nullptr) rows.push_back({"This kind is unknown here: kept as it is, not run.", "", c.text_faint});
+  if (line.definition == nullptr)
+    rows.push_back({"This kind is unknown to the program: the link is kept unchanged and does not run.", "", c.text_faint});
   if (const std::string error = link_error(board, line); !error.empty()) rows.push_back({error, "", c.bad});
   const ImVec2 at = ImGui::GetIO().MousePos;
   draw_card(board, {at, {8, 8}}, line.label + "  (" + line.id + ")", rows, false);

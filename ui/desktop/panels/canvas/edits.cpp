@@ -1,4 +1,4 @@
-// Removing, muting, moving links, dots: what people do to what is there.
+// Removes, mutes and moves nodes, links and dots.
 #include "ui/desktop/panels/canvas/edits.h"
 
 #include <nlohmann/json.hpp>
@@ -211,7 +211,7 @@ void remove_chosen(Board& board, bool reconnects) {
   for (const std::string& id : board.picked_frames) dissolve(board, id, nodes, patch);
   drop_emptied_frames(board, patch);
   add_view_patch(commands, patch);
-  if (commands.empty()) return editor.notify(NoticeKind::told, "Nothing is chosen that could be removed.");
+  if (commands.empty()) return editor.notify(NoticeKind::told, "Nothing is selected that could be removed.");
   editor.submit(commands, editor.new_gesture());
 }
 
@@ -245,16 +245,16 @@ void solo_chosen(Board& board) {
       if (all.contains(id) && all.at(id).is_muted) commands.push_back(command<MuteLink>({id, false}));
     board.soloed.clear();
     if (submit_as(board, commands, "Unmute " + reading::counted(commands.size(), "link")))
-      editor.notify(NoticeKind::told, "All links speak again.");
+      editor.notify(NoticeKind::told, "All links count again.");
     return;
   }
   const std::set<std::string> heard = links_heard(board);
-  if (heard.empty()) return editor.notify(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
+  if (heard.empty()) return editor.notify(NoticeKind::told, "Choose links, or nodes with links, to mute all others.");
   std::set<std::string> others;
   for (const auto& [id, link] : all)
     if (!heard.contains(id) && !link.is_muted && link.ghost.empty())
       commands.push_back(command<MuteLink>({id, true})), others.insert(id);
-  if (commands.empty()) return editor.notify(NoticeKind::told, "No other link speaks.");
+  if (commands.empty()) return editor.notify(NoticeKind::told, "All other links are muted already.");
   if (!submit_as(board, commands, "Solo " + soloists(board))) return;
   board.soloed = others;
   editor.notify(NoticeKind::told, reading::counted(others.size(), "other link") + " muted; Q brings them back.");
@@ -309,8 +309,7 @@ void add_dot(Board& board, std::size_t line, ImVec2 at) {
   if (line >= board.model.lines.size()) return;
   const Line& known = board.model.lines[line];
   if (known.is_crossing)
-    return board.editor.notify(NoticeKind::told,
-                               "This link leads out of the frame: its dots lie outside, where all of it is seen.");
+    return board.editor.notify(NoticeKind::told, "This link leads out of the frame: leave the frame to edit its dots.");
   // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
   std::size_t nearest = 1;
   for (std::size_t s = 1; s < known.points.size(); ++s)

@@ -1,4 +1,4 @@
-// Reads the declarations the way the compiler of plans does, but before anything is laid.
+// Checks the declarations like the compiler of plans, but before the link exists.
 #include "ui/desktop/panels/canvas/fits.h"
 
 #include <algorithm>
