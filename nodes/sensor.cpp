@@ -43,6 +43,7 @@ struct Sensor {
   };
 
   static void declare(TypificationBuilder<Sensor>& t) {
+    t.reads_time();
     t.id("sensor").label("Sensor");
     t.doc(
         "The last reading of a device: by MQTT, OSC or HTTP while the scene runs live, or from a recorded CSV table. Readings "

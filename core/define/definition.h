@@ -39,7 +39,8 @@ struct LinkRemarks;
 
 /// What an evaluation may read about the tick: its number and the thread pool. There is no clock and no order.
 struct Tick {
-  std::int64_t index = 0;
+  static constexpr std::int64_t kUnknown = -1;
+  std::int64_t index = 0;          ///< kUnknown for types that do not declare that they read the time
   ThreadPool* pool = nullptr;      ///< only set evaluations (solvers) may use it; nullptr means one thread
   Memo* memo = nullptr;            ///< may be null; a set's lasts from tick to tick, a link's for one tick
   bool is_recall = false;          ///< only the meshes of the present values are needed: take no step
@@ -169,6 +170,7 @@ struct TypeDefinition {
   std::vector<std::string> aliases;
   std::vector<UpgradeDefinition> upgrades;
   std::vector<PortDefinition> ports;  ///< settings first, computed ports after them
+  bool reads_time = false;            ///< its result follows from the number of the tick as well: evaluated in every tick
 
   const PortDefinition* find_port(std::string_view port) const;
   std::size_t port_index(std::string_view port) const;  ///< ports.size() where there is none

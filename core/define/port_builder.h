@@ -167,6 +167,12 @@ class TypeBuilder {
     definition_->aliases.push_back(std::move(old_id));
     return *this;
   }
+  /// Its result follows from the number of the tick as well. Only such a type is given that number, and is evaluated in every
+  /// tick; others are evaluated when something that they read has changed.
+  TypeBuilder& reads_time() {
+    definition_->reads_time = true;
+    return *this;
+  }
   /// Raises the revision by one; `upgrade` turns the JSON object of the revision before into the new one.
   TypeBuilder& upgrade(std::string what, std::function<Result<std::string>(const std::string&)> change) {
     definition_->upgrades.push_back({definition_->revision++, std::move(what), std::move(change)});

@@ -115,8 +115,8 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return PortBuilder<Made>(port);
   }
 
-  /// A memory port: an output that the next evaluation reads again, and that is saved. Out and In hold the same struct of such
-  /// members, `kept` and `last`. A typification with memory is evaluated in every tick, even if its settings do not change.
+  /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
+  /// such members, `kept` and `last`. A typification with memory is evaluated again until neither its settings nor these change.
   template <class Memory, class M>
   PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string id) {
     PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));

@@ -71,15 +71,16 @@ bool find_changes(const NodePlan& plan, std::uint32_t index, const NodeRecord& b
 
 }  // namespace
 
-std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene) {
+std::optional<Amended> amend(const Plan& plan, const Scene& scene) {
   const Scene& before = plan.scene;
   if (before.nodes.size() != scene.nodes.size() || before.settings != scene.settings || before.links != scene.links ||
       !(before.scripts == scene.scripts))
-    return nullptr;
+    return std::nullopt;
   std::vector<Change> changes;
   std::uint32_t index = 0;
   for (auto old = before.nodes.begin(), now = scene.nodes.begin(); now != scene.nodes.end(); ++old, ++now, ++index)
-    if (old->first != now->first || !find_changes(plan.nodes[index], index, old->second, now->second, changes)) return nullptr;
+    if (old->first != now->first || !find_changes(plan.nodes[index], index, old->second, now->second, changes))
+      return std::nullopt;
   // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
   auto amended = std::make_shared<Plan>(plan);
   amended->scene.view = scene.view;
@@ -93,7 +94,10 @@ std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene) {
       type.is_set[p] = is_said(*change.values, port, type.set_values[p]);
     }
   }
-  return amended;
+  std::vector<std::uint32_t> nodes;
+  for (const Change& change : changes)
+    if (nodes.empty() || nodes.back() != change.node) nodes.push_back(change.node);
+  return Amended{std::move(amended), std::move(nodes)};
 }
 
 }  // namespace bl

@@ -1,14 +1,22 @@
 // Plans for scenes in which nothing but values has changed, such as the reading of a sensor: made from the last plan.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/graph/plan.h"
 
 namespace bl {
 
-/// The plan that compile() would make, if the scene differs from that of `plan` only in set values that no index, end or unit
-/// depends on; else nullptr, and the scene must be compiled.
-std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene);
+struct Amended {
+  std::shared_ptr<const Plan> plan;
+  std::vector<std::uint32_t> nodes;  ///< whose set values differ; ascending
+};
+
+/// What compile() would make of the scene, as long as it differs from that of `plan` only in set values of which no index, end
+/// or unit of a plan is made; nothing where it does not, and has to be compiled.
+std::optional<Amended> amend(const Plan& plan, const Scene& scene);
 
 }  // namespace bl

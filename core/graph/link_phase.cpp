@@ -237,27 +237,27 @@ class LinkRun {
   bool is_stopped_ = false;
 };
 
-void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
+LinkState evaluated(const State& frozen, std::size_t index) {
   const LinkPlan& plan = frozen.plan->links[index];
-  next = {};
-  if (!plan.is_enabled) return;
+  LinkState next;
+  if (!plan.is_enabled) return next;
   const std::vector<Voice>& last = frozen.links[index].voices;
   if (plan.error) {
     next.error = plan.error;
     for (const Voice& voice : last)
       if (is_lasting(frozen, voice)) next.voices.push_back(held_voice(voice, plan));
-    return;
+    return next;
   }
   LinkRun run(frozen, plan);
   Memo memo;
-  run.run(Tick{.index = frozen.tick, .memo = &memo});
+  run.run(Tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo});
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
     next.error = error->within("links/" + plan.id);
-    return;
+    return next;
   }
   const LinkRemarks remarks = run.remarks();
-  if (!remarks.said) return;
+  if (!remarks.said) return next;
   const Error said = remarks.said->within("links/" + plan.id);
   if (remarks.kind == LinkRemark::at_work) {
     next.work = said;
@@ -265,14 +265,52 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
     next.error = said;
     next.remark = remarks.kind;
   }
+  return next;
+}
+
+// Those that read what has changed, that read the time, or that have to be asked again.
+std::vector<std::uint32_t> due_links(const State& frozen) {
+  const Dependents& dependents = *frozen.plan->dependents;
+  std::vector<bool> is_due(frozen.links.size(), frozen.due.is_everything);
+  for (const PortRef& ref : frozen.due.changed)
+    for (const std::uint32_t link : dependents.links_reading[dependents.port_index(ref)]) is_due[link] = true;
+  for (const auto* more : {&frozen.due.links, &dependents.timed_links})
+    for (const std::uint32_t link : *more) is_due[link] = true;
+  std::vector<std::uint32_t> links;
+  for (std::uint32_t l = 0; l < is_due.size(); ++l)
+    if (is_due[l]) links.push_back(l);
+  return links;
+}
+
+// The nodes to which one of two lists of voices, both in ascending order of targets, says something else than the other.
+void add_differences(const std::vector<Voice>& before, const std::vector<Voice>& after, std::vector<std::uint32_t>& nodes) {
+  auto b = before.begin(), a = after.begin();
+  while (b != before.end() || a != after.end()) {
+    const bool is_old = a == after.end() || (b != before.end() && b->target < a->target);
+    const bool is_new = b == before.end() || (a != after.end() && a->target < b->target);
+    if (is_old || is_new || !(*b == *a)) nodes.push_back((is_old ? b : a)->target.node);
+    if (!is_new) ++b;
+    if (!is_old) ++a;
+  }
 }
 
 }  // namespace
 
-void evaluate_links(const State& frozen, State& next, ThreadPool& pool) {
-  pool.for_each_chunk(frozen.plan->links.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t l = begin; l < end; ++l) evaluate_link(frozen, l, next.links[l]);
+void evaluate_links(TickWork& work, ThreadPool& pool) {
+  const std::vector<std::uint32_t> due = due_links(work.frozen);
+  std::vector<LinkState> fresh(due.size());
+  pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) fresh[i] = evaluated(work.frozen, due[i]);
   });
+  work.counts.links += due.size();
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    const LinkState& before = work.frozen.links[due[i]];
+    if (before == fresh[i]) continue;
+    add_differences(before.voices, fresh[i].voices, work.spoken_to);
+    work.next.links.put(due[i], std::move(fresh[i]));
+  }
+  std::sort(work.spoken_to.begin(), work.spoken_to.end());
+  work.spoken_to.erase(std::unique(work.spoken_to.begin(), work.spoken_to.end()), work.spoken_to.end());
 }
 
 }  // namespace bl

@@ -1,7 +1,7 @@
 // Phases 5 and 7: typifications, and the commit.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "core/graph/phases.h"
 
@@ -21,8 +21,14 @@ bool keeps_memory(const TypificationDefinition& definition) {
   return std::any_of(definition.ports.begin(), definition.ports.end(), [](const PortDefinition& port) { return !!port.recall; });
 }
 
-std::string place_of(const State& state, std::size_t n, std::size_t t) {
-  return "nodes/" + state.plan->nodes[n].id + "/" + state.plan->nodes[n].types[t].definition->id;
+bool is_only_now(const TypificationDefinition& definition) { return !definition.reads_time && !keeps_memory(definition); }
+
+std::int64_t tick_for(const TypeDefinition& definition, std::int64_t tick) {
+  return definition.reads_time ? tick : Tick::kUnknown;
+}
+
+std::string place_of(const Plan& plan, std::size_t n, std::size_t t) {
+  return "nodes/" + plan.nodes[n].id + "/" + plan.nodes[n].types[t].definition->id;
 }
 
 void accept_values(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
@@ -44,20 +50,57 @@ void accept_values(const TypificationDefinition& definition, TypeState& state, s
 
 namespace {
 
-// Asks the typifications without sets for which `is_due` holds, by their definition and their place in the state.
+// Asks the typifications of a node that are without sets and for which `is_due` holds, by their definition and number; how many.
 template <class IsDue>
-void ask_nodes(State& next, ThreadPool& pool, const IsDue& is_due) {
-  pool.for_each_chunk(next.nodes.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
-      for (std::size_t t = 0; t < next.nodes[n].types.size(); ++t) {
-        const TypificationDefinition& definition = *next.plan->nodes[n].types[t].definition;
-        TypeState& state = next.nodes[n].types[t];
-        if (!definition.evaluate || !definition.sets.empty() || !is_due(definition, n, t)) continue;
-        std::vector<Value> values = state.values;
-        auto done = definition.evaluate(values, {}, Tick{.index = next.tick});
-        accept_values(definition, state, std::move(values), std::move(done), place_of(next, n, t));
-      }
-  });
+std::size_t ask_node(const Plan& plan, std::uint32_t n, std::int64_t tick, NodeState& node, const IsDue& is_due) {
+  std::size_t asked = 0;
+  for (std::size_t t = 0; t < node.types.size(); ++t) {
+    const TypificationDefinition& definition = *plan.nodes[n].types[t].definition;
+    if (!definition.evaluate || !definition.sets.empty() || !is_due(definition, t)) continue;
+    std::vector<Value> values = node.types[t].values;
+    auto done = definition.evaluate(values, {}, Tick{.index = tick_for(definition, tick)});
+    accept_values(definition, node.types[t], std::move(values), std::move(done), place_of(plan, n, t));
+    ++asked;
+  }
+  return asked;
+}
+
+// Whom links say something else to, who is on the way, who remembers; and everybody who is spoken to when rest begins or ends.
+std::vector<std::uint32_t> due_nodes(const TickWork& work, const RestLimits& rest) {
+  const State& frozen = work.frozen;
+  std::vector<std::uint32_t> nodes;
+  if (frozen.due.is_everything) {
+    nodes.resize(frozen.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0u);
+    return nodes;
+  }
+  for (const auto* some : {&work.spoken_to, &frozen.due.nodes, &frozen.plan->dependents->timed_nodes})
+    nodes.insert(nodes.end(), some->begin(), some->end());
+  if (rest.is_on != frozen.due.was_at_rest)
+    for (std::size_t l = 0; l < work.next.links.size(); ++l)
+      for (const Voice& voice : work.next.links[l].voices) nodes.push_back(voice.target.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+bool is_same(const TypeState& a, const TypeState& b) {
+  return a.is_evaluated == b.is_evaluated && a.error == b.error && a.tension == b.tension && a.values == b.values;
+}
+
+// Is anything different that typifications without sets read of themselves?
+bool remembers_more(const NodePlan& plan, const NodeState& before, const NodeState& after) {
+  for (std::size_t t = 0; t < after.types.size(); ++t) {
+    const TypificationDefinition& definition = *plan.types[t].definition;
+    for (std::size_t p = 0; definition.sets.empty() && p < definition.ports.size(); ++p)
+      if (definition.ports[p].recall && !(before.types[t].values[p] == after.types[t].values[p])) return true;
+  }
+  return false;
+}
+
+bool is_same(const NodeState& a, const NodeState& b) {
+  return std::equal(a.types.begin(), a.types.end(), b.types.begin(), b.types.end(),
+                    [](const TypeState& x, const TypeState& y) { return is_same(x, y); });
 }
 
 // Nothing changes any more by a thousandth of what counts as calm.
@@ -70,41 +113,111 @@ bool stands_still(const State& state) {
 
 // Whoever is bringing a rule about while nothing changes does so in vain. That wakes what rests, too: the links may answer in
 // full.
+LinkState stuck(const LinkState& link) {
+  LinkState told = link;
+  told.error = link.work;
+  told.error->message = "cannot be met: " + told.error->message +
+                        ", and nothing changes any more; loosen the rule, or let go what holds it up: a lock, another link, or "
+                        "a `gain` of 0";
+  told.remark = LinkRemark::unmet;
+  told.work.reset();
+  return told;
+}
+
 void name_stuck_rules(State& state) {
-  for (std::size_t l = 0; l < state.links.size(); ++l) {
+  StateDraft draft(state);
+  for (std::uint32_t l = 0; l < state.links.size(); ++l) {
+    if (l % LinkStates::kLeaf == 0 && !state.links.digest(l / LinkStates::kLeaf).is_at_work) {
+      l += LinkStates::kLeaf - 1;
+      continue;
+    }
     if (!is_at_work(state, l)) continue;
-    LinkState& link = state.links[l];
-    link.error = std::move(link.work);
-    link.error->message =
-        "cannot be met: " + link.error->message +
-        ", and nothing changes any more; loosen the rule, or remove what holds it up: a lock, another link, or a `gain` of 0";
-    link.remark = LinkRemark::unmet;
-    link.work.reset();
+    draft.links.put(l, stuck(state.links[l]));
+    draft.state.due.links.push_back(l);
+  }
+  state = std::move(draft).publish();
+}
+
+// Ports that differ from the state before. Whether a typification fails is read with what it computes.
+void add_changes(std::uint32_t n, const NodeState& before, const NodeState& after, const NodePlan& plan,
+                 std::vector<PortRef>& changed) {
+  for (std::uint16_t t = 0; t < after.types.size(); ++t) {
+    const bool has_turned = before.types[t].error.has_value() != after.types[t].error.has_value();
+    for (std::uint16_t p = 0; p < after.types[t].values.size(); ++p)
+      if ((has_turned && plan.types[t].definition->ports[p].is_computed) ||
+          !(before.types[t].values[p] == after.types[t].values[p]))
+        changed.push_back({n, t, p});
   }
 }
 
 }  // namespace
 
-void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
-  ask_nodes(next, pool, [&](const TypificationDefinition& definition, std::size_t n, std::size_t t) {
-    const TypeState& state = next.nodes[n].types[t];
-    return !state.is_evaluated || keeps_memory(definition) ||
-           !same_inputs(definition, state.values, frozen.nodes[n].types[t].values);
+void evaluate_nodes(TickWork& work, ThreadPool& pool) {
+  const State& frozen = work.frozen;
+  const Plan& plan = *frozen.plan;
+  const RestLimits rest = rest_limits_of(frozen);
+  const std::vector<std::uint32_t> due = due_nodes(work, rest);
+  struct Asked {
+    NodeState node;
+    NodeChange change;
+    std::size_t typifications = 0;
+    bool differs = false;
+    bool remembers_more = false;  // the same settings may give something else in the next tick
+  };
+  std::vector<Asked> asked(due.size());
+  pool.for_each_chunk(due.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NodeState& before = frozen.nodes[due[i]];
+      NodeState& node = asked[i].node = before;
+      asked[i].change = resolve_node(frozen, due[i], rest, voices_at(work.next, due[i]), node);
+      asked[i].typifications =
+          ask_node(plan, due[i], work.next.state.tick, node, [&](const TypificationDefinition& definition, std::size_t t) {
+            return !node.types[t].is_evaluated || !is_only_now(definition) ||
+                   !same_inputs(definition, node.types[t].values, before.types[t].values);
+          });
+      asked[i].differs = !is_same(node, before);
+      asked[i].remembers_more = asked[i].differs && remembers_more(plan.nodes[due[i]], before, node);
+    }
   });
+  State& next = work.next.state;
+  next.due.was_at_rest = rest.is_on;
+  next.largest_move = next.largest_change = 0;
+  work.counts.nodes += due.size();
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    const NodeChange& change = asked[i].change;
+    work.counts.typifications += asked[i].typifications;
+    if (change.is_on_its_way || !change.unsound.empty() || asked[i].remembers_more) next.due.nodes.push_back(due[i]);
+    next.largest_move = std::max(next.largest_move, change.move);
+    for (const PortRef port : change.unsound) report_overflow(work, port);
+    if (change.change > next.largest_change) {
+      next.largest_change = change.change;
+      next.restless = change.restless;
+    }
+    if (!asked[i].differs) continue;
+    add_changes(due[i], frozen.nodes[due[i]], asked[i].node, plan.nodes[due[i]], work.moved);
+    work.next.nodes.put(due[i], std::move(asked[i].node));
+  }
 }
 
-bool evaluate_unasked(State& state, ThreadPool& pool) {
-  std::atomic<bool> has_any = false;
-  ask_nodes(state, pool, [&](const TypificationDefinition& definition, std::size_t n, std::size_t t) {
-    // For what remembers, a tick would pass by being asked.
-    const bool is_due = !state.nodes[n].types[t].is_evaluated && !keeps_memory(definition);
-    if (is_due) has_any = true;
-    return is_due;
-  });
+bool evaluate_unasked(StateDraft& draft) {
+  bool has_any = false;
+  for (std::uint32_t n = 0; n < draft.nodes.size(); ++n) {
+    const auto is_due = [&](const TypificationDefinition& definition, std::size_t t) {
+      // For the others a tick would pass by being asked.
+      return !draft.nodes[n].types[t].is_evaluated && is_only_now(definition);
+    };
+    NodeState node = draft.nodes[n];
+    if (ask_node(*draft.state.plan, n, draft.state.tick, node, is_due) == 0) continue;
+    has_any = true;
+    draft.nodes.put(n, std::move(node));
+  }
   return has_any;
 }
 
-void commit(State& next) {
+State commit(TickWork&& work) {
+  const std::vector<std::uint32_t> own_nodes = work.next.nodes.own_items();
+  State next = std::move(work.next).publish();
+  const State& frozen = work.frozen;
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
   if (stands_still(next)) name_stuck_rules(next);
@@ -116,7 +229,11 @@ void commit(State& next) {
   const bool is_calm = !has_failure(next) && (rests || !first_work(next)) && next.largest_residual <= settings.tolerance &&
                        next.largest_move <= move_limit && next.largest_change <= change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
+  for (const std::uint32_t n : own_nodes) add_changes(n, frozen.nodes[n], next.nodes[n], next.plan->nodes[n], next.due.changed);
+  std::sort(next.due.replied.begin(), next.due.replied.end());
+  std::sort(next.due.links.begin(), next.due.links.end());
   next.hash = hash_of(next);
+  return next;
 }
 
 }  // namespace bl

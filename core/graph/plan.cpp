@@ -52,6 +52,7 @@ class Compiler {
       for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t) add_sets(n, t);
     for (const SetPlan& set : plan_->sets)
       for (const PortRef& ref : set.writes) plan_->nodes[ref.node].types[ref.type].is_served = true;
+    plan_->dependents = std::make_shared<const Dependents>(dependents_of(*plan_));
     return plan_;
   }
 

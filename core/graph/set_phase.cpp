@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "core/graph/phases.h"
@@ -19,51 +20,83 @@ struct Reply {
 
 // One typification with all of its sets, and what it reads, gathered before any of them writes.
 struct SetCase {
+  const SetGroup* group = nullptr;
   std::span<const SetPlan> plans;
-  std::size_t analysis = kNone;
   std::vector<Value> values;
   std::vector<SetValues> sets;
-  static constexpr std::size_t kNone = ~std::size_t{0};
 
-  std::uint32_t node() const { return plans.front().node; }
-  std::uint32_t type() const { return plans.front().type; }
-  const TypificationDefinition& definition(const State& state) const {
-    return *state.plan->nodes[node()].types[type()].definition;
-  }
-  const Error* error() const {
-    const auto broken = std::find_if(plans.begin(), plans.end(), [](const SetPlan& plan) { return plan.error.has_value(); });
-    return broken == plans.end() ? nullptr : &*broken->error;
-  }
+  std::uint32_t node() const { return group->node; }
+  std::uint32_t type() const { return group->type; }
+  bool is_analysis() const { return group->analysis != SetGroup::kNone; }
+  const TypificationDefinition& definition(const Plan& plan) const { return *plan.nodes[node()].types[type()].definition; }
 };
 
-std::vector<SetCase> gather_sets(const State& state) {
-  const auto& plans = state.plan->sets;
-  std::vector<SetCase> cases;
-  std::size_t analysis = 0;
-  for (std::size_t begin = 0, end = 0; begin < plans.size(); begin = end) {
-    while (end < plans.size() && plans[end].node == plans[begin].node && plans[end].type == plans[begin].type) ++end;
-    SetCase& one = cases.emplace_back();
-    one.plans = std::span(plans).subspan(begin, end - begin);
-    if (analysis < state.plan->analyses.size() && state.plan->analyses[analysis].first_set == begin) one.analysis = analysis++;
-    one.values = state.nodes[one.node()].types[one.type()].values;
-    for (const SetPlan& plan : one.plans) {
-      SetValues& set = one.sets.emplace_back();
-      set.members = plan.members.size();
-      for (const PortRef& ref : plan.reads) set.reads.push_back(state.value(ref));
-      set.writes.resize(plan.writes.size());
-    }
+std::span<const SetPlan> sets_of(const Plan& plan, const SetGroup& group) {
+  return std::span(plan.sets).subspan(group.first, group.count);
+}
+
+// Why the group cannot be evaluated, or nothing.
+const Error* error_of(const Plan& plan, const SetGroup& group) {
+  const auto sets = sets_of(plan, group);
+  const auto broken = std::find_if(sets.begin(), sets.end(), [](const SetPlan& set) { return set.error.has_value(); });
+  return broken == sets.end() ? nullptr : &*broken->error;
+}
+
+SetCase gathered(const StateDraft& draft, const SetGroup& group) {
+  SetCase one;
+  one.group = &group;
+  one.plans = sets_of(*draft.state.plan, group);
+  one.values = draft.nodes[group.node].types[group.type].values;
+  for (const SetPlan& plan : one.plans) {
+    SetValues& set = one.sets.emplace_back();
+    set.members = plan.members.size();
+    set.reads.reserve(plan.reads.size());
+    for (const PortRef& ref : plan.reads) set.reads.push_back(draft.value(ref));
+    set.writes.resize(plan.writes.size());
   }
+  return one;
+}
+
+std::vector<SetCase> gather_sets(const StateDraft& draft) {
+  std::vector<SetCase> cases;
+  for (const SetGroup& group : draft.state.plan->dependents->groups) cases.push_back(gathered(draft, group));
   return cases;
 }
 
-void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, std::vector<Reply>& replies) {
-  const TypificationDefinition& definition = one.definition(next);
-  TypeState& state = next.nodes[one.node()].types[one.type()];
-  const std::string place = place_of(next, one.node(), one.type());
-  Memo& memo = memos[{next.plan->nodes[one.node()].id, definition.id}];
-  auto done = definition.evaluate(one.values, one.sets, Tick{.index = next.tick, .pool = &pool, .memo = &memo});
+// By group: is anything that it reads different from when it was asked last, or has somebody else written to what it writes?
+std::vector<bool> due_groups(const TickWork& work) {
+  const Dependents& dependents = *work.frozen.plan->dependents;
+  std::vector<bool> is_due(dependents.groups.size(), work.frozen.due.is_everything);
+  for (std::size_t g = 0; g < is_due.size(); ++g) is_due[g] = is_due[g] || dependents.groups[g].is_always_due;
+  const auto add = [&](const NumberLists& groups, const std::vector<PortRef>& ports) {
+    for (const PortRef& ref : ports)
+      for (const std::uint32_t group : groups[dependents.port_index(ref)]) is_due[group] = true;
+  };
+  add(dependents.groups_reading, work.frozen.due.replied);
+  add(dependents.groups_reading, work.moved);
+  add(dependents.groups_writing, work.moved);
+  return is_due;
+}
+
+// The memo of a node's typification.
+Memo& memo_of(SetMemos& memos, const Plan& plan, const SetCase& one) {
+  return memos[{plan.nodes[one.node()].id, one.definition(plan).id}];
+}
+
+void evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, SetMemos& memos, std::vector<Reply>& replies) {
+  StateDraft& next = work.next;
+  const Plan& plan = *next.state.plan;
+  const TypificationDefinition& definition = one.definition(plan);
+  TypeState& state = next.edit(one.node(), one.type());
+  const std::string place = place_of(plan, one.node(), one.type());
+  const std::vector<Value> before = state.values;
+  const Tick tick{.index = tick_for(definition, next.state.tick), .pool = &pool, .memo = &memo_of(memos, plan, one)};
+  auto done = definition.evaluate(one.values, one.sets, tick);
   const bool is_good = done.ok();
   accept_values(definition, state, std::move(one.values), std::move(done), place);
+  for (std::uint16_t p = 0; p < before.size(); ++p)
+    if (!(before[p] == state.values[p]))
+      next.state.due.replied.push_back({one.node(), static_cast<std::uint16_t>(one.type()), p});
   if (!is_good) return;
   for (std::size_t s = 0; s < one.sets.size(); ++s)
     for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
@@ -78,35 +111,37 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
 }
 
 // Results that came from nodes which have gone since are for nobody.
-void take_result(State& next, const SetCase& one, const AnalysisResult& result, std::vector<Reply>& replies) {
-  TypeState& state = next.nodes[one.node()].types[one.type()];
+void take_result(StateDraft& next, const SetGroup& group, const AnalysisResult& result, std::vector<Reply>& replies) {
+  const Plan& plan = *next.state.plan;
+  TypeState& state = next.edit(group.node, group.type);
   // Whoever has left the sets since gets nothing any more.
   std::set<PortRef> members;
-  for (const SetPlan& plan : one.plans) members.insert(plan.writes.begin(), plan.writes.end());
+  for (const SetPlan& set : sets_of(plan, group)) members.insert(set.writes.begin(), set.writes.end());
   state.error.reset();
-  if (result.error) state.error = result.error->within(place_of(next, one.node(), one.type()));
+  if (result.error) state.error = result.error->within(place_of(plan, group.node, group.type));
   state.is_evaluated = !result.error;
   for (const AnalysisOutput& output : result.outputs) {
-    const std::uint32_t node = next.plan->node_index(output.node);
+    const std::uint32_t node = plan.node_index(output.node);
     const auto path = parse_port_path(output.path);
-    if (node == next.plan->nodes.size() || !path) continue;
-    const auto ref = next.plan->find(node, *path);
-    if (!ref || (!members.contains(*ref) && (ref->node != one.node() || ref->type != one.type()))) continue;
+    if (node == plan.nodes.size() || !path) continue;
+    const auto ref = plan.find(node, *path);
+    if (!ref || (!members.contains(*ref) && (ref->node != group.node || ref->type != group.type))) continue;
     Value value = output.value;
     if (!make_storable(value)) {
-      state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
-                          "`" + output.path + "` of `" + output.node + "` was computed as a number that is not finite"};
+      state.error = Error{ErrorCode::not_finite, place_of(plan, group.node, group.type),
+                          "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
       continue;
     }
-    replies.push_back({.target = *ref, .value = std::move(value), .node = one.node(), .type = one.type()});
+    replies.push_back({.target = *ref, .value = std::move(value), .node = group.node, .type = group.type});
   }
 }
 
-AnalysisInput input_of(const State& state, SetCase& one) {
-  AnalysisInput input{.plan = state.plan,
-                      .definition = &one.definition(state),
-                      .node = state.plan->nodes[one.node()].id,
-                      .tick = state.tick,
+AnalysisInput input_of(const StateDraft& draft, SetCase&& one) {
+  const Plan& plan = *draft.state.plan;
+  AnalysisInput input{.plan = draft.state.plan,
+                      .definition = &one.definition(plan),
+                      .node = plan.nodes[one.node()].id,
+                      .tick = draft.state.tick,
                       .values = std::move(one.values),
                       .sets = std::move(one.sets),
                       .members = {},
@@ -115,48 +150,76 @@ AnalysisInput input_of(const State& state, SetCase& one) {
   for (std::size_t s = 0; s < one.plans.size(); ++s) {
     std::vector<std::string>& members = input.members.emplace_back();
     std::vector<std::string>& paths = input.write_paths.emplace_back();
-    for (const std::uint32_t member : one.plans[s].members) members.push_back(state.plan->nodes[member].id);
+    for (const std::uint32_t member : one.plans[s].members) members.push_back(plan.nodes[member].id);
     const std::size_t count = input.definition->sets[s].writes.size();
     for (std::size_t w = 0; w < count && w < one.plans[s].writes.size(); ++w)
-      paths.push_back(state.plan->path_text(one.plans[s].writes[w]));
+      paths.push_back(plan.path_text(one.plans[s].writes[w]));
   }
   return input;
 }
 
 // What the analyses of one node keep is shared by those that run, also by one that nobody wants any more.
-std::shared_ptr<AnalysisMemo> memo_of(Memo& memo) {
+std::shared_ptr<AnalysisMemo> shared_memo_of(Memo& memo) {
   auto& shared = memo.of<std::shared_ptr<AnalysisMemo>>();
   if (!shared) shared = std::make_shared<AnalysisMemo>();
   return shared;
 }
 
 AnalysisState done_at(std::int64_t begun, std::int64_t taken, std::uint64_t inputs) {
-  return {.as_of = begun, .taken = taken, .inputs = inputs, .begun = -1, .due = -1, .running_inputs = 0, .running = nullptr};
+  return {.as_of = begun,
+          .taken = taken,
+          .inputs = inputs,
+          .begun = -1,
+          .due = -1,
+          .running_inputs = 0,
+          .running = nullptr,
+          .seen = {}};
 }
 
-void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& memo, std::vector<Reply>& replies) {
-  AnalysisState& analysis = next.analyses[one.analysis];
+// Has the data of an analysis to be looked at in this tick? Data that cannot have changed since it was looked at is not.
+bool needs_data(const AnalysisState& analysis, std::int64_t tick) {
+  if (analysis.running && tick < analysis.due) return false;
+  const bool has_result = analysis.running || analysis.as_of >= 0;
+  return !has_result || analysis.seen != (analysis.running ? analysis.running_inputs : analysis.inputs);
+}
+
+// Takes in what is due, and begins anew where the data is other than that of the last result. `one` is given where the analysis
+// needs its data.
+void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCase>& one, AnalysisRunner& runner, SetMemos& memos,
+                      std::vector<Reply>& replies) {
+  StateDraft& next = work.next;
+  State& state = next.state;
+  AnalysisState& analysis = state.analyses[group.analysis];
   std::vector<Reply> own;
-  if (analysis.running && next.tick >= analysis.due) {
+  if (analysis.running && state.tick >= analysis.due) {
     const AnalysisResult* result = analysis.running->result();
     if (result == nullptr) return;  // stopped: so is the tick
-    take_result(next, one, *result, own);
-    analysis = done_at(analysis.begun, next.tick, analysis.running_inputs);
+    take_result(next, group, *result, own);
+    const auto seen = analysis.seen;
+    analysis = done_at(analysis.begun, state.tick, analysis.running_inputs);
+    analysis.seen = seen;
   }
   const auto hand_on = [&] { std::move(own.begin(), own.end(), std::back_inserter(replies)); };
   if (analysis.running) return hand_on();
-  const std::int64_t latency = static_cast<std::int64_t>(as_number(one.values[next.plan->analyses[one.analysis].latency]));
-  AnalysisInput input = input_of(next, one);
-  const std::uint64_t inputs = hash_of(input);
-  if (analysis.as_of >= 0 && inputs == analysis.inputs) {
-    analysis.as_of = next.tick;
+  if (!one) {
+    analysis.as_of = state.tick;
     return hand_on();
   }
-  input.memo = memo_of(memo);
+  ++work.counts.sets;
+  const auto latency = static_cast<std::int64_t>(as_number(one->values[state.plan->analyses[group.analysis].latency]));
+  Memo& memo = memo_of(memos, *state.plan, *one);
+  AnalysisInput input = input_of(next, std::move(*one));
+  const std::uint64_t inputs = hash_of(input);
+  analysis.seen = inputs;
+  if (analysis.as_of >= 0 && inputs == analysis.inputs) {
+    analysis.as_of = state.tick;
+    return hand_on();
+  }
+  input.memo = shared_memo_of(memo);
   const auto begun = std::make_shared<Analysis>(std::move(input));
   if (latency > 0) {
-    analysis.begun = next.tick;
-    analysis.due = next.tick + latency;
+    analysis.begun = state.tick;
+    analysis.due = state.tick + latency;
     analysis.running_inputs = inputs;
     analysis.running = begun;
     runner.begin(begun);
@@ -164,14 +227,16 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
     own.clear();  // of an older one that was due in the same tick
     const AnalysisResult* result = begun->result();
     if (result == nullptr) return;
-    take_result(next, one, *result, own);
-    analysis = done_at(next.tick, next.tick, inputs);
+    take_result(next, group, *result, own);
+    analysis = done_at(state.tick, state.tick, inputs);
+    analysis.seen = inputs;
   }
   hand_on();
 }
 
 // Where two write to one port the first one has it, and the other one says so.
-void write_replies(State& next, std::vector<Reply>& replies) {
+void write_replies(StateDraft& next, std::vector<Reply>& replies) {
+  const Plan& plan = *next.state.plan;
   std::vector<std::size_t> order(replies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -180,30 +245,32 @@ void write_replies(State& next, std::vector<Reply>& replies) {
   std::vector<std::pair<std::size_t, std::size_t>> late;  // replies that came too late, and those before them
   for (std::size_t first = 0, at = 0; at < order.size(); ++at) {
     Reply& reply = replies[order[at]];
-    if (at == 0 || reply.target != replies[order[first]].target) {
-      first = at;
-      next.nodes[reply.target.node].types[reply.target.type].values[reply.target.port] = std::move(reply.value);
-    } else {
+    if (at > 0 && reply.target == replies[order[first]].target) {
       late.emplace_back(order[at], order[first]);
+      continue;
     }
+    first = at;
+    if (next.value(reply.target) == reply.value) continue;
+    next.edit(reply.target) = std::move(reply.value);
+    next.state.due.replied.push_back(reply.target);
   }
   std::sort(late.begin(), late.end());
   for (const auto& [at, before] : late) {
     const Reply& reply = replies[at];
-    next.nodes[reply.node].types[reply.type].error =
-        Error{ErrorCode::conflict, place_of(next, reply.node, reply.type),
-              "`" + next.plan->nodes[reply.target.node].id + "` already belongs to `" +
-                  next.plan->nodes[replies[before].node].id + "`; a node can be a member of one such set only"};
+    next.edit(reply.node, reply.type).error =
+        Error{ErrorCode::conflict, place_of(plan, reply.node, reply.type),
+              "`" + plan.nodes[reply.target.node].id + "` already belongs to `" + plan.nodes[replies[before].node].id +
+                  "`; a node can be a member of one such set only"};
   }
 }
 
 bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
 
 // Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either.
-void keep_shapes(State& next, const SetCase& one) {
-  for (const SetPlan& plan : one.plans)
+void keep_shapes(StateDraft& next, const SetGroup& group) {
+  for (const SetPlan& plan : sets_of(*next.state.plan, group))
     for (const PortRef& ref : plan.writes) {
-      auto* mesh = std::get_if<MeshPointer>(&next.nodes[ref.node].types[ref.type].values[ref.port]);
+      const auto* mesh = std::get_if<MeshPointer>(&next.value(ref));
       if (mesh == nullptr || !*mesh) continue;
       const bool is_plain = std::none_of((*mesh)->vertices.begin(), (*mesh)->vertices.end(), [](const Point3& p) {
         return is_negative_zero(p.x) || is_negative_zero(p.y) || is_negative_zero(p.z);
@@ -211,68 +278,86 @@ void keep_shapes(State& next, const SetCase& one) {
       if (is_plain) continue;
       auto plain = std::make_shared<Mesh>(**mesh);
       for (Point3& vertex : plain->vertices) vertex += Point3{0, 0, 0};  // -0 + 0 is 0
-      *mesh = std::move(plain);
+      next.edit(ref) = MeshPointer(std::move(plain));
     }
 }
 
 }  // namespace
 
-void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
-  std::vector<SetCase> cases = gather_sets(next);
+void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
+  StateDraft& next = work.next;
+  const Plan& plan = *next.state.plan;
+  const std::vector<SetGroup>& groups = plan.dependents->groups;
+  const std::vector<bool> is_due = due_groups(work);
+  // All of them are gathered before any of them writes, so that there is no order among them.
+  std::vector<std::optional<SetCase>> cases(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (error_of(plan, groups[g]) != nullptr) continue;
+    bool is_asked = is_due[g];
+    if (groups[g].analysis != SetGroup::kNone) {
+      AnalysisState& analysis = next.state.analyses[groups[g].analysis];
+      if (is_due[g]) analysis.seen.reset();
+      is_asked = needs_data(analysis, next.state.tick);
+    }
+    if (is_asked) cases[g] = gathered(next, groups[g]);
+  }
   std::vector<Reply> replies;
-  for (SetCase& one : cases) {
-    if (const Error* error = one.error()) {
-      next.nodes[one.node()].types[one.type()].error = *error;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const bool is_analysis = groups[g].analysis != SetGroup::kNone;
+    if (const Error* error = error_of(plan, groups[g])) {
+      if (next.nodes[groups[g].node].types[groups[g].type].error != *error)
+        next.edit(groups[g].node, groups[g].type).error = *error;
       // Once the sets are whole again it is worked out anew, which takes the error away.
-      if (one.analysis != SetCase::kNone) next.analyses[one.analysis] = {};
-    } else if (one.analysis == SetCase::kNone) {
-      evaluate_now(next, one, pool, memos, replies);
-    } else {
-      advance_analysis(next, one, runner, memos[{next.plan->nodes[one.node()].id, one.definition(next).id}], replies);
+      if (is_analysis) next.state.analyses[groups[g].analysis] = {};
+    } else if (is_analysis) {
+      advance_analysis(work, groups[g], cases[g], runner, memos, replies);
+    } else if (cases[g]) {
+      ++work.counts.sets;
+      evaluate_now(work, *cases[g], pool, memos, replies);
     }
   }
   write_replies(next, replies);
-  for (const SetCase& one : cases)
-    if (next.nodes[one.node()].types[one.type()].error) keep_shapes(next, one);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (is_due[g] && next.nodes[groups[g].node].types[groups[g].type].error) keep_shapes(next, groups[g]);
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
-  for (SetCase& one : gather_sets(state)) {
-    const TypificationDefinition& definition = one.definition(state);
+  StateDraft draft(state);
+  for (SetCase& one : gather_sets(draft)) {
+    const TypificationDefinition& definition = one.definition(*state.plan);
     const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
       return std::any_of(set.writes.begin(), set.writes.end(),
                          [](const WriteDefinition& w) { return w.kind == ValueKind::mesh; });
     });
-    if (!has_mesh || one.error() != nullptr) continue;
-    Memo& memo = memos[{state.plan->nodes[one.node()].id, definition.id}];
+    if (!has_mesh || error_of(*state.plan, *one.group) != nullptr) continue;
     // A failure here is that of the next tick, which says so.
-    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo, .is_recall = true};
+    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo_of(memos, *state.plan, one), .is_recall = true};
     if (!definition.evaluate(one.values, one.sets, recall).ok()) continue;
     for (std::size_t s = 0; s < one.sets.size(); ++s)
       for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)
         if (auto& value = one.sets[s].writes[w]; value && std::holds_alternative<MeshPointer>(*value)) {
           const PortRef target = one.plans[s].writes[w];
-          if (std::get<MeshPointer>(state.value(target))) continue;  // saved, because its solver failed
-          state.nodes[target.node].types[target.type].values[target.port] = std::move(*value);
+          if (std::get<MeshPointer>(draft.value(target))) continue;  // saved, because its solver failed
+          draft.edit(target) = std::move(*value);
         }
   }
+  state = std::move(draft).publish();
 }
 
 State with_sums_of_now(const State& state) {
-  State seen = state;
-  for (SetCase& one : gather_sets(state)) {
-    const TypificationDefinition& definition = one.definition(state);
+  StateDraft seen(state);
+  for (SetCase& one : gather_sets(seen)) {
+    const TypificationDefinition& definition = one.definition(*state.plan);
     const bool only_reads =
         std::all_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) { return set.writes.empty(); });
-    if (!only_reads || one.analysis != SetCase::kNone || one.error() != nullptr || keeps_memory(definition)) continue;
-    TypeState& sums = seen.nodes[one.node()].types[one.type()];
-    if (!sums.is_evaluated || sums.error) continue;
-    TypeState now = sums;
-    auto done = definition.evaluate(one.values, one.sets, Tick{.index = state.tick});
-    accept_values(definition, now, std::move(one.values), std::move(done), place_of(state, one.node(), one.type()));
-    if (!now.error) sums = std::move(now);
+    if (!only_reads || one.is_analysis() || error_of(*state.plan, *one.group) != nullptr || !is_only_now(definition)) continue;
+    TypeState now = seen.nodes[one.node()].types[one.type()];
+    if (!now.is_evaluated || now.error) continue;
+    auto done = definition.evaluate(one.values, one.sets, Tick{.index = Tick::kUnknown});
+    accept_values(definition, now, std::move(one.values), std::move(done), place_of(*state.plan, one.node(), one.type()));
+    if (!now.error) seen.edit(one.node(), one.type()) = std::move(now);
   }
-  return seen;
+  return std::move(seen).publish();
 }
 
 }  // namespace bl

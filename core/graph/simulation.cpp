@@ -25,9 +25,10 @@ Simulation::Simulation(const Registry& registry, int threads, double (*now)()) :
 
 std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
                                                     const std::set<std::pair<std::string, std::string>>& placed) const {
-  auto plan = state_ ? amend(*state_->plan, scene) : nullptr;
-  if (!plan) plan = compile(scene, *registry_);
-  return std::make_shared<State>(state_ ? carry(*state_, std::move(plan), placed) : initial_state(std::move(plan)));
+  if (!state_) return std::make_shared<State>(initial_state(compile(scene, *registry_)));
+  if (auto amended = amend(*state_->plan, scene))
+    return std::make_shared<State>(carry_amended(*state_, std::move(amended->plan), amended->nodes, placed));
+  return std::make_shared<State>(carry(*state_, compile(scene, *registry_), placed));
 }
 
 void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
@@ -50,8 +51,9 @@ void Simulation::return_to(std::shared_ptr<const State> earlier) {
 }
 
 std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
-  auto seen = std::make_shared<State>(*state);
-  return evaluate_unasked(*seen, pool_) ? seen : state;
+  StateDraft seen(*state);
+  if (!evaluate_unasked(seen)) return state;
+  return std::make_shared<State>(std::move(seen).publish());
 }
 
 bool Simulation::step() {
@@ -62,27 +64,29 @@ bool Simulation::step() {
     share += time - last;
     last = time;
   };
-  const State& frozen = *state_;
-  auto next = std::make_shared<State>(frozen);
-  ++next->tick;
-  evaluate_links(frozen, *next, pool_);
+  State everything_due;
+  if (evaluates_everything_) {
+    everything_due = *state_;
+    everything_due.due.is_everything = true;
+  }
+  TickWork work(evaluates_everything_ ? everything_due : *state_);
+  ++work.next.state.tick;
+  evaluate_links(work, pool_);
   lap(times_.links);
   // A phase that was stopped has left gaps, which the next one must not meet.
   if (is_stop_wished()) return false;
-  resolve_proposals(frozen, *next, pool_);
-  lap(times_.resolve);
-  if (is_stop_wished()) return false;
-  evaluate_nodes(frozen, *next, pool_);
+  evaluate_nodes(work, pool_);
   lap(times_.nodes);
   if (is_stop_wished()) return false;
-  evaluate_sets(*next, pool_, memos_, runner_);
+  evaluate_sets(work, pool_, memos_, runner_);
   lap(times_.solve);
   if (is_stop_wished()) {
     // What evaluations keep for the next tick may have gaps as well.
     memos_.clear();
     return false;
   }
-  commit(*next);
+  counts_ += work.counts;
+  auto next = std::make_shared<State>(commit(std::move(work)));
   lap(times_.commit);
   state_ = std::move(next);
   return true;

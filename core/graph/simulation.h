@@ -13,7 +13,7 @@ namespace bl {
 
 /// Seconds spent in the phases of one tick; for benches, never read by the tick.
 struct PhaseTimes {
-  double links = 0, resolve = 0, nodes = 0, solve = 0, commit = 0;
+  double links = 0, nodes = 0, solve = 0, commit = 0;
 };
 
 class Simulation {
@@ -37,12 +37,16 @@ class Simulation {
   /// tick has computed yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands.
   /// Where there are none, it is the state itself. No tick continues from it.
   std::shared_ptr<const State> shown(std::shared_ptr<const State> state);
-  /// One tick. False where the work was stopped (core/base/stop); the state is then the one before step().
+  /// Evaluates everything in each tick, whether it has changed or not. The result is the same; tests compare the two.
+  void evaluate_everything(bool is_on) { evaluates_everything_ = is_on; }
+  /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
   bool step();
 
   /// The last published state; it stays valid and unchanged as long as a pointer to it exists.
   std::shared_ptr<const State> state() const { return state_; }
   const PhaseTimes& times() const { return times_; }
+  /// Of all ticks so far.
+  const TickCounts& counts() const { return counts_; }
   ThreadPool& pool() { return pool_; }
 
  private:
@@ -51,6 +55,8 @@ class Simulation {
   double (*now_)();
   std::shared_ptr<const State> state_;
   PhaseTimes times_;
+  TickCounts counts_;
+  bool evaluates_everything_ = false;
   SetMemos memos_;
   AnalysisRunner runner_;
 };

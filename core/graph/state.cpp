@@ -18,30 +18,81 @@ TypeName analysis_name(const Plan& plan, std::size_t a) { return type_name(plan,
 
 bool link_counts(const LinkPlan& link) { return link.definition != nullptr && link.is_enabled && !link.is_muted; }
 
+bool fails(const NodeState& node) {
+  return std::any_of(node.types.begin(), node.types.end(), [](const TypeState& type) { return type.error.has_value(); });
+}
+
+bool fails(const LinkState& link, const LinkPlan& plan) {
+  return link.error && link.remark != LinkRemark::short_of && link_counts(plan);
+}
+
+bool is_working(const LinkState& link, const LinkPlan& plan) { return link.work && link_counts(plan) && plan.strength > 0; }
+
+double residual_of(const NodeState& node, const NodePlan& plan) {
+  double largest = 0;
+  for (std::size_t t = 0; t < node.types.size(); ++t) {
+    const auto& ports = plan.types[t].definition->ports;
+    for (std::size_t p = 0; p < ports.size(); ++p)
+      if (ports[p].is_residual) largest = std::max(largest, std::abs(as_number(node.types[t].values[p])));
+  }
+  return largest;
+}
+
+// The first item that `has` holds for, in leaves whose digest says that there is one.
+template <class List, class OfLeaf, class OfItem>
+std::optional<std::size_t> first_in(const List& list, const OfLeaf& may_have, const OfItem& has) {
+  for (std::size_t leaf = 0; leaf < list.leaf_count(); ++leaf)
+    for (std::size_t i = leaf * List::kLeaf; may_have(list.digest(leaf)) && i < std::min(list.size(), (leaf + 1) * List::kLeaf);
+         ++i)
+      if (has(i)) return i;
+  return std::nullopt;
+}
+
 }  // namespace
+
+State StateDraft::publish() && {
+  const Plan& plan = *state.plan;
+  State published = std::move(state);
+  published.nodes = std::move(nodes).publish([&](const auto& items, std::size_t first) {
+    NodeDigest digest;
+    for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
+      digest.residual = std::max(digest.residual, residual_of(*items[k], plan.nodes[first + k]));
+      digest.has_failure |= fails(*items[k]);
+    }
+    return digest;
+  });
+  published.links = std::move(links).publish([&](const auto& items, std::size_t first) {
+    LinkDigest digest;
+    for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
+      digest.has_failure |= fails(*items[k], plan.links[first + k]);
+      digest.is_at_work |= is_working(*items[k], plan.links[first + k]);
+    }
+    return digest;
+  });
+  return published;
+}
 
 bool is_lasting(const State& state, const Voice& voice) { return state.plan->port(voice.target).rule != CombineRule::sum; }
 
 std::optional<Error> first_failure(const State& state) {
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    for (const TypeState& type : state.nodes[n].types)
+  if (const auto n = first_in(
+          state.nodes, [](const NodeDigest& d) { return d.has_failure; }, [&](std::size_t i) { return fails(state.nodes[i]); }))
+    for (const TypeState& type : state.nodes[*n].types)
       if (type.error) return type.error;
-  for (std::size_t l = 0; l < state.links.size(); ++l)
-    if (state.links[l].error && state.links[l].remark != LinkRemark::short_of && link_counts(state.plan->links[l]))
-      return state.links[l].error;
-  return std::nullopt;
+  const auto l = first_in(
+      state.links, [](const LinkDigest& d) { return d.has_failure; },
+      [&](std::size_t i) { return fails(state.links[i], state.plan->links[i]); });
+  return l ? state.links[*l].error : std::nullopt;
 }
 
 bool has_failure(const State& state) { return first_failure(state).has_value(); }
 
-bool is_at_work(const State& state, std::size_t link) {
-  return state.links[link].work && link_counts(state.plan->links[link]) && state.plan->links[link].strength > 0;
-}
+bool is_at_work(const State& state, std::size_t link) { return is_working(state.links[link], state.plan->links[link]); }
 
 std::optional<Error> first_work(const State& state) {
-  for (std::size_t l = 0; l < state.links.size(); ++l)
-    if (is_at_work(state, l)) return state.links[l].work;
-  return std::nullopt;
+  const auto l = first_in(
+      state.links, [](const LinkDigest& d) { return d.is_at_work; }, [&](std::size_t i) { return is_at_work(state, i); });
+  return l ? state.links[*l].work : std::nullopt;
 }
 
 bool is_at_rest(const State& state) { return state.calm >= state.plan->settings.calm_ticks; }
@@ -60,12 +111,8 @@ bool State::is_settled() const {
 
 double largest_residual_of(const State& state) {
   double largest = 0;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t) {
-      const auto& ports = state.plan->nodes[n].types[t].definition->ports;
-      for (std::size_t p = 0; p < ports.size(); ++p)
-        if (ports[p].is_residual) largest = std::max(largest, std::abs(as_number(state.nodes[n].types[t].values[p])));
-    }
+  for (std::size_t leaf = 0; leaf < state.nodes.leaf_count(); ++leaf)
+    largest = std::max(largest, state.nodes.digest(leaf).residual);
   return largest;
 }
 
@@ -154,21 +201,26 @@ SavedState save(const State& state) {
 
 namespace {
 
+NodeState fresh_node(const NodePlan& plan) {
+  NodeState fresh;
+  for (const TypePlan& type : plan.types)
+    fresh.types.push_back({.values = type.set_values,
+                           .tension = std::vector<double>(type.set_values.size(), 0),
+                           .error = {},
+                           .is_evaluated = false});
+  return fresh;
+}
+
 // As initial_state() gives it, but for the hash.
-State fresh_state(std::shared_ptr<const Plan> plan) {
+StateDraft fresh_state(std::shared_ptr<const Plan> plan) {
+  std::vector<NodeState> nodes;
+  nodes.reserve(plan->nodes.size());
+  for (const NodePlan& node : plan->nodes) nodes.push_back(fresh_node(node));
+  std::vector<LinkState> links(plan->links.size());
   State state;
-  for (const NodePlan& node : plan->nodes) {
-    NodeState& fresh = state.nodes.emplace_back();
-    for (const TypePlan& type : node.types)
-      fresh.types.push_back({.values = type.set_values,
-                             .tension = std::vector<double>(type.set_values.size(), 0),
-                             .error = {},
-                             .is_evaluated = false});
-  }
-  state.links.resize(plan->links.size());
   state.analyses.resize(plan->analyses.size());
   state.plan = std::move(plan);
-  return state;
+  return {std::move(state), std::move(nodes), std::move(links)};
 }
 
 void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh,
@@ -214,58 +266,100 @@ bool has_same_inputs(const Scene& a, const Scene& b) {
 }  // namespace
 
 State initial_state(std::shared_ptr<const Plan> plan) {
-  State state = fresh_state(std::move(plan));
-  state.hash = hash_of(state);
-  return state;
-}
-
-State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
-  State state = fresh_state(std::move(plan));
-  state.tick = old.tick;
-  // What rests goes on resting, unless somebody asks for something else.
-  if (old.calm > 0 && placed.empty() && has_same_inputs(old.plan->scene, state.plan->scene)) state.calm = old.calm;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    const NodePlan& node = state.plan->nodes[n];
-    const std::uint32_t before = old.plan->node_index(node.id);
-    if (before == old.plan->nodes.size()) continue;
-    const auto first = placed.lower_bound({node.id, ""});
-    const bool is_placed = first != placed.end() && first->first == node.id;
-    for (std::size_t t = 0; t < node.types.size(); ++t)
-      for (std::size_t o = 0; o < old.plan->nodes[before].types.size(); ++o) {
-        const TypePlan& type = old.plan->nodes[before].types[o];
-        if (type.definition->id != node.types[t].definition->id) continue;
-        std::set<std::string> ports;
-        for (const PortDefinition& port : type.definition->ports)
-          if (is_placed && placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
-        carry_type(type, old.nodes[before].types[o], node.types[t], state.nodes[n].types[t], ports);
-      }
-  }
-  // Both lists ascend by id: one walk along both.
-  for (std::size_t l = 0, o = 0; l < state.links.size(); ++l) {
-    const LinkPlan& link = state.plan->links[l];
-    while (o < old.plan->links.size() && old.plan->links[o].id < link.id) ++o;
-    if (o == old.plan->links.size() || old.plan->links[o].id != link.id) continue;
-    const LinkDefinition *before = old.plan->links[o].definition, *now = link.definition;
-    // By id: a script that was edited is another definition of the same kind.
-    if (before != nullptr && now != nullptr && before->id == now->id) carry_link(old, o, *state.plan, state.links[l]);
-  }
-  for (std::size_t a = 0; a < state.analyses.size(); ++a)
-    for (std::size_t o = 0; o < old.analyses.size(); ++o)
-      if (analysis_name(*state.plan, a) == analysis_name(*old.plan, o)) state.analyses[a] = old.analyses[o];
+  State state = fresh_state(std::move(plan)).publish();
   state.hash = hash_of(state);
   return state;
 }
 
 namespace {
 
-Result<void> restore_errors(const SavedState& saved, State& state) {
-  const Plan& plan = *state.plan;
+using Placed = std::set<std::pair<std::string, std::string>>;
+
+NodeState carried_node(const NodePlan& before, const NodeState& old, const NodePlan& node, const Placed& placed) {
+  NodeState fresh = fresh_node(node);
+  const auto first = placed.lower_bound({node.id, ""});
+  const bool is_placed = first != placed.end() && first->first == node.id;
+  for (std::size_t t = 0; t < node.types.size(); ++t)
+    for (std::size_t o = 0; o < before.types.size(); ++o) {
+      const TypePlan& type = before.types[o];
+      if (type.definition->id != node.types[t].definition->id) continue;
+      std::set<std::string> ports;
+      for (const PortDefinition& port : type.definition->ports)
+        if (is_placed && placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
+      carry_type(type, old.types[o], node.types[t], fresh.types[t], ports);
+    }
+  return fresh;
+}
+
+}  // namespace
+
+State carry(const State& old, std::shared_ptr<const Plan> plan, const Placed& placed) {
+  StateDraft draft = fresh_state(std::move(plan));
+  State& state = draft.state;
+  state.tick = old.tick;
+  // What rests goes on resting, unless somebody asks for something else.
+  if (old.calm > 0 && placed.empty() && has_same_inputs(old.plan->scene, state.plan->scene)) state.calm = old.calm;
+  for (std::size_t n = 0; n < state.plan->nodes.size(); ++n) {
+    const NodePlan& node = state.plan->nodes[n];
+    const std::uint32_t before = old.plan->node_index(node.id);
+    if (before < old.plan->nodes.size())
+      draft.nodes.put(n, carried_node(old.plan->nodes[before], old.nodes[before], node, placed));
+  }
+  // Both lists ascend by id: one walk along both.
+  for (std::size_t l = 0, o = 0; l < state.plan->links.size(); ++l) {
+    const LinkPlan& link = state.plan->links[l];
+    while (o < old.plan->links.size() && old.plan->links[o].id < link.id) ++o;
+    if (o == old.plan->links.size() || old.plan->links[o].id != link.id) continue;
+    const LinkDefinition *before = old.plan->links[o].definition, *now = link.definition;
+    // By id: a script that was edited is another definition of the same kind.
+    if (before != nullptr && now != nullptr && before->id == now->id) carry_link(old, o, *state.plan, draft.links.edit(l));
+  }
+  for (std::size_t a = 0; a < state.analyses.size(); ++a)
+    for (std::size_t o = 0; o < old.analyses.size(); ++o)
+      if (analysis_name(*state.plan, a) == analysis_name(*old.plan, o)) state.analyses[a] = old.analyses[o];
+  State carried = std::move(draft).publish();
+  carried.hash = hash_of(carried);
+  return carried;
+}
+
+State carry_amended(const State& old, std::shared_ptr<const Plan> plan, const std::vector<std::uint32_t>& nodes,
+                    const Placed& placed) {
+  StateDraft draft(old);
+  State& state = draft.state;
+  state.plan = std::move(plan);
+  if (!placed.empty() || !nodes.empty()) state.calm = 0;
+  std::vector<std::uint32_t> touched = nodes;
+  for (const auto& [node, path] : placed)
+    if (const std::uint32_t n = state.plan->node_index(node); n < state.plan->nodes.size()) touched.push_back(n);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (const std::uint32_t n : touched) {
+    const NodeState& before = old.nodes[n];
+    NodeState after = carried_node(old.plan->nodes[n], before, state.plan->nodes[n], placed);
+    for (std::uint16_t t = 0; t < after.types.size(); ++t)
+      for (std::uint16_t p = 0; p < after.types[t].values.size(); ++p)
+        if (!(before.types[t].values[p] == after.types[t].values[p]))
+          for (auto* ports : {&state.due.changed, &state.due.replied}) ports->push_back({n, t, p});
+    state.due.nodes.push_back(n);
+    draft.nodes.put(n, std::move(after));
+  }
+  for (auto* ports : {&state.due.changed, &state.due.replied}) std::sort(ports->begin(), ports->end());
+  std::sort(state.due.nodes.begin(), state.due.nodes.end());
+  State carried = std::move(draft).publish();
+  carried.hash = hash_of(carried);
+  return carried;
+}
+
+namespace {
+
+Result<void> restore_errors(const SavedState& saved, StateDraft& state) {
+  const Plan& plan = *state.state.plan;
   for (const auto& [name, error] : saved.errors) {
     const std::uint32_t node = plan.node_index(name.first);
     bool is_known = false;
     for (std::size_t t = 0; node < plan.nodes.size() && t < plan.nodes[node].types.size(); ++t) {
       if (plan.nodes[node].types[t].definition->id != name.second) continue;
-      state.nodes[node].types[t].error = error;
+      state.edit(node, static_cast<std::uint32_t>(t)).error = error;
       is_known = true;
     }
     if (!is_known) return Error{ErrorCode::not_found, "state/errors/" + name.first, "the node is not a `" + name.second + "`"};
@@ -273,9 +367,9 @@ Result<void> restore_errors(const SavedState& saved, State& state) {
   for (std::size_t l = 0; l < plan.links.size(); ++l) {
     const LinkPlan& link = plan.links[l];
     if (!link.is_enabled) continue;
-    if (link.error) state.links[l].error = link.error;
+    if (link.error) state.links.edit(l).error = link.error;
     else if (const auto said = saved.link_errors.find(link.id); said != saved.link_errors.end())
-      state.links[l].error = said->second;
+      state.links.edit(l).error = said->second;
   }
   return {};
 }
@@ -283,7 +377,8 @@ Result<void> restore_errors(const SavedState& saved, State& state) {
 }  // namespace
 
 Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan) {
-  State state = initial_state(std::move(plan));
+  StateDraft draft = fresh_state(std::move(plan));
+  State& state = draft.state;
   state.tick = saved.tick;
   state.calm = saved.calm;
   auto find = [&](const std::string& node_id, const std::string& text) -> Result<PortRef> {
@@ -299,19 +394,21 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
     for (const auto& [path, value] : values) {
       const auto ref = find(node, path);
       if (!ref) return ref.error();
-      state.nodes[ref->node].types[ref->type].values[ref->port] = value;
+      draft.edit(*ref) = value;
     }
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
-      make_objects(*state.plan->nodes[n].types[t].definition, state.nodes[n].types[t].values, {});
+  for (std::size_t n = 0; n < draft.nodes.size(); ++n) {
+    NodeState& node = draft.nodes.edit(n);
+    for (std::size_t t = 0; t < node.types.size(); ++t)
+      make_objects(*state.plan->nodes[n].types[t].definition, node.types[t].values, {});
+  }
   for (const auto& [target, mesh] : saved.meshes) {
     const auto ref = find(target.first, target.second);
     if (!ref) return ref.error();
     if (state.plan->port(*ref).kind != ValueKind::mesh)
       return Error{ErrorCode::wrong_kind, "state/meshes/" + target.first, "`" + target.second + "` is no mesh"};
-    state.nodes[ref->node].types[ref->type].values[ref->port] = mesh;
+    draft.edit(*ref) = mesh;
   }
-  if (auto done = restore_errors(saved, state); !done) return done.error();
+  if (auto done = restore_errors(saved, draft); !done) return done.error();
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     const auto said = saved.voices.find(link.id);
@@ -319,9 +416,9 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
     for (const SavedVoice& voice : said->second) {
       const auto ref = find(voice.node, voice.path);
       if (!ref) return ref.error();
-      state.links[l].voices.push_back({.target = *ref, .value = voice.value, .magnitude = 0, .strength = link.strength});
+      draft.links.edit(l).voices.push_back({.target = *ref, .value = voice.value, .magnitude = 0, .strength = link.strength});
     }
-    std::sort(state.links[l].voices.begin(), state.links[l].voices.end(),
+    std::sort(draft.links.edit(l).voices.begin(), draft.links.edit(l).voices.end(),
               [](const Voice& a, const Voice& b) { return a.target < b.target; });
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
@@ -334,11 +431,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
                          .begun = now.begun,
                          .due = now.due,
                          .running_inputs = now.running_inputs,
-                         .running = now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
+                         .running = now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result),
+                         .seen = {}};
   }
-  state.largest_residual = largest_residual_of(state);
-  state.hash = hash_of(state);
-  return state;
+  State restored = std::move(draft).publish();
+  restored.largest_residual = largest_residual_of(restored);
+  restored.hash = hash_of(restored);
+  return restored;
 }
 
 }  // namespace bl

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/shared_list.h"
 #include "core/define/link_remark.h"
 #include "core/graph/analysis.h"
 #include "core/graph/plan.h"
@@ -25,12 +26,19 @@ struct NodeState {
   std::vector<TypeState> types;
 };
 
-/// The proposal of one link for one port in this tick, combined over all of its pairs.
+/// What a leaf of nodes comes to.
+struct NodeDigest {
+  double residual = 0;       ///< the largest of all residual ports
+  bool has_failure = false;  ///< a typification fails
+};
+
+/// What one link says about one port in this tick, all of its pairs together.
 struct Voice {
   PortRef target;
   Value value;           ///< a change for `sum` ports, a wanted value for the others
   double magnitude = 0;  ///< for `sum` ports: the mean length of the changes that its pairs propose
   double strength = 1;
+  bool operator==(const Voice&) const = default;
 };
 
 struct LinkState {
@@ -41,9 +49,19 @@ struct LinkState {
   std::optional<Error> work;         ///< a rule that is not kept yet, but being worked on
 
   bool has_failed() const { return error.has_value() && !remark; }
+  bool operator==(const LinkState&) const = default;
 };
 
-/// The progress of an analysis beside the loop.
+/// What a leaf of links comes to; links that do not count have no part in it.
+struct LinkDigest {
+  bool has_failure = false;  ///< a link does not do what it should, for another reason than that somebody goes short
+  bool is_at_work = false;   ///< a link is still bringing a rule about
+};
+
+using NodeStates = SharedList<NodeState, NodeDigest>;
+using LinkStates = SharedList<LinkState, LinkDigest>;
+
+/// How far an analysis beside the loop has come.
 struct AnalysisState {
   std::int64_t as_of = -1;            ///< the last tick whose data the outputs belong to; -1: no result yet
   std::int64_t taken = -1;            ///< the tick in which the last result was taken in
@@ -51,13 +69,28 @@ struct AnalysisState {
   std::int64_t begun = -1, due = -1;  ///< ticks of the one that is running
   std::uint64_t running_inputs = 0;
   std::shared_ptr<Analysis> running;  ///< nullptr where none is
+  /// Hash of the data as it was looked at last; nothing where it may have changed since. No part of the result.
+  std::optional<std::uint64_t> seen;
+};
+
+/// What the next tick has to look at because it may come out differently than in this one. It is no part of the result: with
+/// everything due, the next state is the same.
+struct DueWork {
+  bool is_everything = true;
+  std::vector<PortRef> changed;      ///< ports that differ from the state before: links that read them run. Ascending.
+  std::vector<PortRef> replied;      ///< ports that sets wrote, after the sets had read: those that read them run. Ascending.
+  std::vector<std::uint32_t> nodes;  ///< whose ports are still on their way, or were set by people. Ascending.
+  std::vector<std::uint32_t> links;  ///< that have to be asked again whatever they read. Ascending.
+  bool was_at_rest = false;          ///< when proposals were resolved last
+
+  bool is_nothing() const { return !is_everything && changed.empty() && replied.empty() && nodes.empty() && links.empty(); }
 };
 
 struct State {
   std::int64_t tick = 0;
   std::shared_ptr<const Plan> plan;
-  std::vector<NodeState> nodes;         ///< as plan->nodes
-  std::vector<LinkState> links;         ///< as plan->links
+  NodeStates nodes;                     ///< as plan->nodes
+  LinkStates links;                     ///< as plan->links
   std::vector<AnalysisState> analyses;  ///< as plan->analyses
   std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved, and all demands and rules were met
   double largest_move = 0;              ///< [m] of this tick
@@ -65,12 +98,32 @@ struct State {
   PortRef restless;                     ///< the port with that change
   double largest_residual = 0;          ///< over all residual ports
   std::uint64_t hash = 0;
+  DueWork due;
 
   /// Calm for long enough, and every analysis has seen the calm state.
   bool is_settled() const;
   const Value& value(PortRef ref) const {
     return ref.type == PortRef::kNodeId ? plan->nodes[ref.node].id_value : nodes[ref.node].types[ref.type].values[ref.port];
   }
+};
+
+/// A state that is being made out of another one: nodes and links are edited in their drafts, all else in `state`.
+struct StateDraft {
+  explicit StateDraft(const State& base) : state(base), nodes(base.nodes), links(base.links) {}
+  StateDraft(State&& rest, std::vector<NodeState>&& all_nodes, std::vector<LinkState>&& all_links)
+      : state(std::move(rest)), nodes(std::move(all_nodes)), links(std::move(all_links)) {}
+
+  State state;  ///< its lists are those that the drafts came from
+  NodeStates::Draft nodes;
+  LinkStates::Draft links;
+
+  const Value& value(PortRef ref) const {
+    return ref.type == PortRef::kNodeId ? state.plan->nodes[ref.node].id_value : nodes[ref.node].types[ref.type].values[ref.port];
+  }
+  Value& edit(PortRef ref) { return nodes.edit(ref.node).types[ref.type].values[ref.port]; }
+  TypeState& edit(std::uint32_t node, std::uint32_t type) { return nodes.edit(node).types[type]; }
+  /// The lists with what was edited; the hash is still that of the state before.
+  State publish() &&;
 };
 
 /// The largest value of all ports that are residuals.
@@ -123,7 +176,10 @@ SavedState save(const State& state);
 State initial_state(std::shared_ptr<const Plan> plan);
 /// The parts of `old` that still fit a new plan; `placed` ports start again from their set values.
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed);
-/// The initial state with the values of a saved one. Values for unknown nodes or ports are errors with a place.
+/// The same under a plan that was amended from that of `old` at `nodes`, at a cost that does not grow with the others.
+State carry_amended(const State& old, std::shared_ptr<const Plan> plan, const std::vector<std::uint32_t>& nodes,
+                    const std::set<std::pair<std::string, std::string>>& placed);
+/// A saved state put over the initial one. Values for nodes or ports that are not there are errors with a place.
 Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan);
 
 }  // namespace bl

@@ -121,7 +121,15 @@ class Declaration {
     for_names("proposes", [this](const std::string& name) { proposal_of(name); });
     if (link_.proposes.empty()) fail("proposes", "`proposes` is missing: a link changes something", ErrorCode::missing);
     lua_getfield(lua_, -1, "evaluate");
-    if (!lua_isfunction(lua_, -1)) fail("evaluate", "`evaluate` must be a function(params, ends, tick)", ErrorCode::missing);
+    if (lua_isfunction(lua_, -1)) {
+      // Whoever takes the tick may propose something else in the next one.
+      lua_Debug function;
+      lua_pushvalue(lua_, -1);
+      lua_getinfo(lua_, ">u", &function);
+      link_.reads_time = function.nparams > 2 || function.isvararg != 0;
+    } else {
+      fail("evaluate", "`evaluate` must be a function(params, ends, tick)", ErrorCode::missing);
+    }
     lua_pop(lua_, 1);
   }
 

@@ -48,6 +48,9 @@ class Session {
   std::shared_ptr<const State> coming_state() const;
   const std::vector<LogEntry>& log() const { return ledger_.log(); }
   const PhaseTimes& times() const { return simulation_.times(); }
+  const TickCounts& counts() const { return simulation_.counts(); }
+  /// As Simulation's.
+  void evaluate_everything(bool is_on) { simulation_.evaluate_everything(is_on); }
   /// As Ledger's.
   std::size_t subscribe(std::function<void(const LogEntry&)> listener) { return ledger_.subscribe(std::move(listener)); }
   void unsubscribe(std::size_t number) { ledger_.unsubscribe(number); }

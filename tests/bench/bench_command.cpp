@@ -73,23 +73,23 @@ void take_apart(const State& state, int repeat, Row& row) {
   row.cells = row.phases.solve - row.triangulation - row.volumes;
 }
 
-std::array<double, 5> phases_of(const PhaseTimes& times) {
-  return {times.links, times.resolve, times.nodes, times.solve, times.commit};
-}
+constexpr std::size_t kPhases = 4;
+
+std::array<double, kPhases> phases_of(const PhaseTimes& times) { return {times.links, times.nodes, times.solve, times.commit}; }
 
 Result<Row> measured(const BenchCase& bench, int threads, const BenchOptions& options, Progress& progress) {
   Row row;
   row.name = bench.name;
   row.threads = threads;
   std::vector<double> totals;
-  std::array<std::vector<double>, 5> phases;
+  std::array<std::vector<double>, kPhases> phases;
   std::shared_ptr<const State> last;
   for (int r = 0; r < options.repeat && !is_interrupted(); ++r) {
     auto session = Session::start(full_registry(), bench.scene, bench.state ? &*bench.state : nullptr, threads, now);
     if (!session) return session.error();
     (*session)->tick();  // the first one compiles, and finds all volumes without a weight
     // The phases are added up from the start of the session; what the measured ticks took is the difference.
-    const std::array<double, 5> before = phases_of((*session)->times());
+    const std::array<double, kPhases> before = phases_of((*session)->times());
     const double began = now();
     for (int t = 0; t < options.ticks && !is_interrupted(); ++t) {
       (*session)->tick();
@@ -97,13 +97,13 @@ Result<Row> measured(const BenchCase& bench, int threads, const BenchOptions& op
                     ", tick " + std::to_string(t + 1));
     }
     totals.push_back((now() - began) / options.ticks);
-    const std::array<double, 5> after = phases_of((*session)->times());
-    for (std::size_t p = 0; p < 5; ++p) phases[p].push_back((after[p] - before[p]) / options.ticks);
+    const std::array<double, kPhases> after = phases_of((*session)->times());
+    for (std::size_t p = 0; p < kPhases; ++p) phases[p].push_back((after[p] - before[p]) / options.ticks);
     last = (*session)->state();
   }
   if (is_interrupted() || last == nullptr) return Error{ErrorCode::cancelled, bench.name, "stopped"};
   row.seconds = median(totals);
-  row.phases = {median(phases[0]), median(phases[1]), median(phases[2]), median(phases[3]), median(phases[4])};
+  row.phases = {median(phases[0]), median(phases[1]), median(phases[2]), median(phases[3])};
   row.hash = hex_digits(last->hash);
   row.sites = reading::rows<reading::VolumeFigures>(*last).size();
   take_apart(*last, options.repeat, row);
@@ -117,7 +117,7 @@ std::vector<std::string> cells_of(const Row& row) {
   const auto milliseconds = [](const std::optional<double>& seconds) {
     return seconds ? fixed(1000 * *seconds, 3) : std::string("-");
   };
-  const double accounted = row.triangulation + row.cells + row.volumes + row.phases.links + row.phases.resolve;
+  const double accounted = row.triangulation + row.cells + row.volumes + row.phases.links + row.phases.nodes;
   return {row.name,
           std::to_string(row.sites),
           std::to_string(row.threads),
@@ -126,7 +126,7 @@ std::vector<std::string> cells_of(const Row& row) {
           share(row.cells),
           share(row.volumes),
           share(row.phases.links),
-          share(row.phases.resolve),
+          share(row.phases.nodes),
           share(std::max(0.0, row.seconds - accounted)),
           fixed(microseconds_per_cell(row), 2),
           milliseconds(row.yardstick),
@@ -149,7 +149,6 @@ Json row_json(const Row& row) {
             {"cells", row.cells},
             {"volumes", row.volumes},
             {"links", row.phases.links},
-            {"resolve", row.phases.resolve},
             {"nodes", row.phases.nodes},
             {"solve", row.phases.solve},
             {"commit", row.phases.commit}}}};
@@ -192,7 +191,7 @@ int bench_command(const BenchOptions& given) {
                    {"cells %", true},
                    {"volumes %", true},
                    {"links %", true},
-                   {"resolve %", true},
+                   {"nodes %", true},
                    {"rest %", true},
                    {"µs/cell", true},
                    {"yardstick ms", true},

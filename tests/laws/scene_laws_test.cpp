@@ -180,14 +180,8 @@ TEST_P(SceneLaws, UndoingEverythingGivesTheScenesBytesAndReplayTheSameHash) {
   EXPECT_EQ(report->checks, 1u);
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Small, SceneLaws, testing::ValuesIn(small_scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Small, SceneLaws, testing::ValuesIn(small_scenes()),
+                         [](const auto& test) { return scene_test_name(test); });
 
 TEST(StudyLaws, StudiesLoadSaveAndAgreeOnThreads) {
   for (const std::string& path : shipped_scenes()) {

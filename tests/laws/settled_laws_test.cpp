@@ -137,16 +137,9 @@ TEST_P(SettledLaws, ARuleThatIsBrokenAtRestIsAProblem) {
   }
 }
 
-std::string settled_test_name(const testing::TestParamInfo<std::string>& test) {
-  std::string name = test.param;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-}
-
 // Hundreds of ticks of a large study take minutes under sanitizers, and hold nothing that those of the small scenes do not.
 INSTANTIATE_TEST_SUITE_P(Scenes, SettledLaws, testing::ValuesIn(test::kIsSanitized ? small_scenes() : shipped_scenes()),
-                         settled_test_name);
+                         [](const auto& test) { return scene_test_name(test); });
 
 }  // namespace
 }  // namespace bl

@@ -1,6 +1,7 @@
 // All shipped scenes, for the laws that hold for each of them.
 #pragma once
 
+#include <cctype>
 #include <string>
 #include <vector>
 
@@ -10,5 +11,14 @@ namespace bl {
 std::vector<std::string> shipped_scenes();
 /// Without the large studies: what can be run hundreds of ticks in a test, sanitizers on.
 std::vector<std::string> small_scenes();
+
+/// The path of a scene as the name of a test that runs for it.
+template <class ParamInfo>
+std::string scene_test_name(const ParamInfo& test) {
+  std::string name = test.param;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
 
 }  // namespace bl

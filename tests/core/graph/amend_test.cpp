@@ -77,7 +77,7 @@ TEST(Amend, GivesWhatCompilingGivesForAnyValueOfAnyScene) {
         const auto plan = compile(changed, full_registry());
         const auto quick = amend(*simulation.state()->plan, changed);
         ++(quick ? amended : compiled);
-        if (quick) expect_same(*quick, *plan, where + " " + node->first + "." + type.id + "." + port.id);
+        if (quick) expect_same(*quick->plan, *plan, where + " " + node->first + "." + type.id + "." + port.id);
         const State expected = carry(*simulation.state(), plan, placed);
         const auto found = simulation.with_scene(changed, placed);
         ASSERT_EQ(found->hash, expected.hash) << where << " " << type.id << "." << port.id;
@@ -100,7 +100,7 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   const auto with = [&](const std::string& node, const std::string& type, const std::string& port, const Value& value) {
     Scene scene = plan.scene;
     scene.nodes.at(node).types.at(type)[port] = value;
-    return amend(plan, scene) != nullptr;
+    return amend(plan, scene).has_value();
   };
   EXPECT_TRUE(with("a", "sensor", "reading", 4.5));
   EXPECT_TRUE(with("a", "sensor", "connection", std::string("gone")));
@@ -112,8 +112,8 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   renamed.nodes.at("a").name = "Gauge";
   locked.nodes.at("b").locked.insert("control.value");
   settings.settings["calm_ticks"] = std::int64_t{9};
-  for (const Scene& scene : {more, renamed, locked, settings}) EXPECT_EQ(amend(plan, scene), nullptr);
-  EXPECT_NE(amend(plan, plan.scene), nullptr);
+  for (const Scene& scene : {more, renamed, locked, settings}) EXPECT_FALSE(amend(plan, scene).has_value());
+  EXPECT_TRUE(amend(plan, plan.scene).has_value());
 }
 
 }  // namespace

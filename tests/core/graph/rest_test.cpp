@@ -36,7 +36,7 @@ struct Creep {
     std::optional<double> reading;
   };
   static void declare(LinkBuilder<Creep>& l) {
-    l.id("creep").label("Creep").doc("Creeps.");
+    l.reads_time().id("creep").label("Creep").doc("Creeps.");
     l.param(&In::says, "says").doc("What it remarks: `short`, `work`, `unmet` or nothing.");
     l.param(&In::after, "after").doc("The tick from which on it pushes ten times as hard.");
     l.reads(&Ends::push, End::from, "scale.push").reads(&Ends::reading, End::to, "scale.reading");

@@ -71,13 +71,13 @@ TEST(Changes, MeshesAreComparedByIdentity) {
   World world = World::from_file("scenes/nodes/smart_volume.json");
   world.tick(5);
   const auto before = world.session().state();
-  State copy = *before;
-  const auto volumes = reading::rows<reading::VolumeFigures>(copy);
+  StateDraft draft(*before);
+  const auto volumes = reading::rows<reading::VolumeFigures>(*before);
   ASSERT_FALSE(volumes.empty());
-  const PortRef mesh = *reading::port_of<&reading::VolumeFigures::mesh>(*copy.plan, volumes.front().node);
+  const PortRef mesh = *reading::port_of<&reading::VolumeFigures::mesh>(*before->plan, volumes.front().node);
   ASSERT_NE(volumes.front().figures.mesh, nullptr);
-  copy.nodes[mesh.node].types[mesh.type].values[mesh.port] = std::make_shared<const Mesh>(*volumes.front().figures.mesh);
-  EXPECT_EQ(changes_between(*before, copy).ports, std::vector<PortRef>{mesh});
+  draft.edit(mesh) = std::make_shared<const Mesh>(*volumes.front().figures.mesh);
+  EXPECT_EQ(changes_between(*before, std::move(draft).publish()).ports, std::vector<PortRef>{mesh});
 }
 
 }  // namespace

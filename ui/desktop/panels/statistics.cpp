@@ -250,7 +250,6 @@ void draw_engine(Workbench& editor, const RunRecord& record) {
   }
   fact(editor, "a tick", milliseconds(moment.tick_seconds));
   fact(editor, "  links", milliseconds(record.phase.links));
-  fact(editor, "  resolve", milliseconds(record.phase.resolve));
   fact(editor, "  nodes", milliseconds(record.phase.nodes));
   fact(editor, "  solve", milliseconds(record.phase.solve));
   fact(editor, "  commit", milliseconds(record.phase.commit));

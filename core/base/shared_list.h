@@ -1,0 +1,154 @@
+// A list that costs next to nothing to copy: copies share what they have in common, and a change copies only what it touches.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace bl {
+
+/// An immutable list of T in leaves of 32 items; each leaf also holds a Digest of its items, such as their sum or their hash.
+/// Copies share leaves and items, and nobody can write to what is shared: new lists come out of a Draft.
+template <class T, class Digest>
+class SharedList {
+ public:
+  static constexpr std::size_t kLeaf = 32;
+
+  SharedList() : leaves_(std::make_shared<const Leaves>()) {}
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const T& operator[](std::size_t i) const { return *item(i); }
+  /// The item itself, by which two lists can be compared: the same pointer means the same content.
+  const std::shared_ptr<const T>& item(std::size_t i) const { return (*leaves_)[i / kLeaf]->items[i % kLeaf]; }
+
+  /// One for each 32 items, in their order.
+  std::size_t leaf_count() const { return leaves_->size(); }
+  const Digest& digest(std::size_t leaf) const { return (*leaves_)[leaf]->digest; }
+  /// Are all items of this leaf shared with the other list?
+  bool shares_leaf(const SharedList& other, std::size_t leaf) const {
+    return leaves_ == other.leaves_ || (leaf < other.leaves_->size() && (*leaves_)[leaf] == (*other.leaves_)[leaf]);
+  }
+
+  class Iterator {
+   public:
+    Iterator(const SharedList* list, std::size_t at) : list_(list), at_(at) {}
+    const T& operator*() const { return (*list_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+
+   private:
+    const SharedList* list_;
+    std::size_t at_;
+  };
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size_}; }
+
+  class Draft;
+
+ private:
+  struct Leaf {
+    std::array<std::shared_ptr<const T>, kLeaf> items;
+    Digest digest{};
+  };
+  using Leaves = std::vector<std::shared_ptr<const Leaf>>;
+
+  std::shared_ptr<const Leaves> leaves_;
+  std::size_t size_ = 0;
+};
+
+/// A list on its way to the next one. It reads as the list that it came from, with what was edited since.
+template <class T, class Digest>
+class SharedList<T, Digest>::Draft {
+ public:
+  explicit Draft(SharedList base) : base_(std::move(base)), size_(base_.size()), open_(base_.leaf_count()) {}
+  /// Of items that nobody has seen yet.
+  explicit Draft(std::vector<T>&& items) : size_(items.size()), open_((items.size() + kLeaf - 1) / kLeaf) {
+    for (std::size_t i = 0; i < size_; ++i) put(i, std::move(items[i]));
+  }
+
+  std::size_t size() const { return size_; }
+  const T& operator[](std::size_t i) const {
+    const auto& leaf = open_[i / kLeaf];
+    return leaf ? *leaf->items[i % kLeaf] : base_[i];
+  }
+  /// Those that were edited or put, ascending.
+  std::vector<std::uint32_t> own_items() const {
+    std::vector<std::uint32_t> items;
+    for (std::size_t l = 0; l < open_.size(); ++l)
+      for (std::size_t k = 0; open_[l] && k < kLeaf; ++k)
+        if (open_[l]->own[k] != nullptr) items.push_back(static_cast<std::uint32_t>(l * kLeaf + k));
+    return items;
+  }
+
+  /// The item to write to: a copy of its own where it is shared.
+  T& edit(std::size_t i) {
+    open(i);
+    OpenLeaf& leaf = *open_[i / kLeaf];
+    T*& own = leaf.own[i % kLeaf];
+    if (own == nullptr) {
+      auto copy = std::make_shared<T>(*leaf.items[i % kLeaf]);
+      own = copy.get();
+      leaf.items[i % kLeaf] = std::move(copy);
+    }
+    return *own;
+  }
+  void put(std::size_t i, T item) {
+    open(i);
+    OpenLeaf& leaf = *open_[i / kLeaf];
+    auto fresh = std::make_shared<T>(std::move(item));
+    leaf.own[i % kLeaf] = fresh.get();
+    leaf.items[i % kLeaf] = std::move(fresh);
+  }
+
+  /// The list that came out of it. `digest_of(items, first)` is asked for each leaf with edits, where `items[k]` points to item
+  /// `first + k`, or nowhere behind the last one.
+  template <class DigestOf>
+  SharedList publish(const DigestOf& digest_of) && {
+    SharedList list;
+    list.size_ = size_;
+    bool has_edits = base_.leaf_count() != open_.size();
+    for (const auto& leaf : open_) has_edits |= leaf != nullptr;
+    if (!has_edits) {
+      list.leaves_ = base_.leaves_;
+      return list;
+    }
+    Leaves leaves = *base_.leaves_;
+    leaves.resize(open_.size());
+    for (std::size_t l = 0; l < open_.size(); ++l) {
+      if (!open_[l]) continue;
+      auto leaf = std::make_shared<Leaf>();
+      leaf->items = std::move(open_[l]->items);
+      leaf->digest = digest_of(leaf->items, l * kLeaf);
+      leaves[l] = std::move(leaf);
+    }
+    list.leaves_ = std::make_shared<const Leaves>(std::move(leaves));
+    return list;
+  }
+
+ private:
+  void open(std::size_t i) {
+    auto& leaf = open_[i / kLeaf];
+    if (leaf) return;
+    leaf = std::make_unique<OpenLeaf>();
+    for (std::size_t k = 0, first = i / kLeaf * kLeaf; k < kLeaf && first + k < base_.size(); ++k)
+      leaf->items[k] = base_.item(first + k);
+  }
+
+  struct OpenLeaf {
+    std::array<std::shared_ptr<const T>, kLeaf> items;
+    std::array<T*, kLeaf> own{};  ///< the same items, where they are nobody else's
+  };
+
+  SharedList base_;
+  std::size_t size_;
+  std::vector<std::unique_ptr<OpenLeaf>> open_;  ///< by leaf; nothing where no item was edited
+};
+
+}  // namespace bl
