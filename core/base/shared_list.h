@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -35,17 +36,26 @@ class SharedList {
 
   class Iterator {
    public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = T;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const T*;
+    using reference = const T&;
+
+    Iterator() = default;
     Iterator(const SharedList* list, std::size_t at) : list_(list), at_(at) {}
     const T& operator*() const { return (*list_)[at_]; }
+    const T* operator->() const { return &(*list_)[at_]; }
     Iterator& operator++() {
       ++at_;
       return *this;
     }
-    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+    Iterator operator++(int) { return {list_, at_++}; }
+    bool operator==(const Iterator& other) const = default;
 
    private:
-    const SharedList* list_;
-    std::size_t at_;
+    const SharedList* list_ = nullptr;
+    std::size_t at_ = 0;
   };
   Iterator begin() const { return {this, 0}; }
   Iterator end() const { return {this, size_}; }
@@ -107,10 +117,10 @@ class SharedList<T, Digest>::Draft {
     leaf.items[i % kLeaf] = std::move(fresh);
   }
 
-  /// The list that came out of it. `digest_of(items, first)` is asked for each leaf with edits, where `items[k]` points to item
-  /// `first + k`, or nowhere behind the last one.
-  template <class DigestOf>
-  SharedList publish(const DigestOf& digest_of) && {
+  /// The list that came out of it. `finish(item, i)` is called for each item that was edited; then `digest_of(items, first)` for
+  /// each leaf with edits, where `items[k]` points to item `first + k`, or nowhere behind the last one.
+  template <class Finish, class DigestOf>
+  SharedList publish(const Finish& finish, const DigestOf& digest_of) && {
     SharedList list;
     list.size_ = size_;
     bool has_edits = base_.leaf_count() != open_.size();
@@ -123,6 +133,8 @@ class SharedList<T, Digest>::Draft {
     leaves.resize(open_.size());
     for (std::size_t l = 0; l < open_.size(); ++l) {
       if (!open_[l]) continue;
+      for (std::size_t k = 0; k < kLeaf; ++k)
+        if (open_[l]->own[k] != nullptr) finish(*open_[l]->own[k], l * kLeaf + k);
       auto leaf = std::make_shared<Leaf>();
       leaf->items = std::move(open_[l]->items);
       leaf->digest = digest_of(leaf->items, l * kLeaf);

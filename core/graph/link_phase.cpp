@@ -305,7 +305,7 @@ void evaluate_links(TickWork& work, ThreadPool& pool) {
   work.counts.links += due.size();
   for (std::size_t i = 0; i < due.size(); ++i) {
     const LinkState& before = work.frozen.links[due[i]];
-    if (before == fresh[i]) continue;
+    if (before.says_the_same(fresh[i])) continue;
     add_differences(before.voices, fresh[i].voices, work.spoken_to);
     work.next.links.put(due[i], std::move(fresh[i]));
   }

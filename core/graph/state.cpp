@@ -50,25 +50,66 @@ std::optional<std::size_t> first_in(const List& list, const OfLeaf& may_have, co
 
 }  // namespace
 
+namespace {
+
+std::uint64_t hash_of(const NodeState& node, const NodePlan& plan) {
+  Hash hash;
+  hash.add(std::string_view(plan.id));
+  for (std::size_t t = 0; t < node.types.size(); ++t) {
+    hash.add(std::string_view(plan.types[t].definition->id));
+    // Links that read it ask whether it fails; the reason is for people.
+    if (node.types[t].error) hash.add(std::string_view("fails"));
+    for (const Value& value : node.types[t].values) add_to(hash, value);
+  }
+  return hash.value();
+}
+
+std::uint64_t hash_of(const LinkState& link, const Plan& plan, std::size_t index) {
+  Hash hash;
+  bool has_any = false;
+  for (const Voice& voice : link.voices) {
+    if (plan.port(voice.target).rule == CombineRule::sum) continue;
+    if (!has_any) hash.add(std::string_view(plan.links[index].id));
+    has_any = true;
+    hash.add(std::string_view(plan.nodes[voice.target.node].id));
+    hash.add(std::uint64_t{voice.target.type} << 16 | voice.target.port);
+    add_to(hash, voice.value);
+  }
+  return has_any ? hash.value() : 0;
+}
+
+template <class Items>
+std::uint64_t hash_of_items(const Items& items) {
+  Hash hash;
+  for (std::size_t k = 0; k < items.size() && items[k]; ++k) hash.add(items[k]->hash);
+  return hash.value();
+}
+
+}  // namespace
+
 State StateDraft::publish() && {
   const Plan& plan = *state.plan;
   State published = std::move(state);
-  published.nodes = std::move(nodes).publish([&](const auto& items, std::size_t first) {
-    NodeDigest digest;
-    for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
-      digest.residual = std::max(digest.residual, residual_of(*items[k], plan.nodes[first + k]));
-      digest.has_failure |= fails(*items[k]);
-    }
-    return digest;
-  });
-  published.links = std::move(links).publish([&](const auto& items, std::size_t first) {
-    LinkDigest digest;
-    for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
-      digest.has_failure |= fails(*items[k], plan.links[first + k]);
-      digest.is_at_work |= is_working(*items[k], plan.links[first + k]);
-    }
-    return digest;
-  });
+  published.nodes =
+      std::move(nodes).publish([&](NodeState& node, std::size_t n) { node.hash = hash_of(node, plan.nodes[n]); },
+                               [&](const auto& items, std::size_t first) {
+                                 NodeDigest digest{.hash = hash_of_items(items), .residual = 0, .has_failure = false};
+                                 for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
+                                   digest.residual = std::max(digest.residual, residual_of(*items[k], plan.nodes[first + k]));
+                                   digest.has_failure |= fails(*items[k]);
+                                 }
+                                 return digest;
+                               });
+  published.links =
+      std::move(links).publish([&](LinkState& link, std::size_t l) { link.hash = hash_of(link, plan, l); },
+                               [&](const auto& items, std::size_t first) {
+                                 LinkDigest digest{.hash = hash_of_items(items), .has_failure = false, .is_at_work = false};
+                                 for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
+                                   digest.has_failure |= fails(*items[k], plan.links[first + k]);
+                                   digest.is_at_work |= is_working(*items[k], plan.links[first + k]);
+                                 }
+                                 return digest;
+                               });
   return published;
 }
 
@@ -120,23 +161,8 @@ std::uint64_t hash_of(const State& state) {
   Hash hash;
   hash.add(static_cast<std::uint64_t>(state.tick));
   hash.add(static_cast<std::uint64_t>(state.calm));
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    hash.add(std::string_view(state.plan->nodes[n].id));
-    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t) {
-      hash.add(std::string_view(state.plan->nodes[n].types[t].definition->id));
-      // That it fails is asked for by the links that read it, why is for people.
-      if (state.nodes[n].types[t].error) hash.add(std::string_view("fails"));
-      for (const Value& value : state.nodes[n].types[t].values) add_to(hash, value);
-    }
-  }
-  for (std::size_t l = 0; l < state.links.size(); ++l)
-    for (const Voice& voice : state.links[l].voices)
-      if (is_lasting(state, voice)) {
-        hash.add(std::string_view(state.plan->links[l].id));
-        hash.add(std::string_view(state.plan->nodes[voice.target.node].id));
-        hash.add(std::uint64_t{voice.target.type} << 16 | voice.target.port);
-        add_to(hash, voice.value);
-      }
+  for (std::size_t leaf = 0; leaf < state.nodes.leaf_count(); ++leaf) hash.add(state.nodes.digest(leaf).hash);
+  for (std::size_t leaf = 0; leaf < state.links.leaf_count(); ++leaf) hash.add(state.links.digest(leaf).hash);
   for (const AnalysisState& analysis : state.analyses) {
     for (const std::int64_t tick : {analysis.as_of, analysis.taken, analysis.begun, analysis.due})
       hash.add(static_cast<std::uint64_t>(tick));

@@ -24,10 +24,12 @@ struct TypeState {
 
 struct NodeState {
   std::vector<TypeState> types;
+  std::uint64_t hash = 0;  ///< of everything in it that the next tick depends on; made when the state is published
 };
 
 /// What a leaf of nodes comes to.
 struct NodeDigest {
+  std::uint64_t hash = 0;    ///< of the hashes of its nodes
   double residual = 0;       ///< the largest of all residual ports
   bool has_failure = false;  ///< a typification fails
 };
@@ -47,13 +49,18 @@ struct LinkState {
                                      ///< or on an unmet demand, although it ran
   std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
   std::optional<Error> work;         ///< a rule that is not kept yet, but being worked on
+  std::uint64_t hash = 0;            ///< of the voices that stay in force if it fails; made when the state is published
 
   bool has_failed() const { return error.has_value() && !remark; }
-  bool operator==(const LinkState&) const = default;
+  /// Of what it says, whether its hash has been made or not.
+  bool says_the_same(const LinkState& other) const {
+    return voices == other.voices && error == other.error && remark == other.remark && work == other.work;
+  }
 };
 
 /// What a leaf of links comes to; links that do not count have no part in it.
 struct LinkDigest {
+  std::uint64_t hash = 0;    ///< of the hashes of its links
   bool has_failure = false;  ///< a link does not do what it should, for another reason than that somebody goes short
   bool is_at_work = false;   ///< a link is still bringing a rule about
 };
@@ -143,7 +150,11 @@ bool is_at_rest(const State& state);
 /// Would the proposal stay in force if its link failed in the next tick? A repeated change must not continue without its link.
 bool is_lasting(const State& state, const Voice& voice);
 
-/// The hash of everything that the next tick depends on: values, failures, proposals, the calm count, the tick.
+/// How state hashes are made. Files that hold hashes name it: hashes of different schemes cannot be compared.
+/// 1: all values one after the other. 2: a tree of fixed form, over nodes, over links, and leaves of 32 of them.
+inline constexpr int kHashScheme = 2;
+/// The hash of everything that the next tick depends on: values, failures, proposals in force, the calm count, the tick. It is
+/// made of the hashes of the leaves.
 std::uint64_t hash_of(const State& state);
 
 /// An analysis as files keep it. A running analysis is finished first; its result depends on its input only.

@@ -13,7 +13,8 @@ namespace bl {
 namespace {
 
 // Version 1 has no base, and all its authors are persons; version 2 has neither sources, nor labels, nor rewinds.
-constexpr int kLogVersion = 3;
+// Versions before 4 do not name the scheme of their hashes, which is 1.
+constexpr int kLogVersion = 4;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 constexpr const char* kAuthorKinds[] = {"person", "device", "program"};
 
@@ -107,6 +108,11 @@ class LogReader {
     const auto base = number_in(line, "base", false);
     if (!base) return base.error();
     log.base = *base;
+    if (line.contains("hashes")) {
+      const auto scheme = number_in(line, "hashes", false);
+      if (!scheme) return scheme.error();
+      log.hash_scheme = static_cast<int>(std::min<std::int64_t>(*scheme, std::numeric_limits<int>::max()));
+    }
     const Json& scene = line["scene"];
     log.scene = write_json(scene) + "\n";
     // What the scene itself gets wrong is told when it is read.
@@ -132,7 +138,7 @@ class LogReader {
 
   static Error no_log() {
     return {ErrorCode::parse, "",
-            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 3, \"scene\": {...}}"};
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 4, \"scene\": {...}}"};
   }
 
   LogFile log;
@@ -216,6 +222,7 @@ std::string log_header(std::string_view scene_text, std::int64_t base) {
   Json header = Json::object();
   header["format"] = "behaviourlinks-log";
   header["version"] = kLogVersion;
+  header["hashes"] = kHashScheme;
   if (base != 0) header["base"] = base;
   // Ours, because the library's own builder takes n² for a view or a state of n keys; but it reads no more once a stop is wished.
   auto scene = parse_json(scene_text);

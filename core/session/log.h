@@ -44,6 +44,7 @@ struct LogCheck {
 /// The content of a log file: JSON lines, of which the first holds the initial scene.
 struct LogFile {
   std::string scene;      ///< text of the scene file
+  int hash_scheme = 1;    ///< of its checks (`kHashScheme`)
   std::int64_t base = 0;  ///< number of the last entry before the scene; 0 where the session began with it
   std::vector<LogEntry> entries;
   std::vector<LogCheck> checks;

@@ -101,7 +101,8 @@ class Replaying {
       if (check.tick > state.tick) return;
       if (check.tick < state.tick) continue;
       ++report_.checks;
-      if (check.hash != hex_digits(state.hash) && !report_.first_mismatch) report_.first_mismatch = check;
+      if (log_.hash_scheme != kHashScheme) ++report_.incomparable;
+      else if (check.hash != hex_digits(state.hash) && !report_.first_mismatch) report_.first_mismatch = check;
     }
   }
 

@@ -70,6 +70,7 @@ struct ReplayReport {
   std::string hash;
   std::optional<LogCheck> first_mismatch;
   std::size_t checks = 0;
+  std::size_t incomparable = 0;  ///< of the checks: hashes of another scheme than this program's, which say nothing about it
 };
 /// Runs a log again from its scene to its last tick.
 Result<ReplayReport> replay(const LogFile& log, const Registry& registry, int threads);
