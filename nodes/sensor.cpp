@@ -43,8 +43,7 @@ struct Sensor {
   };
 
   static void declare(TypificationBuilder<Sensor>& t) {
-    t.reads_time();
-    t.id("sensor").label("Sensor");
+    t.reads_time().id("sensor").label("Sensor");
     t.doc(
         "The last reading of a device: by MQTT, OSC or HTTP while the scene runs live, or from a recorded CSV table. Readings "
         "are entries of the log, so that a replay gives the same result without the device.");
@@ -92,6 +91,10 @@ struct Sensor {
     t.in(&In::reading_tick, "reading_tick")
         .min(-1e15)
         .doc("The tick of the last reading; -1 before the first one, and below it where it was measured before the clock began.");
+    declare_results(t);
+  }
+
+  static void declare_results(TypificationBuilder<Sensor>& t) {
     t.out(&Out::value, "value").traced().unit_from("unit").doc("The last good reading, scaled and filtered, or the fallback.");
     t.out(&Out::age, "age").unit(Unit::second).doc("Time since the last reading; 0 before the first one.");
     t.out(&Out::quality, "quality",

@@ -62,9 +62,10 @@ State commit(TickWork&& work);
 /// much more than what counts as calm wakes it, and so does whoever edits it.
 struct RestLimits {
   bool is_on = false;
-  double wakes_at = 0;   ///< a push [m] beyond which rest is over
-  double move = 0;       ///< how far a push moves at most while it is not [m]
-  double held_back = 0;  ///< a change, as a share of a value, that is not made
+  double wakes_at = 0;    ///< a push [m] beyond which rest is over
+  double move = 0;        ///< how far a push moves at most while it is not [m]
+  double least_move = 0;  ///< shorter moves are not made, at rest or not [m]
+  double held_back = 0;   ///< a change, as a share of a value, that is not made
 };
 RestLimits rest_limits_of(const State& frozen);
 

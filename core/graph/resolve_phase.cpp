@@ -27,7 +27,8 @@ void resolve_sum(const PortDefinition& port, bool is_locked, const RestLimits& r
   const double length = port.kind == ValueKind::point ? norm(sum) : std::abs(number);
   const bool is_resting = rest.is_on && port.unit == Unit::metre && length <= rest.wakes_at;
   const double most = is_resting ? std::min(port.step_limit, rest.move) : port.step_limit;
-  const double share = is_locked ? 0 : (length > most ? most / length : 1);
+  const bool is_too_short = port.unit == Unit::metre && std::min(length, most) < rest.least_move;
+  const double share = is_locked || is_too_short ? 0 : (length > most ? most / length : 1);
   if (auto* position = std::get_if<Vector3>(&value)) *position += sum * share;
   else value = clamped(port, as_number(value) + number * share);
   move = length * share;
@@ -143,12 +144,14 @@ void keep_finite(const Value& before, PortRef port, Value& value, NodeChange& no
 RestLimits rest_limits_of(const State& frozen) {
   // A city that comes to its place by shares of what is missing has to arrive, and one that swings has to stop: after some
   // hundred ticks the moves are too short for anybody, and end.
-  constexpr double kDyingAway = 0.99, kShortestMove = 1e-6, kHeldShare = 0.5;
+  constexpr double kDyingAway = 0.99, kShortestMove = 1e-9, kHeldShare = 0.5;
   const Settings& settings = frozen.plan->settings;
-  if (!is_at_rest(frozen)) return {};
+  if (!is_at_rest(frozen)) return {.is_on = false, .wakes_at = 0, .move = 0, .least_move = settings.least_move, .held_back = 0};
+  const double shortest = std::max(settings.least_move, kShortestMove);
   double move = settings.move_limit;
-  for (std::int64_t k = settings.calm_ticks; k < frozen.calm && move > kShortestMove; ++k) move *= kDyingAway;
-  return {true, kWakingPush * settings.move_limit, move > kShortestMove ? move : 0, kHeldShare * settings.change_limit};
+  for (std::int64_t k = settings.calm_ticks; k < frozen.calm && move > shortest; ++k) move *= kDyingAway;
+  return {true, kWakingPush * settings.move_limit, move > shortest ? move : 0, settings.least_move,
+          kHeldShare * settings.change_limit};
 }
 
 std::vector<const Voice*> voices_at(const StateDraft& draft, std::uint32_t n) {

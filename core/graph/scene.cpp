@@ -10,6 +10,31 @@ namespace bl {
 
 namespace {
 
+// Where on Earth the scene lies.
+void declare_place(std::vector<PortDefinition>& ports) {
+  auto port = [&](auto member, const char* id) { return add_port(ports, member, id); };
+  port(&Settings::coordinate_system, "coordinate_system")
+      .doc(
+          "Coordinate reference system of the plan, such as EPSG:28992; `local` for metres without a place on Earth; empty where "
+          "it is not known.");
+  port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
+  port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
+  port(&Settings::latitude, "latitude")
+      .unit(Unit::degree)
+      .range(-90, 90)
+      .keeps_default()
+      .doc("Latitude of the local origin (WGS84), north positive; where it is not set, each sun uses its own.");
+  port(&Settings::longitude, "longitude")
+      .unit(Unit::degree)
+      .range(-180, 180)
+      .keeps_default()
+      .doc("Longitude of the local origin (WGS84), east positive; where it is not set, each sun uses its own.");
+  port(&Settings::true_north, "true_north")
+      .unit(Unit::degree)
+      .range(-360, 360)
+      .doc("Direction of true north, measured clockwise from the y axis.");
+}
+
 TypeDefinition declare_settings() {
   TypeDefinition type;
   type.id = "settings";
@@ -31,6 +56,13 @@ TypeDefinition declare_settings() {
       .doc(
           "Move limit: the scene settles only when no link moves a node by more than this in a tick. A settled scene stands "
           "still until a link proposes more than twice as much.");
+  port(&Settings::least_move, "least_move")
+      .unit(Unit::metre)
+      .min(0)
+      .soft(0, 0.001)
+      .doc(
+          "Least move: shorter moves are not made, so that a slow approach comes to an end. What links propose stays visible as "
+          "tension. A scene in which nothing changes costs no processor time.");
   port(&Settings::change_limit, "change_limit")
       .unit(Unit::ratio)
       .min(0)
@@ -42,26 +74,7 @@ TypeDefinition declare_settings() {
       .range(1, 1000)
       .soft(1, 50)
       .doc("Number of calm ticks in a row after which the scene is settled.");
-  port(&Settings::coordinate_system, "coordinate_system")
-      .doc(
-          "Coordinate reference system of the plan, such as EPSG:28992; `local` for metres without a place on Earth; empty where "
-          "it is not known.");
-  port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
-  port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
-  port(&Settings::latitude, "latitude")
-      .unit(Unit::degree)
-      .range(-90, 90)
-      .keeps_default()
-      .doc("Latitude of the local origin (WGS84), north positive; where it is not set, each sun uses its own.");
-  port(&Settings::longitude, "longitude")
-      .unit(Unit::degree)
-      .range(-180, 180)
-      .keeps_default()
-      .doc("Longitude of the local origin (WGS84), east positive; where it is not set, each sun uses its own.");
-  port(&Settings::true_north, "true_north")
-      .unit(Unit::degree)
-      .range(-360, 360)
-      .doc("Direction of true north, measured clockwise from the y axis.");
+  declare_place(type.ports);
   return type;
 }
 

@@ -41,6 +41,7 @@ struct Settings {
   std::string title, about;
   double tolerance = 0.01;
   double move_limit = 0.02;
+  double least_move = 1e-6;
   double change_limit = 0.001;
   int calm_ticks = 5;
   std::string coordinate_system;

@@ -26,6 +26,7 @@ class Walk {
 
   Changes run() {
     const Plan &a = *before_.plan, &b = *after_.plan;
+    if (a.dependents == b.dependents) return run_shared();
     walk(
         a.nodes, b.nodes, [&](std::uint32_t n) { changes_.removed_nodes.push_back(a.nodes[n].id); },
         [&](std::uint32_t n) { changes_.added_nodes.push_back(b.nodes[n].id); },
@@ -37,6 +38,18 @@ class Walk {
   }
 
  private:
+  // Plans of the same nodes: whatever the two states share is the same.
+  Changes run_shared() {
+    constexpr std::size_t kLeaf = NodeStates::kLeaf;
+    for (std::size_t leaf = 0; leaf < after_.nodes.leaf_count(); ++leaf) {
+      if (after_.nodes.shares_leaf(before_.nodes, leaf)) continue;
+      for (std::size_t n = leaf * kLeaf; n < std::min(after_.nodes.size(), (leaf + 1) * kLeaf); ++n)
+        if (after_.nodes.item(n) != before_.nodes.item(n))
+          compare_node(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(n));
+    }
+    return std::move(changes_);
+  }
+
   void compare_node(std::uint32_t first, std::uint32_t second) {
     const std::vector<TypePlan>&a = before_.plan->nodes[first].types, &b = after_.plan->nodes[second].types;
     if (!std::equal(a.begin(), a.end(), b.begin(), b.end(),

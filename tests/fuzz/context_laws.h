@@ -11,8 +11,8 @@ namespace bl::fuzz {
 inline void check_ring(const geometry::Ring& ring, bool is_outer) {
   require(ring.size() >= 3, "a ring of fewer than three corners");
   for (const Point3& corner : ring) require(is_finite(corner), "a corner that is not finite");
-  require(is_outer ? signed_area(ring) > 0 : signed_area(ring) < 0, "a ring that turns the wrong way");
-  require(!find_self_crossing(ring), "a ring that crosses itself");
+  require(is_outer ? geometry::signed_area(ring) > 0 : geometry::signed_area(ring) < 0, "a ring that turns the wrong way");
+  require(!geometry::find_self_crossing(ring), "a ring that crosses itself");
 }
 
 inline void check_context(const Result<importing::Context>& context) {

@@ -28,15 +28,15 @@ inline geometry::ConvexDomain make_domain(Bytes& bytes) {
   const unsigned kind = bytes.next() % 4u;
   const double shift = kind == 1 ? 10000 : 0;
   const std::vector<Point3> square{{shift, 0, 0}, {shift + 10, 0, 0}, {shift + 10, 10, 0}, {shift, 10, 0}};
-  if (kind < 2) return extrude(square, 0, 10).value();
-  if (kind == 2) return extrude(square, 0, 0.1).value();
+  if (kind < 2) return geometry::extrude(square, 0, 10).value();
+  if (kind == 2) return geometry::extrude(square, 0, 0.1).value();
   std::vector<Point3> points;
   for (int i = 0; i < 9; ++i) {
     const double x = 10 * bytes.share(), y = 10 * bytes.share();
     points.push_back({x, y, 10 * bytes.share()});
   }
-  const auto hull = convex_hull(points);
-  return hull ? *hull : extrude(square, 0, 10).value();
+  const auto hull = geometry::convex_hull(points);
+  return hull ? *hull : geometry::extrude(square, 0, 10).value();
 }
 
 inline double make_weight(Bytes& bytes) {

@@ -35,12 +35,12 @@ bool is_closed(const Mesh& mesh) {
 
 // What rounding may do to a volume [m³]. Within 1e-12 of the size planes may count as touching, whatever the volume: a hull of a
 // micrometre's thickness shows it.
-double room_of(const geometry::ConvexDomain& domain) {
+double room_of(const bl::geometry::ConvexDomain& domain) {
   const double extent = domain.size();
   return 1e-6 * domain.volume + 1e-12 * extent * extent * extent;
 }
 
-void check_cell(const geometry::CellMeasure& cell, const geometry::ConvexDomain& domain) {
+void check_cell(const bl::geometry::CellMeasure& cell, const bl::geometry::ConvexDomain& domain) {
   for (const double number :
        {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint, cell.height,
         cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
@@ -65,15 +65,15 @@ void check_cell(const geometry::CellMeasure& cell, const geometry::ConvexDomain&
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  const geometry::ConvexDomain domain = bl::fuzz::make_domain(bytes);
+  const bl::geometry::ConvexDomain domain = bl::fuzz::make_domain(bytes);
   const std::uint8_t mode = bytes.next();
-  const std::vector<geometry::PowerSite> sites = bl::fuzz::make_sites(bytes, domain.minimum, 200);
+  const std::vector<bl::geometry::PowerSite> sites = bl::fuzz::make_sites(bytes, domain.minimum, 200);
   bl::geometry::CellOptions options;
   options.tessellation_depth = mode % 3;
   options.storey_height = 0.7;
   const auto cells = bl::geometry::power_cells(domain, sites, options);
   require(cells.ok() && cells->size() == sites.size(), "every site gets a record");
-  for (const geometry::CellMeasure& cell : *cells) check_cell(cell, domain);
+  for (const bl::geometry::CellMeasure& cell : *cells) check_cell(cell, domain);
   const bl::geometry::CellTotals totals = bl::geometry::totals_of(*cells);
   require(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
   require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= room_of(domain), "cells tile the domain");

@@ -51,7 +51,7 @@ output=$(BEHAVIOURLINKS_PLUGINS=":$place/good" "$program" docs --list 2>&1)
 code=$?
 expect 'the variable is looked into' 0 'hold_height'
 run --plugins "$place/good" --plugins "$place/good" docs --list
-expect 'the same twice' 0 'brings `hold_height`, which is there already'
+expect 'the same twice' 0 'brings `hold_height`, which exists already'
 
 build other 'declarations 0123456789ab, GNU 4.8, x86_64 Linux, C++20'
 expect 'one of another ABI builds' 0

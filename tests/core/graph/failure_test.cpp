@@ -78,7 +78,7 @@ TEST(Failure, TrueNorthIsSaidOnceForTheScene) {
   EXPECT_EQ(settings_of(older.scene).true_north, 12);
   EXPECT_TRUE(older.scene.nodes.at("sun").types.at("sun_and_sky").empty());
   const std::string differing = problems_of(R"("true_north": 90)", R"("true_north": 12)");
-  EXPECT_NE(differing.find("nodes/sun/types/sun_and_sky/true_north: the scene's setting `true_north` holds instead"),
+  EXPECT_NE(differing.find("nodes/sun/types/sun_and_sky/true_north: the scene's setting `true_north` is used instead"),
             std::string::npos)
       << differing;
   EXPECT_NE(problems_of("", R"("true_north": 400)").find("nodes/sun/types/sun_and_sky/true_north"), std::string::npos);

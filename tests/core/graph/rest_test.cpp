@@ -104,6 +104,22 @@ TEST_F(RestTest, WhatIsCalmComesToAStandstill) {
   EXPECT_NEAR(std::get<Vector3>(link().voices.front().value).x, 0.004, 1e-12);
 }
 
+TEST_F(RestTest, MovesBelowTheLeastAreNotMadeAndStayVisible) {
+  scene_.nodes["a"].types["scale"]["push"] = 0.004;
+  scene_.settings["least_move"] = 0.005;
+  simulation_.set_scene(scene_);
+  steps(3);
+  EXPECT_EQ(x(), 0);
+  EXPECT_EQ(simulation_.state()->largest_move, 0);
+  EXPECT_NEAR(
+      simulation_.state()->nodes[1].types[0].tension[simulation_.state()->plan->find(1, *parse_port_path("node.position"))->port],
+      0.004, 1e-12);
+  scene_.settings["least_move"] = 0.004;
+  simulation_.set_scene(scene_);
+  steps(1);
+  EXPECT_NEAR(x(), 0.004, 1e-12) << "as long as the least move is a move";
+}
+
 TEST_F(RestTest, MoreThanCalmWakesIt) {
   scene_.links["l"].parameters["after"] = 20.0;
   simulation_.set_scene(scene_);

@@ -38,8 +38,7 @@ void RunRecord::sample(const Workbench& editor) {
   if (!is_next) forget_from(static_cast<double>(state->tick));
   const PhaseTimes& now = editor.moment->times;
   if (is_next) {
-    for (double PhaseTimes::*part :
-         {&PhaseTimes::links, &PhaseTimes::resolve, &PhaseTimes::nodes, &PhaseTimes::solve, &PhaseTimes::commit})
+    for (double PhaseTimes::*part : {&PhaseTimes::links, &PhaseTimes::nodes, &PhaseTimes::solve, &PhaseTimes::commit})
       phase.*part = smooth(phase.*part, (now.*part - times_.*part) / ticks);
   }
   times_ = now;
