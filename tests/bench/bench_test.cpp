@@ -58,7 +58,8 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
     EXPECT_EQ(row["hash"].get<std::string>().size(), 16u) << row;
     EXPECT_NE(outcome.out.find(row["hash"].get<std::string>()), std::string::npos) << row;
     if (!row.contains("threads")) continue;
-    const std::string work = kind + row.value("balls", "") + row["sites"].dump() + std::to_string(row.value("fill_percent", 0.0));
+    const std::string work = kind + row.value("balls", "") + row.value("case", "") + row["sites"].dump() +
+                             std::to_string(row.value("fill_percent", 0.0));
     hashes[work].insert(row["hash"].get<std::string>());
     threads[work].insert(row["threads"].get<int>());
   }
@@ -73,8 +74,9 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"traffic", 3},
                                                {"ways", 1},
                                                {"districts", 2},
-                                               {"study", 3}}));
-  EXPECT_EQ(hashes.size(), 8u);
+                                               {"study", 3},
+                                               {"tick", 6}}));
+  EXPECT_EQ(hashes.size(), 11u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
 }

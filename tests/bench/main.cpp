@@ -21,13 +21,14 @@ void declare(CLI::App& c, BenchOptions& o) {
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
-  auto* solver = c.add_flag(
-      "--solver", o.is_solver,
-      "Measures the algorithms without ticks: cells, fits, drags, growth, rays, traffic, and the feedback on a scene.");
+  auto* solver =
+      c.add_flag("--solver", o.is_solver,
+                 "Measures the algorithms: cells, fits, drags, growth, rays, traffic, the feedback on a scene, and ticks that "
+                 "evaluate what has changed.");
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")

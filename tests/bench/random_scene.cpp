@@ -15,7 +15,6 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr double kSpacing = 10;  // [m]
-constexpr double kFill = 0.5;
 
 std::string padded(int number, int count) {
   const std::string text = std::to_string(number), last = std::to_string(count);
@@ -24,7 +23,7 @@ std::string padded(int number, int count) {
 
 }  // namespace
 
-Result<Scene> random_scene(int count, const Registry& registry) {
+Result<Scene> random_scene(int count, const Registry& registry, double fill) {
   Random random(2007);
   // The cube root is rounded to millimetres, so that the box does not depend on the machine's library.
   const double side = std::round(kSpacing * mathematics::cube_root(static_cast<double>(count)) * 1000) / 1000;
@@ -40,7 +39,7 @@ Result<Scene> random_scene(int count, const Registry& registry) {
   add("solver", {{"types", {{"smart_volumes_solver", Json::object()}}}});
   for (int i = 0; i < count; ++i) {
     const double x = random.uniform(0, side), y = random.uniform(0, side), z = random.uniform(0, side);
-    const double demand = kFill * side * side * side * shares[static_cast<std::size_t>(i)] / sum;
+    const double demand = fill * side * side * side * shares[static_cast<std::size_t>(i)] / sum;
     add(padded(i + 1, count), {{"position", {x, y, z}}, {"types", {{"smart_volume", {{"demand", demand}}}}}});
   }
   auto session = Session::start(registry, Scene{}, nullptr, 1);

@@ -5,9 +5,9 @@
 
 namespace bl::cli::bench {
 
-/// `count` SmartVolumes at random places in a box, with random demands that fill half of it; always the same for a count.
+/// `count` SmartVolumes at random places in a box, with random demands that fill a share of it; always the same for a count.
 /// Made by commands through a session. Each volume has a cube of 10 m to a side, so that the density does not depend on the
 /// count.
-Result<Scene> random_scene(int count, const Registry& registry);
+Result<Scene> random_scene(int count, const Registry& registry, double fill = 0.5);
 
 }  // namespace bl::cli::bench

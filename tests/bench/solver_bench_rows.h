@@ -107,6 +107,8 @@ BenchTables bench_complex(const SolverBench& bench);
 BenchTables bench_rays(const SolverBench& bench);
 /// Equilibria of traffic against bi-conjugate Frank-Wolfe, shortest ways against Boost.Graph.
 BenchTables bench_traffic(const SolverBench& bench);
+/// Whole ticks, against ticks that evaluate everything.
+BenchTables bench_tick(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

@@ -1,0 +1,146 @@
+// Rows of whole ticks: while all negotiate, at rest, and while one volume is dragged, against a tick that evaluates everything.
+#include <algorithm>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/hash.h"
+#include "core/base/text.h"
+#include "core/session/commands.h"
+#include "core/session/session.h"
+#include "tests/bench/random_scene.h"
+#include "tests/bench/solver_bench_rows.h"
+
+namespace bl::cli::bench {
+
+namespace {
+
+constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
+constexpr double kFill = 0.7, kDragStep = 0.2;  // [m]
+
+// Random volumes that are kept inside of their box and held to a sum, and of which every twentieth keeps its distance from the
+// others of its kind: three links to sets.
+Result<Scene> linked_scene(int count) {
+  auto scene = random_scene(count, full_registry(), kFill);
+  if (!scene) return scene.error();
+  int number = 0;
+  for (auto& [id, node] : scene->nodes)
+    if (node.types.contains("smart_volume") && number++ % 20 == 0)
+      node.types[std::string(kBaseNode)]["tags"] = Shared<std::vector<std::string>>({"public"});
+  scene->nodes["sum"].types = {
+      {"node", {}},
+      {"statistics", {{"port", std::string("smart_volume.volume")}, {"nodes", Shared<Selection>({{}, "smart_volume", {}})}}}};
+  const auto join = [&](const char* id, const char* kind, const Selection& from, const Selection& to, PortValues parameters) {
+    LinkRecord& link = scene->links[id];
+    link.kind = kind;
+    link.from = from;
+    link.to = to;
+    link.parameters = std::move(parameters);
+  };
+  const Selection volumes{{}, "smart_volume", {}}, tagged{{}, {}, "public"};
+  join("inside", "inside_boundary", {{"box"}, {}, {}}, volumes, {{"margin", 1.0}});
+  join("cap", "set_cap", {{"sum"}, {}, {}}, volumes, {{"cap", 1e12}});
+  join("apart", "keep_distance", tagged, tagged, {{"minimum", 12.0}, {"maximum", 1e6}});
+  return scene;
+}
+
+// One session as people have it, and one of the same scene that evaluates everything.
+struct Rivals {
+  std::unique_ptr<Session> session, everything;
+};
+
+Result<Rivals> rivals_of(const Scene& scene, int threads) {
+  Rivals rivals;
+  for (auto* one : {&rivals.session, &rivals.everything}) {
+    auto started = Session::start(full_registry(), scene, nullptr, threads);
+    if (!started) return started.error();
+    *one = std::move(*started);
+  }
+  rivals.everything->evaluate_everything(true);
+  return rivals;
+}
+
+struct Times {
+  std::vector<double> tick, everything;
+};
+
+// One tick of both, each after its command; the two have to agree.
+Result<void> tick_both(Rivals& rivals, const Command* command, int threads, Times& times) {
+  for (const auto& [session, list] :
+       {std::pair{rivals.session.get(), &times.tick}, {rivals.everything.get(), &times.everything}}) {
+    const Clocks before = clocks_now();
+    if (command != nullptr)
+      if (auto done = session->submit(*command, "bench"); !done) return done.error();
+    session->tick();
+    const Clocks after = clocks_now();
+    list->push_back(after.of(threads) - before.of(threads));
+  }
+  if (rivals.session->state()->hash == rivals.everything->state()->hash) return {};
+  return Error{ErrorCode::internal, "",
+               "the tick that evaluates what has changed comes to another state than the one that evaluates all"};
+}
+
+BenchTable table_of_ticks() {
+  return {"tick",
+          "Ticks of volumes at 70 % fill with three links to sets, against the same ticks with everything evaluated",
+          {{"case", "case", true},
+           {"volumes", "sites"},
+           {"threads", "threads"},
+           {"median ms", "median_ms"},
+           {"p95 ms", "p95_ms"},
+           {"everything ms", "everything_ms"},
+           {"ratio", "ratio"},
+           {"hash", "hash", true}}};
+}
+
+void add_row(BenchTable& table, const std::string& name, int count, int threads, Times times, const State& state) {
+  std::sort(times.tick.begin(), times.tick.end());
+  const double mine = median(times.tick), all = median(times.everything), late = times.tick[times.tick.size() * 95 / 100];
+  table.add({word(name), figure(static_cast<std::size_t>(count)), figure(static_cast<std::size_t>(threads)),
+             figure(1000 * mine, 4), figure(1000 * late, 4), figure(1000 * all, 3), figure(mine / all, 5),
+             word(hex_digits(state.hash))});
+}
+
+}  // namespace
+
+BenchTables bench_tick(const SolverBench& bench) {
+  BenchTable table = table_of_ticks();
+  for (const int count : bench.sites({100, 1000}, {60})) {
+    const auto scene = linked_scene(count);
+    if (!scene) return scene.error();
+    for (const int threads : bench.threads()) {
+      const std::string what = "ticks of " + std::to_string(count) + " volumes";
+      auto rivals = rivals_of(*scene, threads);
+      if (!rivals) return rivals.error();
+      rivals->session->tick(), rivals->everything->tick();  // the first one finds all volumes without a weight
+      Times negotiation, rest, drag;
+      for (int t = 0; t < kNegotiation && bench.goes_on(what + ", negotiating"); ++t)
+        if (auto done = tick_both(*rivals, nullptr, threads, negotiation); !done) return done.error();
+      add_row(table, "all negotiate", count, threads, negotiation, *rivals->session->state());
+      // Both get to rest together; what the slower one takes for that is not measured.
+      Times waiting;
+      const int most = bench.options.is_quick ? 5 : kMostTicksToRest;
+      for (int t = 0; t < most && !rivals->session->state()->due.is_nothing() && bench.goes_on(what + ", coming to rest"); ++t)
+        rivals->session->tick();
+      while (rivals->everything->state()->tick < rivals->session->state()->tick && bench.goes_on(what + ", the rival"))
+        rivals->everything->tick();
+      for (int t = 0; t < kFrames && bench.goes_on(what + ", at rest"); ++t)
+        if (auto done = tick_both(*rivals, nullptr, threads, rest); !done) return done.error();
+      const bool is_at_rest = rivals->session->state()->due.is_nothing();
+      add_row(table, is_at_rest ? "at rest" : "settling", count, threads, rest, *rivals->session->state());
+      const std::string dragged = std::next(scene->nodes.begin(), static_cast<std::ptrdiff_t>(scene->nodes.size() / 2))->first;
+      Vector3 place = std::get<Vector3>(rivals->session->state()->value(
+          *rivals->session->state()->plan->find(rivals->session->state()->plan->node_index(dragged), {"node", "position", ""})));
+      for (int t = 0; t < kFrames && bench.goes_on(what + ", one dragged"); ++t) {
+        place.x += t < kFrames / 2 ? kDragStep : -kDragStep;
+        const Command move =
+            command<SetPort>({dragged, {"node.position"}, {JsonValue::of(Json::array({place.x, place.y, place.z}))}});
+        if (auto done = tick_both(*rivals, &move, threads, drag); !done) return done.error();
+      }
+      add_row(table, "one dragged", count, threads, drag, *rivals->session->state());
+    }
+  }
+  return std::vector<BenchTable>{std::move(table)};
+}
+
+}  // namespace bl::cli::bench
