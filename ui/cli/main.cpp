@@ -114,7 +114,7 @@ void declare_replay(CLI::App& app, ReplayOptions& o) {
   add_threads(c, o.threads);
   c.footer(
       "Example:\n  behaviourlinks run scene.json --log run.log && behaviourlinks replay run.log --threads 2\n\n"
-      "Exit codes: 0 all hashes agree; 2 bad input; 3 a hash differs.");
+      "Exit codes: 0 no hash differs; 2 bad input; 3 a hash differs. Hashes of logs of older programs cannot be compared.");
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {

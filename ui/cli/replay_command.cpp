@@ -39,6 +39,12 @@ int replay_command(const ReplayOptions& options) {
     return kNotMet;
   }
   if (report->checks == 0) print_line("the log holds no hashes to compare with");
+  else if (report->incomparable > 0)
+    print_line("the hashes of the log are of scheme " + std::to_string(log->hash_scheme) +
+                   " and cannot be compared with those of this "
+                   "program, which are of scheme " +
+                   std::to_string(kHashScheme),
+               Colour::yellow);
   else print_line("agrees with all " + std::to_string(report->checks) + " checks", Colour::green);
   return kDone;
 }
