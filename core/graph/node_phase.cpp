@@ -111,8 +111,7 @@ bool stands_still(const State& state) {
          state.largest_change <= kStandstill * settings.change_limit;
 }
 
-// Whoever is bringing a rule about while nothing changes does so in vain. That wakes what rests, too: the links may answer in
-// full.
+// The same link, which says that its rule cannot be met.
 LinkState stuck(const LinkState& link) {
   LinkState told = link;
   told.error = link.work;
@@ -124,7 +123,10 @@ LinkState stuck(const LinkState& link) {
   return told;
 }
 
+// Whoever is bringing a rule about while nothing changes does so in vain. That wakes what rests, too: the links may answer in
+// full.
 void name_stuck_rules(State& state) {
+  if (!first_work(state)) return;
   StateDraft draft(state);
   for (std::uint32_t l = 0; l < state.links.size(); ++l) {
     if (l % LinkStates::kLeaf == 0 && !state.links.digest(l / LinkStates::kLeaf).is_at_work) {

@@ -279,6 +279,7 @@ void keep_shapes(StateDraft& next, const SetGroup& group) {
       auto plain = std::make_shared<Mesh>(**mesh);
       for (Point3& vertex : plain->vertices) vertex += Point3{0, 0, 0};  // -0 + 0 is 0
       next.edit(ref) = MeshPointer(std::move(plain));
+      next.state.due.replied.push_back(ref);
     }
 }
 
@@ -318,7 +319,7 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
   }
   write_replies(next, replies);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (is_due[g] && next.nodes[groups[g].node].types[groups[g].type].error) keep_shapes(next, groups[g]);
+    if (next.nodes[groups[g].node].types[groups[g].type].error) keep_shapes(next, groups[g]);
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {

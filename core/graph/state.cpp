@@ -228,6 +228,10 @@ State carry_amended(const State& old, std::shared_ptr<const Plan> plan, const st
       for (std::uint16_t p = 0; p < after.types[t].values.size(); ++p)
         if (!(before.types[t].values[p] == after.types[t].values[p]))
           for (auto* ports : {&state.due.changed, &state.due.replied}) ports->push_back({n, t, p});
+    // A set whose settings say something else is asked, even where links have brought its ports to that already.
+    for (std::uint16_t t = 0; t < after.types.size(); ++t)
+      if (before.types[t].is_evaluated && !after.types[t].is_evaluated)
+        for (std::uint16_t p = 0; p < after.types[t].values.size(); ++p) state.due.replied.push_back({n, t, p});
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }

@@ -26,7 +26,7 @@ class Walk {
 
   Changes run() {
     const Plan &a = *before_.plan, &b = *after_.plan;
-    if (a.dependents == b.dependents) return run_shared();
+    if (a.dependents && a.dependents == b.dependents) return run_shared();
     walk(
         a.nodes, b.nodes, [&](std::uint32_t n) { changes_.removed_nodes.push_back(a.nodes[n].id); },
         [&](std::uint32_t n) { changes_.added_nodes.push_back(b.nodes[n].id); },
