@@ -42,7 +42,7 @@ struct SmartVolumesSolver {
     std::shared_ptr<const geometry::Domain> domain;
   };
   struct Sets {
-    std::vector<Member> members;
+    Watched<Member> members;
     std::vector<Plot> plots;
   };
   struct Reply {
@@ -60,7 +60,7 @@ struct SmartVolumesSolver {
     double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0;
     Memory memory;
     std::string worst, message;
-    std::vector<Reply> replies;
+    SomeReplies<Reply> replies;
   };
 
   static void declare(TypificationBuilder<SmartVolumesSolver>& t) {
@@ -180,7 +180,60 @@ struct SmartVolumesSolver {
                  "the boundary " + found + " has no shape: see its own error, or make it simpler where it has none"};
   }
 
-  static Reply reply_of(const geometry::CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
+  // What is kept from tick to tick.
+  struct Kept {
+    geometry::VolumeTick::Cache cache;
+    std::vector<std::string> names;
+  };
+
+  // The members as the geometry has them.
+  struct Volumes {
+    std::vector<geometry::PowerSite> sites;
+    std::vector<double> wanted, storey_heights;
+    std::vector<geometry::Standing> standing;
+    geometry::FitState last;
+  };
+
+  static geometry::Standing rule_of(const std::string& standing) {
+    return standing == "ground"   ? geometry::Standing::ground
+           : standing == "bridge" ? geometry::Standing::bridge
+                                  : geometry::Standing::stack;
+  }
+
+  static Volumes volumes_of(const In& in, std::span<const Member> members) {
+    Volumes volumes;
+    volumes.last.momentum = std::max(1.0, in.last.momentum);
+    volumes.last.problem = std::strtoull(in.last.problem.c_str(), nullptr, 16);
+    volumes.last.residual = in.last.residual;
+    volumes.last.share = in.last.share;
+    volumes.last.least_ratio = in.last.least_ratio;
+    for (const Member& member : members) {
+      volumes.sites.push_back({member.position, member.weight});
+      volumes.wanted.push_back(std::max(std::min(member.demand, member.limit), member.least));
+      volumes.storey_heights.push_back(member.storey_height);
+      volumes.standing.push_back(rule_of(member.standing));
+      volumes.last.previous_move.push_back(member.last_step);
+      volumes.last.direction.push_back(member.last_direction);
+    }
+    return volumes;
+  }
+
+  // Below this share of what is asked for a volume has nothing, whatever the limits say that it should aim at.
+  static constexpr double kNothing = 1e-3;
+
+  // Limits that leave a volume nothing must not look as if it had what it wants.
+  static bool is_denied(const Member& member, double wanted) { return member.demand > 0 && wanted <= kNothing * member.demand; }
+
+  static double error_of(const Member& member, double wanted, double volume) {
+    return is_denied(member, wanted) ? 1.0 : wanted > 0 ? std::abs(volume - wanted) / wanted : 0.0;
+  }
+
+  // Of what the fit and the cell of one member come to.
+  static Reply reply_of(std::uint32_t i, const Volumes& volumes, const geometry::VolumeTick::Outcome& done,
+                        std::span<const Member> members, std::span<const std::string> names) {
+    const geometry::CellMeasure& cell = done.cells[i];
+    const double wanted = volumes.wanted[i], weight = volumes.sites[i].weight;
+    const std::int32_t on = done.stances[i].stands_on;
     Reply reply{
         .wanted = wanted,
         .weight = weight,
@@ -193,62 +246,41 @@ struct SmartVolumesSolver {
         .spherical_area = cell.spherical_area,
         .height = cell.height,
         .bottom = cell.bottom,
-        .error = wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
+        .error = error_of(members[i], wanted, cell.volume),
+        .last_step = done.state.previous_move.empty() ? 0 : done.state.previous_move[i],
+        .last_direction = done.state.direction.empty() ? 0 : done.state.direction[i],
         .state = std::string(name_of(cell.state)),
         .reason = wanted > 0 ? geometry::with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
         .neighbours = {{"node", "area"}, {}},
         .centroid = cell.centroid,
-        .mesh = cell.mesh};
+        .mesh = cell.mesh,
+        .hang = done.stances[i].hang,
+        .drop = done.stances[i].drop,
+        .stands_on = on == geometry::Stance::kNothing  ? ""
+                     : on == geometry::Stance::kGround ? "the ground"
+                                                       : names[static_cast<std::size_t>(on)]};
     for (const geometry::FacetArea& facet : cell.facets)
       if (facet.kind == geometry::FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
+    if (!is_denied(members[i], wanted)) return reply;
+    reply.state = std::string(name_of(geometry::SiteState::starved));
+    reply.reason = "its limit of " + fixed(members[i].limit, 1) + " m³ leaves it next to nothing of the " +
+                   fixed(members[i].demand, 0) + " m³ that it asks for: raise what limits it, or lower its demand";
     return reply;
   }
 
-  // Below this share of what is asked for a volume has nothing, whatever the limits say that it should aim at.
-  static constexpr double kNothing = 1e-3;
-
-  // Limits that leave a volume nothing must not look as if it had what it wants.
-  static void judge_limit(const Member& member, Reply& reply) {
-    if (!(member.demand > 0) || reply.wanted > kNothing * member.demand) return;
-    reply.error = 1;
-    reply.state = std::string(name_of(geometry::SiteState::starved));
-    reply.reason = "its limit of " + fixed(member.limit, 1) + " m³ leaves it next to nothing of the " + fixed(member.demand, 0) +
-                   " m³ that it asks for: raise what limits it, or lower its demand";
-  }
-
-  static geometry::Standing rule_of(const std::string& standing) {
-    return standing == "ground"   ? geometry::Standing::ground
-           : standing == "bridge" ? geometry::Standing::bridge
-                                  : geometry::Standing::stack;
-  }
-
-  static void write_stances(const geometry::Domain& domain, std::span<const geometry::PowerSite> sites,
-                            std::span<const geometry::CellMeasure> cells, const std::vector<Member>& members,
-                            std::vector<Reply>& replies) {
-    std::vector<geometry::Standing> rules;
-    for (const Member& member : members) rules.push_back(rule_of(member.standing));
-    const std::vector<geometry::Stance> stances = stances_of(domain, sites, cells, rules);
-    for (std::size_t i = 0; i < stances.size(); ++i) {
-      const std::int32_t on = stances[i].stands_on;
-      replies[i].hang = stances[i].hang;
-      replies[i].drop = stances[i].drop;
-      if (on != geometry::Stance::kNothing)
-        replies[i].stands_on = on == geometry::Stance::kGround ? "the ground" : members[static_cast<std::size_t>(on)].id;
+  static void add_up(const geometry::VolumeTick::Outcome& done, const Volumes& volumes, std::span<const Member> members, Out& out) {
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const geometry::CellMeasure& cell = done.cells[i];
+      out.count += cell.volume > 0 ? 1 : 0;
+      out.total_demand += volumes.wanted[i];
+      out.total_volume += cell.volume;
+      out.total_floor_area += cell.floor_area;
+      const double error = error_of(members[i], volumes.wanted[i], cell.volume);
+      if (error <= out.largest_error) continue;
+      out.largest_error = error;
+      out.worst = members[i].id;
     }
-  }
-
-  static geometry::FitState last_state(const In& in, const std::vector<Member>& members) {
-    geometry::FitState state;
-    state.momentum = std::max(1.0, in.last.momentum);
-    state.problem = std::strtoull(in.last.problem.c_str(), nullptr, 16);
-    state.residual = in.last.residual;
-    state.share = in.last.share;
-    state.least_ratio = in.last.least_ratio;
-    for (const Member& member : members) {
-      state.previous_move.push_back(member.last_step);
-      state.direction.push_back(member.last_direction);
-    }
-    return state;
+    out.fill = out.total_volume / out.boundary_volume;
   }
 
   static Memory memory_of(const geometry::FitState& state) {
@@ -262,21 +294,18 @@ struct SmartVolumesSolver {
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     const auto found = domain_of(sets.plots);
     if (!found) return found.error();
-    const geometry::Domain& domain = **found;
     Out out;
-    out.boundary_volume = domain.volume;
-    if (sets.members.empty() || (tick.is_recall && in.metric != geometry::Metric::power)) return out;
-    std::vector<geometry::PowerSite> sites;
-    std::vector<double> wanted, storey_heights;
-    std::vector<std::string> names;
-    for (const Member& member : sets.members) {
-      sites.push_back({member.position, member.weight});
-      wanted.push_back(std::max(std::min(member.demand, member.limit), member.least));
-      storey_heights.push_back(member.storey_height);
-      names.push_back(member.id);
+    out.boundary_volume = (*found)->volume;
+    const std::span<const Member> members = sets.members.all;
+    if (members.empty() || (tick.is_recall && in.metric != geometry::Metric::power)) return out;
+    Kept own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    const std::vector<std::string>& names = kept.names;
+    if (sets.members.is_anew || names.size() != members.size()) {
+      kept.names.clear();
+      for (const Member& member : members) kept.names.push_back(member.id);
     }
-    geometry::VolumeTick::Cache own;
-    geometry::VolumeTick::Cache& kept = tick.memo != nullptr ? tick.memo->of<geometry::VolumeTick::Cache>() : own;
+    Volumes volumes = volumes_of(in, members);
     const geometry::VolumeTick now{.metric = in.metric,
                                    .samples = in.resolution,
                                    .method = in.method,
@@ -284,25 +313,16 @@ struct SmartVolumesSolver {
                                    .steps = tick.is_recall ? 0 : in.steps,
                                    .tolerance = in.tolerance,
                                    .tessellation_depth = in.tessellation_depth,
-                                   .storey_heights = storey_heights,
+                                   .storey_heights = volumes.storey_heights,
+                                   .standing = volumes.standing,
                                    .pool = tick.pool};
-    const auto done = now.run(domain, sites, wanted, last_state(in, sets.members), kept);
+    const auto done = now.run(**found, volumes.sites, volumes.wanted, volumes.last, kept.cache);
     if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, names)};
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      Reply& reply = out.replies.emplace_back(reply_of(done->cells[i], wanted[i], sites[i].weight, names));
-      judge_limit(sets.members[i], reply);
-      if (!done->state.previous_move.empty()) reply.last_step = done->state.previous_move[i];
-      if (!done->state.direction.empty()) reply.last_direction = done->state.direction[i];
-      out.count += reply.volume > 0 ? 1 : 0;
-      out.total_demand += reply.wanted;
-      out.total_volume += reply.volume;
-      out.total_floor_area += reply.floor_area;
-      if (reply.error <= out.largest_error) continue;
-      out.largest_error = reply.error;
-      out.worst = sets.members[i].id;
-    }
-    write_stances(domain, sites, done->cells, sets.members, out.replies);
-    out.fill = out.total_volume / out.boundary_volume;
+    add_up(*done, volumes, members, out);
+    std::vector<std::uint32_t>& answered = out.replies.members;
+    std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
+                   std::back_inserter(answered));
+    for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(i, volumes, *done, members, names));
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);
     if (!done->note.empty()) out.message += (out.message.empty() ? "" : "; ") + geometry::with_names(done->note, names);

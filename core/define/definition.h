@@ -154,7 +154,18 @@ struct SetDefinition {
 struct SetValues {
   std::size_t members = 0;
   std::vector<Value> reads;
-  std::vector<std::optional<Value>> writes;  ///< filled by the evaluation, same layout
+  /// Nothing is known of the last evaluation: all members are to be answered.
+  bool is_anew = true;
+  /// Else: whose reads differ from the last evaluation, or who has lost what it was replied then. All others read the same and
+  /// still have their replies. Ascending.
+  std::vector<std::uint32_t> changed;
+  /// The members that get replies, where the evaluation answers some only; ascending. Nothing: all of them.
+  std::optional<std::vector<std::uint32_t>> answered;
+  std::vector<std::optional<Value>> writes;  ///< filled by the evaluation, row by row for those who are answered
+  Memo loaded;                               ///< the reads as the evaluation wants them, from the last one
+
+  /// Whose replies a row of `writes` holds.
+  std::size_t member_of(std::size_t row) const { return answered ? (*answered)[row] : row; }
 };
 
 /// Changes values saved under an older revision; the JSON text in and out is the object of port values.

@@ -1,8 +1,14 @@
 // Declares a typification: a plain struct with In and Out, one declare(), and one pure evaluate().
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/define/port_builder.h"
 
@@ -40,6 +46,21 @@ class SetBuilder {
 
  private:
   SetDefinition* set_;
+};
+
+/// The members of a set for an evaluation that answers some of them only. It has to answer those that are `changed`, and all
+/// others whose replies come out differently than in the last evaluation. With an empty memo it answers all.
+template <class Member>
+struct Watched {
+  std::span<const Member> all;             ///< in ascending node id
+  std::span<const std::uint32_t> changed;  ///< ascending; see SetValues
+  bool is_anew = true;                     ///< nothing is known of the last evaluation
+};
+/// What such an evaluation replies: one reply for each of `members`, which ascend.
+template <class Reply>
+struct SomeReplies {
+  std::vector<std::uint32_t> members;
+  std::vector<Reply> replies;
 };
 
 struct NoReply {};
@@ -142,12 +163,32 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
                                            std::vector<Reply> Out::*replies) {
     SetDefinition& set = add_set<Sets>(std::move(selection), members);
     replies_.emplace_back([replies](const Out& out, const SetDefinition& definition, SetValues& values) {
-      const std::size_t count = definition.writes.size();
-      for (std::size_t m = 0; m < values.members && m < (out.*replies).size(); ++m)
-        for (std::size_t w = 0; w < count; ++w)
-          definition.writes[w].extract(&(out.*replies)[m], std::span(&values.writes[m * count + w], 1));
+      write_rows(std::span(out.*replies).first(std::min((out.*replies).size(), values.members)), definition, values);
+      values.writes.resize(values.members * definition.writes.size());
     });
     return SetBuilder<Sets, Out, Member, Reply>(set);
+  }
+  /// The same for an evaluation that is told which members have changed, and that replies to some of them.
+  template <class Sets, class Member, class Reply>
+  SetBuilder<Sets, Out, Member, Reply> set(std::string selection, Watched<Member> Sets::*members,
+                                           SomeReplies<Reply> Out::*replies) {
+    definition_->sets.push_back({std::move(selection), {}, {}});
+    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, SetValues& values) {
+      auto& kept = values.loaded.of<std::vector<Member>>();
+      const bool is_anew = values.is_anew || kept.size() != values.members;
+      kept.resize(values.members);
+      if (is_anew) {
+        values.changed.resize(values.members);
+        std::iota(values.changed.begin(), values.changed.end(), 0u);
+      }
+      for (const std::uint32_t m : values.changed) load_row(definition, values, m, kept[m]);
+      static_cast<Sets*>(sets)->*members = {kept, values.changed, is_anew};
+    });
+    replies_.emplace_back([replies](const Out& out, const SetDefinition& definition, SetValues& values) {
+      values.answered = (out.*replies).members;
+      write_rows(std::span((out.*replies).replies), definition, values);
+    });
+    return SetBuilder<Sets, Out, Member, Reply>(definition_->sets.back());
   }
 
   static TypificationDefinition build() {
@@ -169,21 +210,34 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   template <class Sets, class Member>
   SetDefinition& add_set(std::string selection, std::vector<Member> Sets::*members) {
     definition_->sets.push_back({std::move(selection), {}, {}});
-    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, const SetValues& values) {
+    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, SetValues& values) {
       auto& list = static_cast<Sets*>(sets)->*members;
       list.resize(values.members);
-      const std::size_t count = definition.reads.size();
-      for (std::size_t m = 0; m < values.members; ++m)
-        for (std::size_t r = 0; r < count; ++r) {
-          const Value* value = &values.reads[m * count + r];
-          definition.reads[r].assign(&list[m], std::span(&value, 1));
-        }
+      for (std::size_t m = 0; m < values.members; ++m) load_row(definition, values, m, list[m]);
     });
     return definition_->sets.back();
   }
 
+  template <class Member>
+  static void load_row(const SetDefinition& definition, const SetValues& values, std::size_t m, Member& member) {
+    const std::size_t count = definition.reads.size();
+    for (std::size_t r = 0; r < count; ++r) {
+      const Value* value = &values.reads[m * count + r];
+      definition.reads[r].assign(&member, std::span(&value, 1));
+    }
+  }
+
+  template <class Reply>
+  static void write_rows(std::span<const Reply> replies, const SetDefinition& definition, SetValues& values) {
+    const std::size_t count = definition.writes.size();
+    values.writes.assign(replies.size() * count, std::nullopt);
+    for (std::size_t row = 0; row < replies.size(); ++row)
+      for (std::size_t w = 0; w < count; ++w)
+        definition.writes[w].extract(&replies[row], std::span(&values.writes[row * count + w], 1));
+  }
+
   void bind_evaluation() {
-    using Loader = std::function<void(void*, const SetDefinition&, const SetValues&)>;
+    using Loader = std::function<void(void*, const SetDefinition&, SetValues&)>;
     using Replier = std::function<void(const Out&, const SetDefinition&, SetValues&)>;
     constexpr bool kIsPlain = requires(const In& in, const Tick& tick) { T::evaluate(in, tick); };
     constexpr bool kHasSets = requires { typename T::Sets; };
@@ -217,7 +271,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     }
   }
 
-  std::vector<std::function<void(void*, const SetDefinition&, const SetValues&)>> loaders_;
+  std::vector<std::function<void(void*, const SetDefinition&, SetValues&)>> loaders_;
   std::vector<std::function<void(const Out&, const SetDefinition&, SetValues&)>> replies_;
 };
 

@@ -23,6 +23,7 @@ struct Stance {
   std::int32_t stands_on = kNothing;  ///< the site below it that carries it, kGround or kNothing
   double hang = 0;  ///< height of its lowest point above the ground [m] where it stands on nothing that it may stand on; else 0
   double drop = 0;  ///< how far its ball must sink to touch what it may stand on [m]; negative: sunk in by that much
+  bool operator==(const Stance&) const = default;
 };
 
 /// A volume counts as below another one where the line between them has at least this slope: the sine of 30°.

@@ -2,6 +2,7 @@
 #include "core/geometry/volume_tick.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace bl::geometry {
@@ -19,6 +20,26 @@ void start_newcomers(const Domain& domain, std::span<PowerSite> sites, std::span
 
 void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
   for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit.weights[i];
+}
+
+// How a site's number in a list of the fit's state reads; a list that is empty says nothing.
+double entry(const std::vector<double>& list, std::size_t i) { return list.empty() ? 0 : list[i]; }
+
+// `made`: the sites whose cells were made.
+void find_differing(const FitState& before, std::span<const std::uint32_t> made, std::vector<Stance>&& stances,
+                    VolumeTick::Cache& kept, VolumeTick::Outcome& outcome) {
+  const std::size_t count = stances.size();
+  std::vector<std::uint8_t> differs(count, kept.stances.size() != count);
+  for (const std::uint32_t i : made) differs[i] = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!differs[i])
+      differs[i] = !(stances[i] == kept.stances[i]) ||
+                   entry(before.previous_move, i) != entry(outcome.state.previous_move, i) ||
+                   entry(before.direction, i) != entry(outcome.state.direction, i);
+    if (differs[i]) outcome.differing.push_back(static_cast<std::uint32_t>(i));
+  }
+  kept.stances = std::move(stances);
+  outcome.stances = kept.stances;
 }
 
 }  // namespace
@@ -47,7 +68,9 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
       sites,
       {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});
   if (!cells) return cells.error();
-  return Outcome{std::move(fit.state), std::move(fit.losses), "", *cells};
+  Outcome outcome{std::move(fit.state), std::move(fit.losses), "", *cells, {}, {}};
+  find_differing(state, kept.shown.made(), stances_of(domain, sites, *cells, standing), kept, outcome);
+  return outcome;
 }
 
 Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::vector<PowerSite>& sites,
@@ -62,7 +85,12 @@ Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::v
   auto cells = kept.lines.measure(sites, {.metric = metric, .samples = samples, .storey_heights = storey_heights, .pool = pool});
   if (!cells) return cells.error();
   kept.sampled = std::move(*cells);
-  return Outcome{std::move(fit->report.state), std::move(fit->report.losses), std::move(fit->resolution), kept.sampled.cells};
+  Outcome outcome{
+      std::move(fit->report.state), std::move(fit->report.losses), std::move(fit->resolution), kept.sampled.cells, {}, {}};
+  std::vector<std::uint32_t> all(sites.size());
+  std::iota(all.begin(), all.end(), 0u);
+  find_differing(state, all, stances_of(domain, sites, kept.sampled.cells, standing), kept, outcome);
+  return outcome;
 }
 
 }  // namespace bl::geometry

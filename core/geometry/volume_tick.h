@@ -1,12 +1,14 @@
 // One tick of a SmartVolumes solver: some steps of the fit, then the cells, under any metric.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/inside/sampled_fit.h"
+#include "core/geometry/standing.h"
 
 namespace bl::geometry {
 
@@ -19,6 +21,7 @@ struct VolumeTick {
   double tolerance = 0.005;
   int tessellation_depth = 1;
   std::span<const double> storey_heights = {};  ///< [m], per site
+  std::span<const Standing> standing = {};      ///< per site: what it may stand on
   ThreadPool* pool = nullptr;
 
   /// Cells and lines of the last tick, so that unchanged ones are not computed again. It changes no bit.
@@ -26,6 +29,7 @@ struct VolumeTick {
     PowerDiagram fitted, shown;
     SampledDiagram lines;
     SampledCells sampled;
+    std::vector<Stance> stances;
   };
 
   struct Outcome {
@@ -33,6 +37,10 @@ struct VolumeTick {
     std::vector<DemandLoss> losses;
     std::string note;                    ///< a sentence where samples are too coarse for the tolerance; empty otherwise
     std::span<const CellMeasure> cells;  ///< in `kept`, valid until its next use
+    std::span<const Stance> stances;     ///< likewise
+    /// Ascending: the sites whose cell or stance may differ from those of the last run with `kept`, or whose part of the fit's
+    /// state differs from the one given.
+    std::vector<std::uint32_t> differing;
   };
 
   /// Moves the weights of `sites` towards `wanted` [m³] and measures their cells. New sites among settled ones start small, so

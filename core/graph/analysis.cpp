@@ -45,7 +45,8 @@ AnalysisResult worked_out(AnalysisInput& input) {
     const auto& paths = input.write_paths[s];
     for (std::size_t w = 0; w < input.sets[s].writes.size(); ++w)
       if (auto& value = input.sets[s].writes[w])
-        result.outputs.push_back({input.members[s][w / paths.size()], paths[w % paths.size()], std::move(*value)});
+        result.outputs.push_back(
+            {input.members[s][input.sets[s].member_of(w / paths.size())], paths[w % paths.size()], std::move(*value)});
   }
   return result;
 }

@@ -1,13 +1,13 @@
 // The phases of a tick as functions from the frozen state to the next one.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/define/definition.h"
+#include "core/graph/kept_sets.h"
 #include "core/graph/state.h"
 
 namespace bl {
@@ -46,8 +46,6 @@ void evaluate_nodes(TickWork& work, ThreadPool& pool);
 /// What typifications without sets make of their settings where no tick has asked them yet, as far as they keep no memory;
 /// whether there were any. For the eye: in a tick, phase 5 does it.
 bool evaluate_unasked(StateDraft& draft);
-/// What typifications with sets keep from tick to tick, by node and type id; no state.
-using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
 /// Phase 6: typifications with sets; all read what phase 5 left, then all replies are written, in ascending node id. Analyses
 /// are begun here, and their results taken in when they are due.
 void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner);

@@ -23,16 +23,16 @@ struct SetCase {
   const SetGroup* group = nullptr;
   std::span<const SetPlan> plans;
   std::vector<Value> values;
-  std::vector<SetValues> sets;
+  std::vector<SetValues> own;  // of one that keeps nothing
+  std::span<SetValues> sets;   // these, or those that are kept
+  SetMemo* memo = nullptr;     // of one that keeps its sets
 
   std::uint32_t node() const { return group->node; }
   std::uint32_t type() const { return group->type; }
-  bool is_analysis() const { return group->analysis != SetGroup::kNone; }
-  const TypificationDefinition& definition(const Plan& plan) const { return *plan.nodes[node()].types[type()].definition; }
 };
 
-std::span<const SetPlan> sets_of(const Plan& plan, const SetGroup& group) {
-  return std::span(plan.sets).subspan(group.first, group.count);
+const TypificationDefinition& definition_of(const Plan& plan, const SetGroup& group) {
+  return *plan.nodes[group.node].types[group.type].definition;
 }
 
 // Why the group cannot be evaluated, or nothing.
@@ -42,25 +42,33 @@ const Error* error_of(const Plan& plan, const SetGroup& group) {
   return broken == sets.end() ? nullptr : &*broken->error;
 }
 
-SetCase gathered(const StateDraft& draft, const SetGroup& group) {
+// Where the value `w` of those that set `s` has been given to write goes.
+PortRef target_of(const SetCase& one, std::size_t s, std::size_t w) {
+  const std::size_t count = one.plans[s].writes.size() / one.plans[s].members.size();
+  return one.plans[s].writes[one.sets[s].member_of(w / count) * count + w % count];
+}
+
+SetCase begun(const StateDraft& draft, const SetGroup& group) {
   SetCase one;
   one.group = &group;
   one.plans = sets_of(*draft.state.plan, group);
   one.values = draft.nodes[group.node].types[group.type].values;
-  for (const SetPlan& plan : one.plans) {
-    SetValues& set = one.sets.emplace_back();
-    set.members = plan.members.size();
-    set.reads.reserve(plan.reads.size());
-    for (const PortRef& ref : plan.reads) set.reads.push_back(draft.value(ref));
-    set.writes.resize(plan.writes.size());
-  }
   return one;
 }
 
-std::vector<SetCase> gather_sets(const StateDraft& draft) {
-  std::vector<SetCase> cases;
-  for (const SetGroup& group : draft.state.plan->dependents->groups) cases.push_back(gathered(draft, group));
-  return cases;
+SetCase gathered(const StateDraft& draft, const SetGroup& group) {
+  SetCase one = begun(draft, group);
+  for (const SetPlan& plan : one.plans) one.own.push_back(read_set(draft, plan));
+  one.sets = one.own;
+  return one;
+}
+
+// With what is kept of its sets. One of several that write to the same ports cannot know what has become of its replies.
+SetCase gathered(const StateDraft& draft, const SetGroup& group, SetMemo& memo, bool is_anew) {
+  SetCase one = begun(draft, group);
+  one.memo = &memo;
+  one.sets = memo.sets.read(draft, group, is_anew || group.is_always_due);
+  return one;
 }
 
 // By group: is anything that it reads different from when it was asked last, or has somebody else written to what it writes?
@@ -78,36 +86,40 @@ std::vector<bool> due_groups(const TickWork& work) {
   return is_due;
 }
 
-// The memo of a node's typification.
-Memo& memo_of(SetMemos& memos, const Plan& plan, const SetCase& one) {
-  return memos[{plan.nodes[one.node()].id, one.definition(plan).id}];
+SetMemo& memo_of(SetMemos& memos, const Plan& plan, const SetGroup& group) {
+  return memos[{plan.nodes[group.node].id, plan.nodes[group.node].types[group.type].definition->id}];
 }
 
-void evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, SetMemos& memos, std::vector<Reply>& replies) {
+// Whether all that it replies can be written.
+bool evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, std::vector<Reply>& replies) {
   StateDraft& next = work.next;
   const Plan& plan = *next.state.plan;
-  const TypificationDefinition& definition = one.definition(plan);
+  const TypificationDefinition& definition = definition_of(plan, *one.group);
   TypeState& state = next.edit(one.node(), one.type());
   const std::string place = place_of(plan, one.node(), one.type());
   const std::vector<Value> before = state.values;
-  const Tick tick{.index = tick_for(definition, next.state.tick), .pool = &pool, .memo = &memo_of(memos, plan, one)};
+  const Tick tick{.index = tick_for(definition, next.state.tick), .pool = &pool, .memo = &one.memo->own};
   auto done = definition.evaluate(one.values, one.sets, tick);
   const bool is_good = done.ok();
   accept_values(definition, state, std::move(one.values), std::move(done), place);
   for (std::uint16_t p = 0; p < before.size(); ++p)
     if (!(before[p] == state.values[p]))
       next.state.due.replied.push_back({one.node(), static_cast<std::uint16_t>(one.type()), p});
-  if (!is_good) return;
+  if (!is_good) return false;
+  bool is_complete = true;
   for (std::size_t s = 0; s < one.sets.size(); ++s)
     for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
       auto& value = one.sets[s].writes[w];
       if (!value) continue;
-      if (make_storable(*value))
-        replies.push_back({.target = one.plans[s].writes[w], .value = std::move(*value), .node = one.node(), .type = one.type()});
-      else
-        state.error =
-            Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
+      if (make_storable(*value)) {
+        replies.push_back({.target = target_of(one, s, w), .value = std::move(*value), .node = one.node(), .type = one.type()});
+        continue;
+      }
+      is_complete = false;
+      state.error =
+          Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
     }
+  return is_complete;
 }
 
 // Results that came from nodes which have gone since are for nobody.
@@ -139,11 +151,11 @@ void take_result(StateDraft& next, const SetGroup& group, const AnalysisResult& 
 AnalysisInput input_of(const StateDraft& draft, SetCase&& one) {
   const Plan& plan = *draft.state.plan;
   AnalysisInput input{.plan = draft.state.plan,
-                      .definition = &one.definition(plan),
+                      .definition = &definition_of(plan, *one.group),
                       .node = plan.nodes[one.node()].id,
                       .tick = draft.state.tick,
                       .values = std::move(one.values),
-                      .sets = std::move(one.sets),
+                      .sets = std::move(one.own),
                       .members = {},
                       .write_paths = {},
                       .memo = nullptr};
@@ -207,7 +219,7 @@ void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCa
   }
   ++work.counts.sets;
   const auto latency = static_cast<std::int64_t>(as_number(one->values[state.plan->analyses[group.analysis].latency]));
-  Memo& memo = memo_of(memos, *state.plan, *one);
+  Memo& memo = memo_of(memos, *state.plan, group).own;
   AnalysisInput input = input_of(next, std::move(*one));
   const std::uint64_t inputs = hash_of(input);
   analysis.seen = inputs;
@@ -300,9 +312,12 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
       if (is_due[g]) analysis.seen.reset();
       is_asked = needs_data(analysis, next.state.tick);
     }
-    if (is_asked) cases[g] = gathered(next, groups[g]);
+    if (!is_asked) continue;
+    if (groups[g].analysis != SetGroup::kNone) cases[g] = gathered(next, groups[g]);
+    else cases[g] = gathered(next, groups[g], memo_of(memos, plan, groups[g]), work.frozen.due.is_everything);
   }
   std::vector<Reply> replies;
+  std::vector<std::pair<std::size_t, bool>> written;  // groups, and whether all that they replied could be written
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const bool is_analysis = groups[g].analysis != SetGroup::kNone;
     if (const Error* error = error_of(plan, groups[g])) {
@@ -314,30 +329,33 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
       advance_analysis(work, groups[g], cases[g], runner, memos, replies);
     } else if (cases[g]) {
       ++work.counts.sets;
-      evaluate_now(work, *cases[g], pool, memos, replies);
+      written.emplace_back(g, evaluate_now(work, *cases[g], pool, replies));
     }
   }
   write_replies(next, replies);
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (next.nodes[groups[g].node].types[groups[g].type].error) keep_shapes(next, groups[g]);
+  for (const auto& [g, is_complete] : written) cases[g]->memo->sets.note_written(next, groups[g], is_complete);
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
+  const StateDraft before(state);
   StateDraft draft(state);
-  for (SetCase& one : gather_sets(draft)) {
-    const TypificationDefinition& definition = one.definition(*state.plan);
+  for (const SetGroup& group : state.plan->dependents->groups) {
+    const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
       return std::any_of(set.writes.begin(), set.writes.end(),
                          [](const WriteDefinition& w) { return w.kind == ValueKind::mesh; });
     });
-    if (!has_mesh || error_of(*state.plan, *one.group) != nullptr) continue;
+    if (!has_mesh || error_of(*state.plan, group) != nullptr) continue;
+    SetCase one = gathered(before, group);
     // A failure here is that of the next tick, which says so.
-    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo_of(memos, *state.plan, one), .is_recall = true};
+    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo_of(memos, *state.plan, group).own, .is_recall = true};
     if (!definition.evaluate(one.values, one.sets, recall).ok()) continue;
     for (std::size_t s = 0; s < one.sets.size(); ++s)
       for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)
         if (auto& value = one.sets[s].writes[w]; value && std::holds_alternative<MeshPointer>(*value)) {
-          const PortRef target = one.plans[s].writes[w];
+          const PortRef target = target_of(one, s, w);
           if (std::get<MeshPointer>(draft.value(target))) continue;  // saved, because its solver failed
           draft.edit(target) = std::move(*value);
         }
@@ -346,14 +364,17 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
 }
 
 State with_sums_of_now(const State& state) {
+  const StateDraft before(state);
   StateDraft seen(state);
-  for (SetCase& one : gather_sets(seen)) {
-    const TypificationDefinition& definition = one.definition(*state.plan);
+  for (const SetGroup& group : state.plan->dependents->groups) {
+    const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool only_reads =
         std::all_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) { return set.writes.empty(); });
-    if (!only_reads || one.is_analysis() || error_of(*state.plan, *one.group) != nullptr || !is_only_now(definition)) continue;
-    TypeState now = seen.nodes[one.node()].types[one.type()];
+    if (!only_reads || group.analysis != SetGroup::kNone || error_of(*state.plan, group) != nullptr || !is_only_now(definition))
+      continue;
+    TypeState now = seen.nodes[group.node].types[group.type];
     if (!now.is_evaluated || now.error) continue;
+    SetCase one = gathered(before, group);
     auto done = definition.evaluate(one.values, one.sets, Tick{.index = Tick::kUnknown});
     accept_values(definition, now, std::move(one.values), std::move(done), place_of(*state.plan, one.node(), one.type()));
     if (!now.error) seen.edit(one.node(), one.type()) = std::move(now);

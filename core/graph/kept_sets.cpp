@@ -1,0 +1,85 @@
+// Finds the members that differ by the identity of their nodes: states share what stays the same.
+#include "core/graph/kept_sets.h"
+
+#include <algorithm>
+
+namespace bl {
+
+namespace {
+
+// Reads one member again; whether anything in it differs.
+bool read_member(const StateDraft& draft, const SetPlan& plan, std::size_t m, SetValues& set) {
+  const std::size_t count = plan.reads.size() / plan.members.size();
+  bool differs = false;
+  for (std::size_t r = m * count; r < (m + 1) * count; ++r) {
+    const Value& value = draft.value(plan.reads[r]);
+    if (set.reads[r] == value) continue;
+    set.reads[r] = value;
+    differs = true;
+  }
+  return differs;
+}
+
+}  // namespace
+
+std::span<const SetPlan> sets_of(const Plan& plan, const SetGroup& group) {
+  return std::span(plan.sets).subspan(group.first, group.count);
+}
+
+SetValues read_set(const StateDraft& draft, const SetPlan& plan) {
+  SetValues set;
+  set.members = plan.members.size();
+  set.reads.reserve(plan.reads.size());
+  for (const PortRef& ref : plan.reads) set.reads.push_back(draft.value(ref));
+  return set;
+}
+
+std::span<SetValues> KeptSets::read(const StateDraft& draft, const SetGroup& group, bool is_anew) {
+  const auto plans = sets_of(*draft.state.plan, group);
+  if (is_anew || !is_complete_ || structure_ != draft.state.plan->dependents) {
+    structure_ = draft.state.plan->dependents;
+    sets_.clear();
+    seen_.clear();
+    for (const SetPlan& plan : plans) {
+      sets_.push_back(read_set(draft, plan));
+      auto& seen = seen_.emplace_back(plan.members.size());
+      for (std::size_t m = 0; m < seen.size(); ++m) seen[m].node = draft.nodes.item(plan.members[m]);
+    }
+    return sets_;
+  }
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    SetValues& set = sets_[s];
+    set.is_anew = false;
+    set.changed.clear();
+    set.answered.reset();
+    set.writes.clear();
+    for (std::uint32_t m = 0; m < seen_[s].size(); ++m) {
+      Seen& seen = seen_[s][m];
+      const auto& now = draft.nodes.item(plans[s].members[m]);
+      const bool is_other = now != seen.node;
+      if (!is_other && !seen.may_differ) continue;
+      // What is another node may have lost its replies, whatever is read of it.
+      if (read_member(draft, plans[s], m, set) || is_other) set.changed.push_back(m);
+      seen = {now, false};
+    }
+  }
+  return sets_;
+}
+
+void KeptSets::note_written(const StateDraft& draft, const SetGroup& group, bool is_complete) {
+  is_complete_ = is_complete;
+  if (!is_complete) return;
+  const auto plans = sets_of(*draft.state.plan, group);
+  const std::vector<std::uint32_t> own = draft.nodes.own_items();
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    const std::vector<std::uint32_t>& members = plans[s].members;
+    auto at = members.begin();
+    for (const std::uint32_t n : own) {
+      at = std::lower_bound(at, members.end(), n);
+      if (at == members.end()) break;
+      if (*at == n) seen_[s][static_cast<std::size_t>(at - members.begin())] = {draft.nodes.item(n), true};
+    }
+  }
+}
+
+}  // namespace bl
