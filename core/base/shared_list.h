@@ -89,7 +89,9 @@ class SharedList<T, Digest>::Draft {
     return leaf ? *leaf->items[i % kLeaf] : base_[i];
   }
   /// The item itself, as SharedList::item(). It stays the same object while it is edited in this draft.
-  const std::shared_ptr<const T>& item(std::size_t i) const { return open_[i / kLeaf] ? open_[i / kLeaf]->items[i % kLeaf] : base_.item(i); }
+  const std::shared_ptr<const T>& item(std::size_t i) const {
+    return open_[i / kLeaf] ? open_[i / kLeaf]->items[i % kLeaf] : base_.item(i);
+  }
   /// Those that were edited or put, ascending.
   std::vector<std::uint32_t> own_items() const {
     std::vector<std::uint32_t> items;

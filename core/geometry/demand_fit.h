@@ -27,6 +27,8 @@ struct FitOptions {
   double tolerance = 0.01;  ///< stop when no site differs from its (possibly scaled) demand by more than this share of it
   double damping = 1;       ///< share of the step that is taken with gain 0, in (0, 1]
   bool with_rays = true;    ///< `newton`: sites without weights start with those of `weights_by_rays`, where it finds any
+  bool is_local = false;    ///< `newton`: where few of many sites miss their demands, only these and those around them move. It
+                            ///< saves most of the work after a small change, and leaves errors within the tolerance as they are
   ThreadPool* pool = nullptr;
   PowerDiagram* diagram = nullptr;  ///< kept between calls, it reuses cells that cannot have changed; it changes no bit
 };

@@ -33,8 +33,7 @@ void find_differing(const FitState& before, std::span<const std::uint32_t> made,
   for (const std::uint32_t i : made) differs[i] = 1;
   for (std::size_t i = 0; i < count; ++i) {
     if (!differs[i])
-      differs[i] = !(stances[i] == kept.stances[i]) ||
-                   entry(before.previous_move, i) != entry(outcome.state.previous_move, i) ||
+      differs[i] = !(stances[i] == kept.stances[i]) || entry(before.previous_move, i) != entry(outcome.state.previous_move, i) ||
                    entry(before.direction, i) != entry(outcome.state.direction, i);
     if (differs[i]) outcome.differing.push_back(static_cast<std::uint32_t>(i));
   }
@@ -56,8 +55,13 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
   FitReport fit;
   fit.state = state;
   if (steps > 0) {
-    const FitOptions options{
-        .method = method, .gain = gain, .steps = steps, .tolerance = tolerance, .pool = pool, .diagram = &kept.fitted};
+    const FitOptions options{.method = method,
+                             .gain = gain,
+                             .steps = steps,
+                             .tolerance = tolerance,
+                             .is_local = true,
+                             .pool = pool,
+                             .diagram = &kept.fitted};
     auto adapted = adapt_weights(domain, sites, wanted, {}, state, options);
     if (!adapted) return adapted.error();
     fit = std::move(*adapted);

@@ -19,7 +19,11 @@ constexpr double kFewOffenders = 0.02;
 constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
-constexpr double kIdleShare = 0.25;
+constexpr double kIdleShare = 0.25, kLocalIdleShare = 0.5;
+// A step is that of the whole only where it would be that of more than this share of the demands anyway. It reaches so many
+// bonds beyond those who miss theirs.
+constexpr double kFewMovers = 0.25;
+constexpr int kRings = 2;
 // Farther from the demands than this, a step of Newton's is careful with growth.
 constexpr double kFarError = 1.6;
 // Newton's step is halved no further than this.
@@ -36,7 +40,7 @@ void WeightFit::move_together(std::span<const CellMeasure> cells) {
   for (std::uint32_t k = 0; k < targets_.size(); ++k) {
     if (targets_.sites(k).empty() || !(targets_.aim(k) > 0)) continue;
     const double error = targets_.total(k) - targets_.aim(k), part = targets_.total(k) / targets_.aim(k);
-    squares += error * error / targets_.aim(k);
+    if (!is_local() || is_missed(k)) squares += error * error / targets_.aim(k);
     ratio = std::min(ratio, part);
     if (part < state.least_ratio) offenders.push_back(k);
   }
@@ -121,11 +125,30 @@ void WeightFit::repair(std::span<const CellMeasure> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
 }
 
+// Where few miss their demands by more than the tolerance, the step is theirs and that of those around them; all others stay as
+// they are, bit for bit. What these come to miss by that is taken up by the next step.
+void WeightFit::choose_movers(std::span<const CellMeasure> cells) {
+  movers_.assign(targets_.size(), 0);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t k = 0; k < targets_.size(); ++k)
+    if (is_missed(k)) movers_[k] = 1, near.push_back(k);
+  const double most = kFewMovers * static_cast<double>(targets_.size());
+  std::size_t first = 0;
+  for (int ring = 0; ring < kRings && static_cast<double>(near.size()) <= most; ++ring)
+    for (const std::size_t end = near.size(); first < end; ++first)
+      for (const std::uint32_t i : targets_.sites(near[first]))
+        for (const FacetArea& facet : cells[i].facets) {
+          const std::uint32_t k = facet.kind == FacetArea::Kind::site ? targets_.owner(facet.index) : FitTargets::kNone;
+          if (k != FitTargets::kNone && !movers_[k]) movers_[k] = 1, near.push_back(k);
+        }
+  if (static_cast<double>(near.size()) > most) movers_.clear();
+}
+
 // What the linear response is asked for, per demand [m³].
 std::vector<double> WeightFit::wanted_changes() const {
   std::vector<double> demands(targets_.size(), 0), volumes(targets_.size(), 0);
   for (std::size_t k = 0; k < targets_.size(); ++k) {
-    if (targets_.sites(k).empty() || !targets_.is_active(k)) continue;
+    if (targets_.sites(k).empty() || !targets_.is_active(k) || (!movers_.empty() && !movers_[k])) continue;
     demands[k] = targets_.aim(k);
     volumes[k] = targets_.total(k);
   }
@@ -135,6 +158,7 @@ std::vector<double> WeightFit::wanted_changes() const {
 void WeightFit::step_together(std::span<const CellMeasure> cells, double residual) {
   FitState& state = report_.state;
   ++report_.iterations;
+  if (is_local()) choose_movers(cells);
   std::vector<std::uint8_t> fitted(cells.size());
   std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -159,7 +183,7 @@ void WeightFit::step_together(std::span<const CellMeasure> cells, double residua
 
 // Would this change of weight [m²] move no volume by what anybody counts?
 bool WeightFit::is_idle(std::span<const CellMeasure> cells, std::size_t i, double change) const {
-  const double enough = kIdleShare * options_.tolerance;
+  const double enough = (movers_.empty() ? kIdleShare : kLocalIdleShare) * options_.tolerance;
   if (change * cells[i].volume_by_own_weight > enough * targets_.part(i)) return false;
   for (const FacetArea& facet : cells[i].facets) {
     if (facet.kind != FacetArea::Kind::site || !is_fitted(facet.index)) continue;

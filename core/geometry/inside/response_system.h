@@ -25,11 +25,13 @@ class ResponseSystem {
  private:
   void multiply(const std::vector<double>& x, std::vector<double>& result);
 
-  std::vector<double> diagonal_;      // 0: no unknown
-  std::vector<std::uint32_t> first_;  // row i: entries first_[i] .. first_[i + 1)
-  std::vector<std::uint32_t> column_;
+  std::vector<std::uint32_t> sites_;   // of the rows, ascending: those that take part
+  std::vector<double> diagonal_;       // by row
+  std::vector<std::uint32_t> first_;   // row r: entries first_[r] .. first_[r + 1)
+  std::vector<std::uint32_t> column_;  // sites
   std::vector<double> value_;
-  std::vector<std::uint32_t> unknown_of_;
+  std::span<const std::uint32_t> unknown_of_;
+  std::vector<std::uint32_t> unknowns_;  // that have a row, ascending
 };
 
 }  // namespace bl::geometry

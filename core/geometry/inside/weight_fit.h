@@ -18,6 +18,8 @@ class WeightFit {
  public:
   /// A weight never falls below this share of the weight whose whole ball has the demanded volume.
   static constexpr double kLeastShare = 1e-4;
+  /// So many sites make a local step worthwhile.
+  static constexpr std::size_t kLeastForLocal = 100;
 
   WeightFit(const Domain& domain, std::span<const PowerSite> sites, FitTargets targets, const FitState& state,
             const FitOptions& options);
@@ -27,8 +29,13 @@ class WeightFit {
   using Cells = std::span<const CellMeasure>;
 
   bool is_fitted(std::size_t i) const { return targets_.is_fitted(i); }
-  bool moves(std::size_t i) const { return is_fitted(i) && targets_.is_active(targets_.owner(i)); }
+  bool moves(std::size_t i) const {
+    return is_fitted(i) && targets_.is_active(targets_.owner(i)) && (movers_.empty() || movers_[targets_.owner(i)]);
+  }
   double missing(Cells cells, std::size_t i) const;
+  /// Few sites are fitted together at little cost, and come out more exactly.
+  bool is_local() const { return options_.is_local && sites_.size() >= kLeastForLocal; }
+  bool is_missed(std::size_t target) const { return targets_.error(target) > options_.tolerance; }
 
   // Start and judgement.
   void recognise(std::span<const PowerSite> sites);
@@ -52,6 +59,7 @@ class WeightFit {
   void raise(std::uint32_t target, std::vector<double>& weights) const;
   void repair_offenders(std::span<const std::uint32_t> offenders);
   void repair(Cells cells);
+  void choose_movers(Cells cells);
   std::vector<double> wanted_changes() const;
   void step_together(Cells cells, double residual);
   bool is_idle(Cells cells, std::size_t i, double change) const;
@@ -62,7 +70,8 @@ class WeightFit {
   std::vector<PowerSite> sites_;
   FitTargets targets_;
   FitReport report_;
-  std::vector<double> even_;  // weights that rays have left for better ones
+  std::vector<double> even_;          // weights that rays have left for better ones
+  std::vector<std::uint8_t> movers_;  // per target: does it take part in the next step? Empty: all do
 };
 
 }  // namespace bl::geometry
