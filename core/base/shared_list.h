@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <memory>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace bl {
@@ -36,7 +38,7 @@ class SharedList {
 
   class Iterator {
    public:
-    using iterator_category = std::forward_iterator_tag;
+    using iterator_category = std::random_access_iterator_tag;
     using value_type = T;
     using difference_type = std::ptrdiff_t;
     using pointer = const T*;
@@ -51,14 +53,33 @@ class SharedList {
       return *this;
     }
     Iterator operator++(int) { return {list_, at_++}; }
-    bool operator==(const Iterator& other) const = default;
+    Iterator& operator--() {
+      --at_;
+      return *this;
+    }
+    Iterator operator--(int) { return {list_, at_--}; }
+    Iterator& operator+=(difference_type by) {
+      at_ += static_cast<std::size_t>(by);
+      return *this;
+    }
+    Iterator& operator-=(difference_type by) { return *this += -by; }
+    Iterator operator+(difference_type by) const { return Iterator(*this) += by; }
+    Iterator operator-(difference_type by) const { return Iterator(*this) -= by; }
+    friend Iterator operator+(difference_type by, const Iterator& it) { return it + by; }
+    difference_type operator-(const Iterator& other) const { return static_cast<difference_type>(at_ - other.at_); }
+    const T& operator[](difference_type by) const { return *(*this + by); }
+    bool operator==(const Iterator& other) const { return at_ == other.at_; }
+    auto operator<=>(const Iterator& other) const { return at_ <=> other.at_; }
 
    private:
     const SharedList* list_ = nullptr;
     std::size_t at_ = 0;
   };
+  using const_iterator = Iterator;
   Iterator begin() const { return {this, 0}; }
   Iterator end() const { return {this, size_}; }
+  const T& front() const { return (*this)[0]; }
+  const T& back() const { return (*this)[size_ - 1]; }
 
   class Draft;
 
@@ -166,5 +187,32 @@ class SharedList<T, Digest>::Draft {
   std::size_t size_;
   std::vector<std::unique_ptr<OpenLeaf>> open_;  ///< by leaf; nothing where no item was edited
 };
+
+/// An immutable vector that copies share as a whole.
+template <class T>
+class SharedVector {
+ public:
+  SharedVector() : items_(std::make_shared<const std::vector<T>>()) {}
+  explicit SharedVector(std::vector<T> items) : items_(std::make_shared<const std::vector<T>>(std::move(items))) {}
+  std::size_t size() const { return items_->size(); }
+  bool empty() const { return items_->empty(); }
+  const T& operator[](std::size_t i) const { return (*items_)[i]; }
+  const T* data() const { return items_->data(); }
+  auto begin() const { return items_->begin(); }
+  auto end() const { return items_->end(); }
+  const T& front() const { return items_->front(); }
+  const T& back() const { return items_->back(); }
+
+ private:
+  std::shared_ptr<const std::vector<T>> items_;
+};
+
+/// A list whose leaves hold nothing else.
+template <class T>
+using SharedItems = SharedList<T, std::monostate>;
+template <class T>
+SharedItems<T> published(typename SharedItems<T>::Draft&& draft) {
+  return std::move(draft).publish([](T&, std::size_t) {}, [](const auto&, std::size_t) { return std::monostate(); });
+}
 
 }  // namespace bl

@@ -77,23 +77,25 @@ std::optional<Amended> amend(const Plan& plan, const Scene& scene) {
       !(before.scripts == scene.scripts))
     return std::nullopt;
   std::vector<Change> changes;
-  std::uint32_t index = 0;
-  for (auto old = before.nodes.begin(), now = scene.nodes.begin(); now != scene.nodes.end(); ++old, ++now, ++index)
-    if (old->first != now->first || !find_changes(plan.nodes[index], index, old->second, now->second, changes))
-      return std::nullopt;
-  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
+  const bool are_plain = before.nodes.each_difference(scene.nodes, [&](const auto& old, const auto& now) {
+    const std::uint32_t index = plan.node_index(now.first);
+    return old.first == now.first && find_changes(plan.nodes[index], index, old.second, now.second, changes);
+  });
+  if (!are_plain) return std::nullopt;
   auto amended = std::make_shared<Plan>(plan);
+  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
+  amended->scene.nodes = scene.nodes;
   amended->scene.view = scene.view;
+  SharedItems<NodePlan>::Draft drafts(plan.nodes);
   for (const Change& change : changes) {
-    NodePlan& node = amended->nodes[change.node];
-    TypePlan& type = node.types[change.type];
-    amended->scene.nodes.at(node.id).types.at(type.definition->id) = *change.values;
+    TypePlan& type = drafts.edit(change.node).types[change.type];
     for (std::size_t p = 0; p < type.definition->ports.size(); ++p) {
       const PortDefinition& port = type.definition->ports[p];
       type.set_values[p] = set_value(scene.settings, *change.values, port);
       type.is_set[p] = is_said(*change.values, port, type.set_values[p]);
     }
   }
+  amended->nodes = published<NodePlan>(std::move(drafts));
   std::vector<std::uint32_t> nodes;
   for (const Change& change : changes)
     if (nodes.empty() || nodes.back() != change.node) nodes.push_back(change.node);

@@ -42,16 +42,21 @@ class Compiler {
   }
 
   std::shared_ptr<const Plan> run() {
-    for (const auto& [id, record] : plan_->scene.nodes) plan_->nodes.push_back(node_plan(id, record));
+    std::vector<NodePlan> nodes;
+    for (const auto& [id, record] : plan_->scene.nodes) nodes.push_back(node_plan(id, record));
+    plan_->nodes = published<NodePlan>(SharedItems<NodePlan>::Draft(std::move(nodes)));
+    std::vector<LinkPlan> links;
     for (const auto& [id, record] : plan_->scene.links) {
-      LinkPlan& link = plan_->links.emplace_back();
+      LinkPlan& link = links.emplace_back();
       link.id = id;
       fill(link, record);
     }
+    plan_->links = SharedVector<LinkPlan>(std::move(links));
+    std::vector<SetPlan> sets;
     for (std::uint32_t n = 0; n < plan_->nodes.size(); ++n)
-      for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t) add_sets(n, t);
-    for (const SetPlan& set : plan_->sets)
-      for (const PortRef& ref : set.writes) plan_->nodes[ref.node].types[ref.type].is_served = true;
+      for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t) add_sets(n, t, sets);
+    plan_->sets = SharedVector<SetPlan>(std::move(sets));
+    mark_served();
     plan_->dependents = std::make_shared<const Dependents>(dependents_of(*plan_));
     return plan_;
   }
@@ -247,11 +252,20 @@ class Compiler {
                      "` holds " + std::string(kind_text(found, port.made))};
   }
 
-  void add_sets(std::uint32_t n, std::uint32_t t) {
+  void add_sets(std::uint32_t n, std::uint32_t t, std::vector<SetPlan>& sets) {
     const TypificationDefinition& definition = *plan_->nodes[n].types[t].definition;
     if (!definition.latency.empty())
-      plan_->analyses.push_back({n, t, plan_->sets.size(), definition.sets.size(), definition.port_index(definition.latency)});
-    for (std::uint32_t s = 0; s < definition.sets.size(); ++s) plan_->sets.push_back(set_plan(n, t, s));
+      plan_->analyses.push_back({n, t, sets.size(), definition.sets.size(), definition.port_index(definition.latency)});
+    for (std::uint32_t s = 0; s < definition.sets.size(); ++s) sets.push_back(set_plan(n, t, s));
+  }
+
+  // Members of sets get their results from there.
+  void mark_served() {
+    SharedItems<NodePlan>::Draft nodes(plan_->nodes);
+    for (const SetPlan& set : plan_->sets)
+      for (const PortRef& ref : set.writes)
+        if (!nodes[ref.node].types[ref.type].is_served) nodes.edit(ref.node).types[ref.type].is_served = true;
+    plan_->nodes = published<NodePlan>(std::move(nodes));
   }
 
   SetPlan set_plan(std::uint32_t n, std::uint32_t t, std::uint32_t s) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/shared_list.h"
 #include "core/graph/dependents.h"
 #include "core/graph/plan_memo.h"
 #include "core/graph/scene.h"
@@ -65,9 +66,9 @@ struct AnalysisPlan {
 struct Plan {
   Scene scene;  ///< the compiled scene; definitions and ids refer to it, and it keeps its scripts alive
   Settings settings;
-  std::vector<NodePlan> nodes;                   ///< ascending id
-  std::vector<LinkPlan> links;                   ///< ascending id
-  std::vector<SetPlan> sets;                     ///< ascending node id, then typification, then set
+  SharedItems<NodePlan> nodes;                   ///< ascending id
+  SharedVector<LinkPlan> links;                  ///< ascending id
+  SharedVector<SetPlan> sets;                    ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;            ///< ascending node id, then typification
   std::shared_ptr<const Dependents> dependents;  ///< shared with the plans that are amended from this one
   /// Shared with the plans that are amended from this one: no index of theirs is another.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shared_map.h"
 #include "core/define/registry.h"
 #include "core/graph/scripts.h"
 
@@ -53,8 +54,8 @@ const TypeDefinition& settings_type();
 
 struct Scene {
   PortValues settings;
-  std::map<std::string, NodeRecord> nodes;
-  std::map<std::string, LinkRecord> links;
+  SharedMap<NodeRecord> nodes;
+  SharedMap<LinkRecord> links;
   Scripts scripts;   ///< link kinds that people wrote for this scene
   std::string view;  ///< JSON of the canvas layout and the cameras; the tick never reads it
   bool operator==(const Scene&) const = default;

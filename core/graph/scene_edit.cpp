@@ -26,7 +26,7 @@ Result<const LinkRecord*> SceneEdit::link(const std::string& id) const {
 
 void SceneEdit::add_node(const std::string& id, NodeRecord node) {
   note_names(id, node);
-  if (scene_->nodes.emplace(id, std::move(node)).second) touch(ScenePart::node, id);
+  if (scene_->nodes.emplace(id, std::move(node))) touch(ScenePart::node, id);
 }
 
 void SceneEdit::remove_node(const std::string& id) {
@@ -34,7 +34,7 @@ void SceneEdit::remove_node(const std::string& id) {
 }
 
 void SceneEdit::set_name(const std::string& node, const std::string& name) {
-  NodeRecord& record = scene_->nodes.at(node);
+  NodeRecord& record = scene_->nodes.edit(node);
   if (record.name == name) return;
   record.name = name;
   touch(ScenePart::node, node, "name");
@@ -42,11 +42,11 @@ void SceneEdit::set_name(const std::string& node, const std::string& name) {
 
 void SceneEdit::add_type(const std::string& node, const std::string& type, PortValues values) {
   for (const auto& [port, value] : values) note_names(node, value);
-  if (scene_->nodes.at(node).types.emplace(type, std::move(values)).second) touch(ScenePart::node, node, "types/" + type);
+  if (scene_->nodes.edit(node).types.emplace(type, std::move(values)).second) touch(ScenePart::node, node, "types/" + type);
 }
 
 void SceneEdit::remove_type(const std::string& node, const std::string& type) {
-  if (scene_->nodes.at(node).types.erase(type) > 0) touch(ScenePart::node, node, "types/" + type);
+  if (scene_->nodes.edit(node).types.erase(type) > 0) touch(ScenePart::node, node, "types/" + type);
 }
 
 bool SceneEdit::put(PortValues& values, const PortDefinition& port, const Value& value) {
@@ -60,14 +60,14 @@ bool SceneEdit::put(PortValues& values, const PortDefinition& port, const Value&
 
 void SceneEdit::set_value(const std::string& node, const std::string& type, const PortDefinition& port, const Value& value) {
   note_names(node, value);
-  PortValues& values = scene_->nodes.at(node).types.at(type);
+  PortValues& values = scene_->nodes.edit(node).types.at(type);
   const auto old = values.find(port.id);
   const Value before = old == values.end() ? port.default_value : old->second;
   if (put(values, port, value)) touch_port(node, type, port, before, value);
 }
 
 void SceneEdit::erase_value(const std::string& node, const std::string& type, const PortDefinition& port) {
-  PortValues& values = scene_->nodes.at(node).types.at(type);
+  PortValues& values = scene_->nodes.edit(node).types.at(type);
   const auto old = values.find(port.id);
   if (old == values.end()) return;
   const Value before = old->second;
@@ -87,7 +87,7 @@ void SceneEdit::touch_port(const std::string& node, const std::string& type, con
 }
 
 bool SceneEdit::set_locked(const std::string& node, const std::string& path, bool is_locked) {
-  std::set<std::string>& locked = scene_->nodes.at(node).locked;
+  std::set<std::string>& locked = scene_->nodes.edit(node).locked;
   const bool is_changed = is_locked ? locked.insert(path).second : locked.erase(path) > 0;
   if (is_changed) touch(ScenePart::node, node, "locked/" + path);
   return is_changed;
@@ -95,7 +95,7 @@ bool SceneEdit::set_locked(const std::string& node, const std::string& path, boo
 
 void SceneEdit::add_link(const std::string& id, LinkRecord link) {
   note_names(id, link);
-  if (scene_->links.emplace(id, std::move(link)).second) touch(ScenePart::link, id);
+  if (scene_->links.emplace(id, std::move(link))) touch(ScenePart::link, id);
 }
 
 void SceneEdit::remove_link(const std::string& id) {
@@ -104,7 +104,7 @@ void SceneEdit::remove_link(const std::string& id) {
 
 void SceneEdit::change_link(const std::string& id, LinkRecord link) {
   note_names(id, link);
-  LinkRecord& old = scene_->links.at(id);
+  LinkRecord& old = scene_->links.edit(id);
   if (old.kind != link.kind || old.ghost != link.ghost) {
     touch(ScenePart::link, id);
   } else {

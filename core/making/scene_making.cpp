@@ -49,17 +49,15 @@ class Maker {
   // Is there room inside the margin? The link that keeps it knows: it is asked with the site and one volume alone, and without
   // anybody who computes. Its answer comes in the second tick, when it sees the boundary.
   static Result<void> room_inside(Scene scene, const Registry& registry) {
-    const auto inside = scene.links.find(kInsideLink);
-    if (inside == scene.links.end()) return {};
-    const std::map<std::string, LinkRecord> kept{*inside};
-    scene.links = kept;
+    if (!scene.links.contains(kInsideLink)) return {};
+    scene.links = {{kInsideLink, scene.links.at(kInsideLink)}};
     bool has_volume = false;
-    std::erase_if(scene.nodes, [&has_volume](const auto& entry) {
-      if (entry.second.types.contains("boundary")) return false;
-      const bool is_dropped = has_volume || !entry.second.types.contains("smart_volume");
-      has_volume = has_volume || !is_dropped;
-      return is_dropped;
-    });
+    const SharedMap<NodeRecord> all = std::exchange(scene.nodes, {});
+    for (const auto& [id, node] : all) {
+      const bool is_volume = !has_volume && node.types.contains("smart_volume");
+      has_volume = has_volume || is_volume;
+      if (is_volume || node.types.contains("boundary")) scene.nodes.emplace(id, node);
+    }
     const auto session = Session::start(registry, scene, nullptr, 1);
     if (!session) return {};
     for (int tick = 0; tick < 2; ++tick) (*session)->tick();

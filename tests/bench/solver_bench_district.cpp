@@ -45,9 +45,9 @@ Scene grid_of(int zones, double trips) {
 // As volumes that settle do: each zone's trips swing by a fifth, out of step with its neighbours'.
 void move_trips(Scene& scene, double trips, int tick) {
   int zone = 0;
-  for (auto& [id, node] : scene.nodes)
-    if (const auto type = node.types.find("traffic_zone"); type != node.types.end())
-      type->second["trips_out"] = trips * (1 + 0.2 * std::sin(0.3 * tick + ++zone));
+  for (const auto& [id, node] : SharedMap(scene.nodes))
+    if (node.types.contains("traffic_zone"))
+      scene.nodes.edit(id).types["traffic_zone"]["trips_out"] = trips * (1 + 0.2 * std::sin(0.3 * tick + ++zone));
 }
 
 double gap_of(const State& state) {

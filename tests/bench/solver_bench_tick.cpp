@@ -24,9 +24,9 @@ Result<Scene> linked_scene(int count) {
   auto scene = random_scene(count, full_registry(), kFill);
   if (!scene) return scene.error();
   int number = 0;
-  for (auto& [id, node] : scene->nodes)
+  for (const auto& [id, node] : SharedMap(scene->nodes))
     if (node.types.contains("smart_volume") && number++ % 20 == 0)
-      node.types[std::string(kBaseNode)]["tags"] = Shared<std::vector<std::string>>({"public"});
+      scene->nodes.edit(id).types[std::string(kBaseNode)]["tags"] = Shared<std::vector<std::string>>({"public"});
   scene->nodes["sum"].types = {
       {"node", {}},
       {"statistics", {{"port", std::string("smart_volume.volume")}, {"nodes", Shared<Selection>({{}, "smart_volume", {}})}}}};
