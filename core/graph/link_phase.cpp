@@ -75,11 +75,17 @@ Voice held_voice(const Voice& voice, const LinkPlan& plan) {
 
 class LinkRun {
  public:
-  LinkRun(const State& frozen, const LinkPlan& plan) : frozen_(frozen), plan_(plan), definition_(*plan.definition) {
-    for (const LinkRead& read : definition_.reads) reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
-    for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
+  LinkRun(const State& frozen, const LinkPlan& plan) : LinkRun(frozen, plan, {}) {
     collected_.resize(plan.targets.size());
     has_failed_.resize(plan.targets.size());
+  }
+  // Of pairs that speak to some targets only: `targets` are their indices, ascending.
+  LinkRun(const State& frozen, const LinkPlan& plan, std::vector<std::uint32_t> targets)
+      : frozen_(frozen), plan_(plan), definition_(*plan.definition), targets_(std::move(targets)) {
+    for (const LinkRead& read : definition_.reads) reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
+    for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
+    collected_.resize(targets_.size());
+    has_failed_.resize(targets_.size());
   }
 
   // Every pair once; an end that is read whole takes part in one evaluation for all of its nodes. A pair that fails does not stop
@@ -92,16 +98,17 @@ class LinkRun {
       for (std::size_t t = 0; t < to_count; ++t) {
         if (is_pairwise && plan_.nodes[0][f] == plan_.nodes[1][t] && (from_count > 1 || to_count > 1)) continue;
         if (is_pairwise && plan_.is_symmetric && f > t) continue;
-        if (is_stopped_) {
-          fail(f, t);
-          continue;
-        }
-        LinkRemarks remarks;
-        Tick one = tick;
-        one.remarks = &remarks;
-        if (auto done = evaluate(f, t, one); !done) note(f, t, done.error());
-        hear(remarks);
+        run_pair(f, t, tick);
       }
+  }
+
+  void run_pair(std::size_t f, std::size_t t, const Tick& tick) {
+    if (is_stopped_) return fail(f, t);
+    LinkRemarks remarks;
+    Tick one = tick;
+    one.remarks = &remarks;
+    if (auto done = evaluate(f, t, one); !done) note(f, t, done.error());
+    hear(remarks);
   }
 
   // What the first pair that failed says, and how many others there are; nothing where all is well.
@@ -123,7 +130,7 @@ class LinkRun {
   std::vector<Voice> voices(const std::vector<Voice>& last) {
     std::vector<Voice> voices;
     for (std::size_t i = 0; i < collected_.size(); ++i) {
-      const PortRef target = plan_.targets[i];
+      const PortRef target = plan_.targets[targets_.empty() ? i : targets_[i]];
       const PortDefinition& port = frozen_.plan->port(target);
       bool is_missing = collected_[i].count == 0 && has_failed_[i];
       if (collected_[i].count > 0) {
@@ -144,6 +151,11 @@ class LinkRun {
 
  private:
   std::size_t count(End end) const { return plan_.nodes[static_cast<int>(end)].size(); }
+  // The place of a target among those that are spoken to.
+  std::size_t slot_of(std::uint32_t target) const {
+    return targets_.empty() ? target
+                            : static_cast<std::size_t>(std::lower_bound(targets_.begin(), targets_.end(), target) - targets_.begin());
+  }
 
   void note(std::size_t f, std::size_t t, const Error& error) {
     if (!first_error_) first_error_ = error;
@@ -173,7 +185,7 @@ class LinkRun {
     for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
       const LinkWrite& write = definition_.proposes[w];
       const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
-      for (std::size_t i = 0; i < writes_.values[w].size(); ++i) has_failed_[plan_.writes[w][first + i]] = true;
+      for (std::size_t i = 0; i < writes_.values[w].size(); ++i) has_failed_[slot_of(plan_.writes[w][first + i])] = true;
     }
   }
 
@@ -218,7 +230,7 @@ class LinkRun {
       for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
         if (const auto& value = writes_.values[w][i]) {
           const std::uint32_t target = plan_.writes[w][first + i];
-          collected_[target].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
+          collected_[slot_of(target)].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
         }
     }
     return {};
@@ -229,8 +241,9 @@ class LinkRun {
   const LinkDefinition& definition_;
   LinkReads reads_;
   LinkWrites writes_;
-  std::vector<Collected> collected_;  // by target
-  std::vector<bool> has_failed_;      // by target: a pair that would have spoken to it
+  std::vector<std::uint32_t> targets_;  // the only ones, by index, ascending; empty: all
+  std::vector<Collected> collected_;    // by target
+  std::vector<bool> has_failed_;        // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
   LinkRemarks remarks_;
   std::size_t failures_ = 0, remarked_ = 0;
@@ -268,18 +281,83 @@ LinkState evaluated(const State& frozen, std::size_t index) {
   return next;
 }
 
+// A link that has to be asked.
+struct DueLink {
+  std::uint32_t link = 0;
+  bool is_whole = false;             // all of its pairs
+  std::vector<std::uint32_t> nodes;  // else only those of these nodes, of which it reads something that has changed; ascending
+};
+
+// The end whose nodes each have a pair of their own, with the one node of the other end: then a pair says what it said as long
+// as its nodes stay as they are.
+std::optional<End> end_of_single_pairs(const LinkPlan& plan) {
+  const LinkDefinition& definition = *plan.definition;
+  if (definition.is_whole(End::from) || definition.is_whole(End::to)) return std::nullopt;
+  const End many = plan.nodes[0].size() == 1 ? End::to : End::from;
+  const bool is_alone = plan.nodes[many == End::to ? 0 : 1].size() == 1 && plan.nodes[static_cast<int>(many)].size() > 1;
+  const bool speaks_there = std::all_of(definition.proposes.begin(), definition.proposes.end(),
+                                        [&](const LinkWrite& write) { return write.end == many; });
+  return is_alone && speaks_there ? std::optional(many) : std::nullopt;
+}
+
+// What the link says after changes of these nodes, or nothing where all of its pairs have to be asked.
+std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& due) {
+  const LinkPlan& plan = frozen.plan->links[due.link];
+  const LinkState& last = frozen.links[due.link];
+  if (due.is_whole || plan.error || last.error || last.remark || last.work) return std::nullopt;
+  const auto many = end_of_single_pairs(plan);
+  if (!many) return std::nullopt;
+  const std::uint32_t alone = plan.nodes[*many == End::to ? 0 : 1].front();
+  const std::vector<std::uint32_t>& nodes = plan.nodes[static_cast<int>(*many)];
+  std::vector<std::size_t> pairs;
+  std::vector<std::uint32_t> targets;
+  for (const std::uint32_t node : due.nodes) {
+    if (node == alone) return std::nullopt;
+    pairs.push_back(static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()));
+    for (const auto& writes : plan.writes) targets.push_back(writes[pairs.back()]);
+  }
+  if (2 * pairs.size() > nodes.size()) return std::nullopt;
+  std::sort(targets.begin(), targets.end());
+  targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+  LinkRun run(frozen, plan, targets);
+  Memo memo;
+  const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
+  for (const std::size_t pair : pairs) run.run_pair(*many == End::to ? 0 : pair, *many == End::to ? pair : 0, tick);
+  const std::vector<Voice> fresh = run.voices(last.voices);
+  if (run.error() || run.remarks().said) return std::nullopt;
+  LinkState next;
+  for (const Voice& voice : last.voices) {
+    const auto at = std::lower_bound(plan.targets.begin(), plan.targets.end(), voice.target);
+    const auto target = static_cast<std::uint32_t>(at - plan.targets.begin());
+    if (!std::binary_search(targets.begin(), targets.end(), target)) next.voices.push_back(voice);
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(next.voices.size());
+  next.voices.insert(next.voices.end(), fresh.begin(), fresh.end());
+  std::inplace_merge(next.voices.begin(), next.voices.begin() + kept, next.voices.end(),
+                     [](const Voice& a, const Voice& b) { return a.target < b.target; });
+  return next;
+}
+
 // Those that read what has changed, that read the time, or that have to be asked again.
-std::vector<std::uint32_t> due_links(const State& frozen) {
+std::vector<DueLink> due_links(const State& frozen) {
   const Dependents& dependents = *frozen.plan->dependents;
-  std::vector<bool> is_due(frozen.links.size(), frozen.due.is_everything);
-  for (const PortRef& ref : frozen.due.changed)
-    for (const std::uint32_t link : dependents.links_reading[dependents.port_index(ref)]) is_due[link] = true;
+  std::vector<bool> is_whole(frozen.links.size(), frozen.due.is_everything);
   for (const auto* more : {&frozen.due.links, &dependents.timed_links})
-    for (const std::uint32_t link : *more) is_due[link] = true;
-  std::vector<std::uint32_t> links;
-  for (std::uint32_t l = 0; l < is_due.size(); ++l)
-    if (is_due[l]) links.push_back(l);
-  return links;
+    for (const std::uint32_t link : *more) is_whole[link] = true;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> changes;  // link and node
+  for (const PortRef& ref : frozen.due.changed)
+    for (const std::uint32_t link : dependents.links_reading[dependents.port_index(ref)])
+      if (!is_whole[link]) changes.emplace_back(link, ref.node);
+  std::sort(changes.begin(), changes.end());
+  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
+  std::vector<DueLink> due;
+  auto change = changes.begin();
+  for (std::uint32_t l = 0; l < is_whole.size(); ++l) {
+    if (!is_whole[l] && (change == changes.end() || change->first != l)) continue;
+    DueLink& one = due.emplace_back(DueLink{l, is_whole[l], {}});
+    for (; change != changes.end() && change->first == l; ++change) one.nodes.push_back(change->second);
+  }
+  return due;
 }
 
 // The nodes to which one of two lists of voices, both in ascending order of targets, says something else than the other.
@@ -297,17 +375,20 @@ void add_differences(const std::vector<Voice>& before, const std::vector<Voice>&
 }  // namespace
 
 void evaluate_links(TickWork& work, ThreadPool& pool) {
-  const std::vector<std::uint32_t> due = due_links(work.frozen);
+  const std::vector<DueLink> due = due_links(work.frozen);
   std::vector<LinkState> fresh(due.size());
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) fresh[i] = evaluated(work.frozen, due[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      auto in_part = evaluated_in_part(work.frozen, due[i]);
+      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link);
+    }
   });
   work.counts.links += due.size();
   for (std::size_t i = 0; i < due.size(); ++i) {
-    const LinkState& before = work.frozen.links[due[i]];
+    const LinkState& before = work.frozen.links[due[i].link];
     if (before.says_the_same(fresh[i])) continue;
     add_differences(before.voices, fresh[i].voices, work.spoken_to);
-    work.next.links.put(due[i], std::move(fresh[i]));
+    work.next.links.put(due[i].link, std::move(fresh[i]));
   }
   std::sort(work.spoken_to.begin(), work.spoken_to.end());
   work.spoken_to.erase(std::unique(work.spoken_to.begin(), work.spoken_to.end()), work.spoken_to.end());

@@ -55,7 +55,7 @@ class SceneDice {
 
   void add_type(const std::string& id, const std::string& type_id) {
     const TypificationDefinition& type = *full_registry().typification(type_id);
-    NodeRecord& node = scene_.nodes.at(id);
+    NodeRecord& node = scene_.nodes.edit(id);
     if (!node.types.contains(type.id)) node.types[type.id] = values_of(type, happens(0.5) ? 0.4 : 0.05);
     for (const PortDefinition& port : type.ports)
       if (!port.is_computed && port.of_scene == OfScene::no && happens(0.03)) node.locked.insert(type.id + "." + port.id);
@@ -103,7 +103,7 @@ class SceneDice {
   void add_plan() {
     add_node("site", "boundary");
     add_node("solver", "smart_volumes_solver");
-    scene_.nodes.at("solver").types.at("smart_volumes_solver").erase("members");
+    scene_.nodes.edit("solver").types.at("smart_volumes_solver").erase("members");
     for (std::uint64_t v = 1 + random_.below(4); v > 0; --v) add_node("v" + std::to_string(v), "smart_volume");
   }
 
@@ -111,7 +111,7 @@ class SceneDice {
     const std::string id = "wrong" + std::to_string(number);
     const auto put = [&](const char* type, const char* port, Value value) {
       add_node(id, type);
-      scene_.nodes.at(id).types.at(type)[port] = std::move(value);
+      scene_.nodes.edit(id).types.at(type)[port] = std::move(value);
     };
     switch (random_.below(6)) {
       case 0: return put("expression", "formula", std::string("a +"));
@@ -119,7 +119,7 @@ class SceneDice {
       case 2: return put("plot", "volumes", Shared<Selection>(Selection{{any_node()}, "", ""}));
       case 3:
         put("boundary", "plan", Shared(std::vector<Point3>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}));
-        scene_.nodes.at(id).types.at("boundary")["form"] = std::string("plan");
+        scene_.nodes.edit(id).types.at("boundary")["form"] = std::string("plan");
         return;
       case 4: return put("statistics", "nodes", Shared<Selection>(Selection{{any_node()}, "", ""}));
       default: return put("plot", "polygon", Shared(std::vector<Point3>{{0, 0, 0}, {30, 30, 0}, {30, 0, 0}, {0, 30, 0}}));
@@ -175,15 +175,15 @@ bool take_out(Scene& scene, const std::string& place) {
   if (first == std::string::npos) return false;
   const std::string id = place.substr(first + 1, second - first - 1);
   if (place.starts_with("links/")) return scene.links.erase(id) > 0;
-  const auto node = scene.nodes.find(id);
-  if (node == scene.nodes.end()) return false;
-  node->second.locked.clear();
-  for (auto& [type, values] : node->second.types)
+  if (!scene.nodes.contains(id)) return false;
+  NodeRecord& node = scene.nodes.edit(id);
+  node.locked.clear();
+  for (auto& [type, values] : node.types)
     if (type != kBaseNode && place.find("/" + type) != std::string::npos && !values.empty()) {
       values.clear();
       return true;
     }
-  return std::erase_if(node->second.types, [](const auto& type) { return type.first != kBaseNode; }) > 0;
+  return std::erase_if(node.types, [](const auto& type) { return type.first != kBaseNode; }) > 0;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void expect_same(const Plan& a, const Plan& b, const std::string& where) {
 // What a scene holds of the value, as commands leave it: nothing where it is the default.
 void put(Scene& scene, const std::string& node, const TypificationDefinition& type, const PortDefinition& port,
          const Value& value) {
-  PortValues& values = scene.nodes.at(node).types.at(type.id);
+  PortValues& values = scene.nodes.edit(node).types.at(type.id);
   if (value == port.default_value) values.erase(port.id);
   else values[port.id] = value;
 }
@@ -99,7 +99,7 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   const Plan& plan = *world.state().plan;
   const auto with = [&](const std::string& node, const std::string& type, const std::string& port, const Value& value) {
     Scene scene = plan.scene;
-    scene.nodes.at(node).types.at(type)[port] = value;
+    scene.nodes.edit(node).types.at(type)[port] = value;
     return amend(plan, scene).has_value();
   };
   EXPECT_TRUE(with("a", "sensor", "reading", 4.5));
@@ -109,8 +109,8 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   EXPECT_FALSE(with("a", "node", "tags", Shared<std::vector<std::string>>({"wet"})));
   Scene more = plan.scene, renamed = plan.scene, locked = plan.scene, settings = plan.scene;
   more.nodes["c"].types["node"];
-  renamed.nodes.at("a").name = "Gauge";
-  locked.nodes.at("b").locked.insert("control.value");
+  renamed.nodes.edit("a").name = "Gauge";
+  locked.nodes.edit("b").locked.insert("control.value");
   settings.settings["calm_ticks"] = std::int64_t{9};
   for (const Scene& scene : {more, renamed, locked, settings}) EXPECT_FALSE(amend(plan, scene).has_value());
   EXPECT_TRUE(amend(plan, plan.scene).has_value());

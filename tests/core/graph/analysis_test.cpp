@@ -173,7 +173,7 @@ TEST(Analysis, AFailureIsShownAndTheLastResultKept) {
   Course run;
   run.ticks(8);
   Scene failing = scene();
-  failing.nodes.at("survey").types["survey"]["fails"] = true;
+  failing.nodes.edit("survey").types["survey"]["fails"] = true;
   run.simulation.set_scene(failing);
   run.ticks(3);  // the one that was running ends well
   const double before = run.number("survey", "survey.enclosed");
@@ -189,7 +189,7 @@ TEST(Analysis, AFailureIsShownAndTheLastResultKept) {
 TEST(Analysis, ASceneSettlesOnlyWhenItsAnalysesHaveSeenIt) {
   Scene slow = scene();
   slow.links.clear();
-  slow.nodes.at("survey").types["survey"]["latency"] = std::int64_t{40};
+  slow.nodes.edit("survey").types["survey"]["latency"] = std::int64_t{40};
   Course run(slow);
   int settled_at = 0;
   for (int k = 1; k < 200 && settled_at == 0; ++k)
@@ -202,7 +202,7 @@ TEST(Analysis, ASceneSettlesOnlyWhenItsAnalysesHaveSeenIt) {
 
 TEST(Analysis, LatencyZeroIsWithinTheTick) {
   Scene quick = scene();
-  quick.nodes.at("survey").types["survey"]["latency"] = std::int64_t{0};
+  quick.nodes.edit("survey").types["survey"]["latency"] = std::int64_t{0};
   Course run(quick);
   run.ticks(4);
   EXPECT_EQ(run.number("survey", "survey.tick"), 4);

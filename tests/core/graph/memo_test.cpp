@@ -63,7 +63,7 @@ class Memos : public testing::Test {
 
 TEST_F(Memos, StayWhileTheNodeDoes) {
   const auto before = g_kept.lock();
-  scene_.nodes.at("b").name = "B";
+  scene_.nodes.edit("b").name = "B";
   simulation_->set_scene(scene_);
   simulation_->step();
   EXPECT_EQ(g_kept.lock(), before);
@@ -76,7 +76,7 @@ TEST_F(Memos, GoWithTheNode) {
 }
 
 TEST_F(Memos, GoWithTheRole) {
-  scene_.nodes.at("h").types.erase("hoarder");
+  scene_.nodes.edit("h").types.erase("hoarder");
   simulation_->set_scene(scene_);
   EXPECT_TRUE(g_kept.expired());
 }
