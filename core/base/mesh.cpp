@@ -64,6 +64,8 @@ bool MeshPointer::has_depth(int depth) const {
 
 bool MeshPointer::is_made() const { return lazy_ == nullptr || lazy_->is_made.load(std::memory_order_acquire); }
 
+bool MeshPointer::is_coarse_made() const { return lazy_ == nullptr || lazy_->has_coarse.load(std::memory_order_acquire); }
+
 double enclosed_volume(const Mesh& mesh) {
   if (mesh.vertices.empty()) return 0;
   // Relative to a vertex of the mesh: far from the origin the determinants would cancel.

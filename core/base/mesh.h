@@ -78,8 +78,9 @@ class MeshPointer {
   bool has_depth(int depth) const;
   /// Will somebody else make it, or has done so? Such a mesh has no zeros with signs.
   bool has_recipe() const { return lazy_ != nullptr; }
-  /// Is it there already, so that looking makes nothing?
+  /// Is it there already, or its coarse mesh, so that looking makes nothing?
   bool is_made() const;
+  bool is_coarse_made() const;
 
   bool operator==(const MeshPointer&) const = default;
 
