@@ -65,6 +65,15 @@ class MeshPointer {
   MeshPointer(std::shared_ptr<const Mesh> made) : mesh_(std::move(made)) {}  // NOLINT
   MeshPointer(const std::shared_ptr<Mesh>& made) : mesh_(made) {}            // NOLINT
   explicit MeshPointer(std::unique_ptr<MeshRecipe> recipe);
+  MeshPointer(const MeshPointer&) = default;
+  MeshPointer& operator=(const MeshPointer&) = default;
+  MeshPointer(MeshPointer&& other) noexcept : mesh_(std::move(other.mesh_)), lazy_(std::exchange(other.lazy_, nullptr)) {}
+  MeshPointer& operator=(MeshPointer&& other) noexcept {
+    mesh_ = std::move(other.mesh_);
+    lazy_ = std::exchange(other.lazy_, nullptr);
+    return *this;
+  }
+  ~MeshPointer() = default;
 
   explicit operator bool() const { return mesh_ != nullptr; }
   const Mesh& operator*() const {

@@ -266,7 +266,8 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
 
 bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
 
-// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either.
+// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either. Recipes see
+// to that, and nothing is made for it.
 void keep_shapes(StateDraft& next, const SetGroup& group) {
   for (const SetPlan& plan : sets_of(*next.state.plan, group))
     for (const PortRef& ref : plan.writes) {

@@ -109,6 +109,18 @@ TEST(MeshPointer, AMeshThatIsThereIsEqualToItself) {
   EXPECT_FALSE(none.has_depth(0) || none == mesh);
 }
 
+TEST(MeshPointer, WhatWasTakenFromSomewhereIsThereNoLonger) {
+  Counts counts;
+  MeshPointer mesh = counted(counts), taken = std::move(mesh);
+  EXPECT_TRUE(mesh == nullptr && mesh.coarse() == nullptr && !mesh.has_recipe());  // NOLINT: looked at on purpose
+  EXPECT_TRUE(taken && taken.has_recipe());
+  mesh = std::move(taken);
+  EXPECT_TRUE(taken == nullptr && taken.coarse() == nullptr && !taken.has_recipe());  // NOLINT
+  EXPECT_EQ(mesh->triangles.size(), 4u);
+  mesh = nullptr;
+  EXPECT_EQ(mesh, MeshPointer());
+}
+
 TEST(MeshPointer, WhoeverLooksAfterAFailureTriesAgain) {
   Counts counts;
   const MeshPointer mesh = counted(counts, 2);
