@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/base/vector.h"
@@ -41,12 +43,70 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 };
 
-/// Meshes are shared between snapshots and never changed after they were made.
-using MeshPointer = std::shared_ptr<const Mesh>;
+/// How a mesh comes about that nobody has looked at yet. It holds all that it needs: what it makes depends on nothing else.
+class MeshRecipe {
+ public:
+  virtual ~MeshRecipe() = default;
+  /// The coarse mesh; nullptr where the mesh has none. Once it has succeeded it is not called again.
+  virtual std::shared_ptr<const Mesh> make_coarse() = 0;
+  /// The mesh but for its `coarse`; afterwards. No coordinate of it is a zero with a sign.
+  virtual Mesh make() = 0;
+  /// How often each triangle of the coarse mesh is split in four.
+  virtual int depth() const = 0;
+};
+
+/// A mesh that snapshots share and that never changes, or none. It may be made by the first who looks, for all copies at once:
+/// one that nobody looks at costs next to nothing. Copying, comparing and asking whether there is one make nothing. Only the very
+/// same mesh is equal. Where making it throws (memory has run out), so does looking; whoever looks again tries again.
+class MeshPointer {
+ public:
+  MeshPointer() = default;
+  MeshPointer(std::nullptr_t) {}                                             // NOLINT: implicit on purpose
+  MeshPointer(std::shared_ptr<const Mesh> made) : mesh_(std::move(made)) {}  // NOLINT
+  MeshPointer(const std::shared_ptr<Mesh>& made) : mesh_(made) {}            // NOLINT
+  explicit MeshPointer(std::unique_ptr<MeshRecipe> recipe);
+  MeshPointer(const MeshPointer&) = default;
+  MeshPointer& operator=(const MeshPointer&) = default;
+  MeshPointer(MeshPointer&& other) noexcept : mesh_(std::move(other.mesh_)), lazy_(std::exchange(other.lazy_, nullptr)) {}
+  MeshPointer& operator=(MeshPointer&& other) noexcept {
+    mesh_ = std::move(other.mesh_);
+    lazy_ = std::exchange(other.lazy_, nullptr);
+    return *this;
+  }
+  ~MeshPointer() = default;
+
+  explicit operator bool() const { return mesh_ != nullptr; }
+  const Mesh& operator*() const {
+    look();
+    return *mesh_;
+  }
+  const Mesh* operator->() const { return &**this; }
+  /// The coarse mesh alone, as `(*this)->coarse` is: the rest is not made for it. nullptr where there is none.
+  const std::shared_ptr<const Mesh>& coarse() const;
+  /// Is it its coarse mesh with each triangle split in four so many times?
+  bool has_depth(int depth) const;
+  /// Will somebody else make it, or has done so? Such a mesh has no zeros with signs.
+  bool has_recipe() const { return lazy_ != nullptr; }
+  /// Is it there already, or its coarse mesh, so that looking makes nothing?
+  bool is_made() const;
+  bool is_coarse_made() const;
+
+  bool operator==(const MeshPointer&) const = default;
+
+ private:
+  struct Lazy;
+  void look() const {
+    if (lazy_ != nullptr) make();
+  }
+  void make() const;
+
+  std::shared_ptr<const Mesh> mesh_;  // of a lazy one: the place where it is made, which `lazy_` is a part of
+  Lazy* lazy_ = nullptr;
+};
 
 /// The coarse mesh of the whole cell, where `mesh` brings it along; else `mesh` itself.
-inline const Mesh& whole_cell(const Mesh& mesh) {
-  const Mesh& coarse = mesh.coarse && mesh.coarse->wrap ? *mesh.coarse : mesh;
+inline const Mesh& whole_cell(const MeshPointer& mesh) {
+  const Mesh& coarse = mesh.coarse() && mesh.coarse()->wrap ? *mesh.coarse() : *mesh;
   return coarse.whole ? *coarse.whole : coarse;
 }
 

@@ -115,7 +115,7 @@ double area_of(const std::vector<Pixel>& ring) {
 // The corners of each piece of the cell: the fine triangles come in the order of the coarse ones.
 std::vector<std::vector<Point3>> pieces_of(const DrawnVolume& volume) {
   std::vector<std::vector<Point3>> pieces;
-  const MeshPointer& coarse = volume.row->mesh->coarse;
+  const std::shared_ptr<const Mesh>& coarse = volume.row->mesh.coarse();
   if (!coarse || !coarse->wrap || volume.fine == volume.row->mesh) {
     for (const Mesh& body : geometry::bodies_of(*volume.fine)) pieces.push_back(body.vertices);
     return pieces;

@@ -14,10 +14,10 @@ double size_of(const Mesh& mesh) {
 }
 
 FacadeSurvey survey_of(const SurveyCase& one) {
-  const Mesh& mesh = whole_cell(*one.mesh);
+  const Mesh& mesh = whole_cell(one.mesh);
   std::vector<ShapeFace> faces = faces_of(mesh);
   const double size = size_of(mesh);
-  for (const MeshPointer& neighbour : one.neighbours) mark_shared(faces, faces_of(whole_cell(*neighbour)), size);
+  for (const MeshPointer& neighbour : one.neighbours) mark_shared(faces, faces_of(whole_cell(neighbour)), size);
   return survey_facade(mesh, faces, one.options);
 }
 

@@ -29,7 +29,7 @@ Json mesh_to_json(const Mesh& mesh) {
   return json;
 }
 
-std::shared_ptr<const Mesh> mesh_from_json(const Json& json) {
+MeshPointer mesh_from_json(const Json& json) {
   if (!json.is_object() || !json.contains("vertices") || !json.contains("triangles")) return nullptr;
   const Json &vertices = json["vertices"], &triangles = json["triangles"];
   if (!vertices.is_array() || !triangles.is_array()) return nullptr;

@@ -9,6 +9,6 @@ namespace bl {
 /// Vertices and triangles; the wrap of a coarse mesh is left out.
 Json mesh_to_json(const Mesh& mesh);
 /// Null where the JSON is no mesh: another form, numbers that are not finite, or indices of missing vertices.
-std::shared_ptr<const Mesh> mesh_from_json(const Json& json);
+MeshPointer mesh_from_json(const Json& json);
 
 }  // namespace bl

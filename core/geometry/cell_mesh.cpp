@@ -132,10 +132,9 @@ Mesh make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMe
 }
 
 MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth) {
-  if (!mesh || !mesh->coarse || !mesh->coarse->wrap) return mesh;
-  const Mesh& coarse = *mesh->coarse;
+  if (!mesh.coarse() || !mesh.coarse()->wrap || mesh.has_depth(depth)) return mesh;
+  const Mesh& coarse = *mesh.coarse();
   const MeshWrap& wrap = *coarse.wrap;
-  if (mesh->triangles.size() == coarse.triangles.size() << (2 * depth)) return mesh;
   Mesh whole;
   std::vector<std::uint32_t> border, own;
   std::size_t at = 0;

@@ -70,7 +70,7 @@ struct CellMeasure {
   /// The power cell inside the domain, not shrunk, relative to the site: one polyhedron per piece of the domain that it reaches
   /// into. Null where not asked for.
   std::shared_ptr<const std::vector<Polyhedron>> outlines;
-  MeshPointer mesh;  ///< tessellated and shrink-wrapped; null where not requested or where the shape is empty
+  MeshPointer mesh;  ///< tessellated and shrink-wrapped by who looks; null where not requested or where the shape is empty
 };
 
 struct CellOptions {

@@ -278,12 +278,13 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
 
 bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
 
-// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either.
+// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either. Recipes see
+// to that, and nothing is made for it.
 void keep_shapes(StateDraft& next, const SetGroup& group) {
   for (const SetPlan& plan : sets_of(*next.state.plan, group))
     for (const PortRef& ref : plan.writes) {
       const auto* mesh = std::get_if<MeshPointer>(&next.value(ref));
-      if (mesh == nullptr || !*mesh) continue;
+      if (mesh == nullptr || !*mesh || mesh->has_recipe()) continue;
       const bool is_plain = std::none_of((*mesh)->vertices.begin(), (*mesh)->vertices.end(), [](const Point3& p) {
         return is_negative_zero(p.x) || is_negative_zero(p.y) || is_negative_zero(p.z);
       });

@@ -43,8 +43,9 @@ struct Row {
   std::optional<double> yardstick, voropp;
 };
 
-// One evaluation of the diagram taken apart: triangulation, cells on top of it, and the rest (floor areas, meshes) on top of
-// that. The solver's own time is dealt out in these shares; it makes several evaluations in a tick, of which one has the rest.
+// One evaluation of the diagram taken apart: triangulation, cells on top of it, and the rest (floor areas, what meshes are made
+// from) on top of that. The solver's own time is dealt out in these shares; it makes several evaluations in a tick, of which one
+// has the rest.
 void take_apart(const State& state, int repeat, Row& row) {
   const std::vector<geometry::PowerSite> sites = sites_of(state);
   const auto domain = domain_of(state);

@@ -11,7 +11,7 @@
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
-#include "core/geometry/inside/cell_trim.h"
+#include "core/geometry/inside/cell_recipe.h"
 #include "core/geometry/inside/coincidence.h"
 #include "core/geometry/inside/none.h"
 #include "core/geometry/inside/plan_cover.h"
@@ -86,6 +86,10 @@ void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> 
   out.footprint = plan_cover(parts, shapes, site.weight);
 }
 
+std::shared_ptr<const std::vector<Polyhedron>> polyhedra_of(std::span<const Polyhedron> parts) {
+  return std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
+}
+
 void measure_parts(const CellInput& ground, std::uint32_t index, const CellOptions& options, CellBench& bench, CellMeasure& out) {
   const PowerSite& site = ground.sites[index];
   const auto parts = bench.maker.parts();
@@ -116,21 +120,9 @@ void measure_parts(const CellInput& ground, std::uint32_t index, const CellOptio
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
   if (options.tessellation_depth < 0) return;
-  const auto trimmed = trimmed_parts(parts, bench.shapes, site, centroid);
-  const std::span<const Polyhedron> near = trimmed ? std::span<const Polyhedron>(*trimmed) : parts;
-  std::vector<OpenPart> open;
-  if (near.size() > 1) open = open_parts(near, bench.shapes, site.weight);
-  Mesh mesh = make_mesh(near, bench.shapes, open, site, options.tessellation_depth, centroid);
-  if (options.with_coarse_mesh && options.with_shape) {
-    auto coarse = make_coarse_mesh(near, bench.shapes, open, site, centroid);
-    // Façades are measured on whole faces, which two neighbours have in common.
-    if (trimmed) {
-      if (parts.size() > 1) open = open_parts(parts, bench.shapes, site.weight);
-      coarse.whole = std::make_shared<const Mesh>(make_coarse_mesh(parts, bench.shapes, open, site, centroid));
-    }
-    mesh.coarse = std::make_shared<const Mesh>(std::move(coarse));
-  }
-  out.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  // Most meshes are never looked at.
+  auto kept = out.outlines ? out.outlines : polyhedra_of(parts);
+  out.mesh = MeshPointer(std::make_unique<CellRecipe>(std::move(kept), bench.shapes, site, centroid, options));
 }
 
 // Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of
@@ -247,11 +239,8 @@ void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, Cell
   const std::uint32_t twin = twin_[site];
   if (twin == kNone) {
     bench.maker.make(ground_, site, options.with_shape);
+    if (options.with_outlines && options.with_shape) out.outlines = polyhedra_of(bench.maker.parts());
     measure_parts(ground_, site, options, bench, out);
-    if (options.with_outlines && options.with_shape) {
-      const auto parts = bench.maker.parts();
-      out.outlines = std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
-    }
   }
   std::string emptiness;
   if (twin == kNone && !(out.volume > 0)) {

@@ -65,7 +65,7 @@ TEST(Orientations, ACompassTellsTheSameQuickly) {
 TEST(FacadeSurvey, OfABoxByHand) {
   // One volume that fills 20 x 10 x 9 m: three storeys.
   const auto cells = cells_of(box(20, 10, 9), {{{10, 5, 4}, 1e4}});
-  const Mesh& mesh = whole_cell(*cells[0].mesh);
+  const Mesh& mesh = whole_cell(cells[0].mesh);
   const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), every(3, 1, 2.5));
   EXPECT_NEAR(survey.facade, 2 * (20 + 10) * 9, 1e-9);
   EXPECT_NEAR(survey.roof, 200, 1e-9);
@@ -84,7 +84,7 @@ TEST(FacadeSurvey, OfABoxByHand) {
 
 TEST(FacadeSurvey, WhatStandsInTheGroundIsNoFacade) {
   const auto cells = cells_of(box(20, 10, 9), {{{10, 5, 4}, 1e4}});
-  const Mesh& mesh = whole_cell(*cells[0].mesh);
+  const Mesh& mesh = whole_cell(cells[0].mesh);
   SurveyOptions options = every(3, 1, 2.5);
   options.ground = 4;
   const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), options);
@@ -98,7 +98,7 @@ TEST(FacadeSurvey, WhatStandsInTheGroundIsNoFacade) {
 
 TEST(FacadeSurvey, OfABallInTheAir) {
   const auto cells = cells_of(box(100, 100, 100), {{{50, 50, 50}, 100}});
-  const Mesh& mesh = whole_cell(*cells[0].mesh);
+  const Mesh& mesh = whole_cell(cells[0].mesh);
   SurveyOptions options = every(4, 1, 3);
   options.spherical_area = cells[0].spherical_area;
   const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), options);
@@ -112,7 +112,7 @@ TEST(FacadeSurvey, OfABallInTheAir) {
 TEST(FacadeSurvey, ACutBallHasExactFlatFaces) {
   // The side x = 0 cuts the ball of radius 10 in 6 m distance: a disc of radius 8.
   const auto cells = cells_of(box(100, 100, 100), {{{6, 50, 50}, 100}});
-  const Mesh& mesh = whole_cell(*cells[0].mesh);
+  const Mesh& mesh = whole_cell(cells[0].mesh);
   SurveyOptions options = every(4, 1, 3);
   options.spherical_area = 0;
   const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), options);
@@ -125,7 +125,7 @@ void expect_all_surface(const geometry::Domain& domain, const std::vector<geomet
   const auto cells = cells_of(domain, sites);
   std::vector<std::vector<ShapeFace>> faces;
   for (const geometry::CellMeasure& cell : cells)
-    faces.push_back(cell.mesh ? faces_of(whole_cell(*cell.mesh)) : std::vector<ShapeFace>());
+    faces.push_back(cell.mesh ? faces_of(whole_cell(cell.mesh)) : std::vector<ShapeFace>());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!cells[i].mesh) continue;
     double shared = 0;
@@ -136,9 +136,9 @@ void expect_all_surface(const geometry::Domain& domain, const std::vector<geomet
     }
     SurveyOptions options = every(3.3, 0.9, 2.7);
     options.base = cells[i].bottom;
-    const double measured = survey_facade(whole_cell(*cells[i].mesh), faces[i], options).facade;
+    const double measured = survey_facade(whole_cell(cells[i].mesh), faces[i], options).facade;
     options.spherical_area = cells[i].spherical_area;
-    const FacadeSurvey survey = survey_facade(whole_cell(*cells[i].mesh), faces[i], options);
+    const FacadeSurvey survey = survey_facade(whole_cell(cells[i].mesh), faces[i], options);
     const double sum = survey.facade + survey.roof + survey.underside + survey.shared + survey.ground;
     EXPECT_NEAR(sum, cells[i].surface_area, 1e-7 * cells[i].surface_area) << i;
     EXPECT_NEAR(survey.shared, shared, 1e-7 * cells[i].surface_area) << i;

@@ -76,6 +76,7 @@ TEST(Changes, MeshesAreComparedByIdentity) {
   ASSERT_FALSE(volumes.empty());
   const PortRef mesh = *reading::port_of<&reading::VolumeFigures::mesh>(*before->plan, volumes.front().node);
   ASSERT_NE(volumes.front().figures.mesh, nullptr);
+  EXPECT_TRUE(changes_between(*before, StateDraft(*before).publish()).is_empty());
   draft.edit(mesh) = std::make_shared<const Mesh>(*volumes.front().figures.mesh);
   EXPECT_EQ(changes_between(*before, std::move(draft).publish()).ports, std::vector<PortRef>{mesh});
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <set>
 
 #include "core/geometry/mesh_lines.h"
@@ -36,6 +37,11 @@ void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
   }
 }
 
+// The first who looks has it made. Where memory does not suffice for that, the volume is drawn as one without a shape is.
+std::shared_ptr<const Mesh> coarse_of(const MeshPointer& mesh) try { return mesh.coarse(); } catch (const std::exception&) {
+  return nullptr;
+}
+
 VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account) {
   const std::uint32_t node = account.node;
   VolumeFacts facts;
@@ -45,7 +51,7 @@ VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account) {
   facts.name = state.plan->nodes[node].name;
   facts.figures = std::move(account.figures);
   read_facade(state, node, facts);
-  if (facts.figures.mesh) facts.cell = facts.figures.mesh->coarse;
+  facts.cell = coarse_of(facts.figures.mesh);
   const bool is_usable =
       facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;

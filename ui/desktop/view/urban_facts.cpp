@@ -181,7 +181,7 @@ void add_caster(const State& state, std::uint32_t node, UrbanFacts& urban) {
   const double ground = reading::read<&reading::SunStudyFigures::ground>(state, study);
   for (const MeshPointer& mesh :
        {reading::read<&reading::VolumeFigures::mesh>(state, node), reading::read<&reading::BuildingFigures::mesh>(state, node)})
-    if (mesh && !mesh->triangles.empty()) urban.casters.push_back({node, state.plan->nodes[node].id, mesh, ground});
+    if (mesh) urban.casters.push_back({node, state.plan->nodes[node].id, mesh, ground});
 }
 
 std::int64_t age_of_sun(const State& state) {
