@@ -22,23 +22,24 @@ void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
   for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit.weights[i];
 }
 
-// How a site's number in a list of the fit's state reads; a list that is empty says nothing.
-double entry(const std::vector<double>& list, std::size_t i) { return list.empty() ? 0 : list[i]; }
+// Marks the sites whose number in a list of the fit's state has changed; a list that is empty says nothing.
+void mark_changes(const std::vector<double>& before, const std::vector<double>& after, std::vector<std::uint8_t>& differs) {
+  if (before.empty() && after.empty()) return;
+  for (std::size_t i = 0; i < differs.size(); ++i)
+    if ((before.empty() ? 0 : before[i]) != (after.empty() ? 0 : after[i])) differs[i] = 1;
+}
 
 // `made`: the sites whose cells were made.
-void find_differing(const FitState& before, std::span<const std::uint32_t> made, std::vector<Stance>&& stances,
-                    VolumeTick::Cache& kept, VolumeTick::Outcome& outcome) {
-  const std::size_t count = stances.size();
-  std::vector<std::uint8_t> differs(count, kept.stances.size() != count);
+void find_differing(const FitState& before, std::span<const std::uint32_t> made, const StanceFinder& stances,
+                    VolumeTick::Outcome& outcome) {
+  outcome.stances = stances.stances();
+  std::vector<std::uint8_t> differs(outcome.stances.size(), 0);
   for (const std::uint32_t i : made) differs[i] = 1;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!differs[i])
-      differs[i] = !(stances[i] == kept.stances[i]) || entry(before.previous_move, i) != entry(outcome.state.previous_move, i) ||
-                   entry(before.direction, i) != entry(outcome.state.direction, i);
-    if (differs[i]) outcome.differing.push_back(static_cast<std::uint32_t>(i));
-  }
-  kept.stances = std::move(stances);
-  outcome.stances = kept.stances;
+  for (const std::uint32_t i : stances.differing()) differs[i] = 1;
+  mark_changes(before.previous_move, outcome.state.previous_move, differs);
+  mark_changes(before.direction, outcome.state.direction, differs);
+  for (std::uint32_t i = 0; i < differs.size(); ++i)
+    if (differs[i]) outcome.differing.push_back(i);
 }
 
 }  // namespace
@@ -73,7 +74,8 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
       {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});
   if (!cells) return cells.error();
   Outcome outcome{std::move(fit.state), std::move(fit.losses), "", *cells, {}, {}};
-  find_differing(state, kept.shown.made(), stances_of(domain, sites, *cells, standing), kept, outcome);
+  kept.stances.update(domain, sites, *cells, standing, kept.shown.made());
+  find_differing(state, kept.shown.made(), kept.stances, outcome);
   return outcome;
 }
 
@@ -93,7 +95,10 @@ Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::v
       std::move(fit->report.state), std::move(fit->report.losses), std::move(fit->resolution), kept.sampled.cells, {}, {}};
   std::vector<std::uint32_t> all(sites.size());
   std::iota(all.begin(), all.end(), 0u);
-  find_differing(state, all, stances_of(domain, sites, kept.sampled.cells, standing), kept, outcome);
+  kept.stances.update(domain, sites, kept.sampled.cells, standing, all);
+  // Stances and the exact cells, which are made anew in the next exact tick, no longer belong together.
+  kept.shown = PowerDiagram();
+  find_differing(state, all, kept.stances, outcome);
   return outcome;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/inside/sampled_fit.h"
+#include "core/geometry/inside/stance_finder.h"
 #include "core/geometry/standing.h"
 
 namespace bl::geometry {
@@ -29,7 +30,7 @@ struct VolumeTick {
     PowerDiagram fitted, shown;
     SampledDiagram lines;
     SampledCells sampled;
-    std::vector<Stance> stances;
+    StanceFinder stances;
   };
 
   struct Outcome {

@@ -14,6 +14,8 @@ namespace {
 struct Balls {
   std::vector<Point3> centres;
   std::vector<double> radii;
+
+  PlanBuckets buckets(double side) const { return {{-side, -side, 0}, {side, side, 0}, centres, radii}; }
 };
 
 Balls random_balls(std::uint64_t seed, std::size_t count, double side) {
@@ -26,20 +28,42 @@ Balls random_balls(std::uint64_t seed, std::size_t count, double side) {
   return balls;
 }
 
+// Each ball near one of the first is seen, and once.
+void expect_all_near_are_seen(const Balls& balls, const PlanBuckets& buckets, std::uint64_t seed) {
+  for (std::size_t i = 0; i < 60; ++i) {
+    std::multiset<std::size_t> seen;
+    buckets.near(balls.centres[i], balls.radii[i], 0.9, [&](std::size_t j) { seen.insert(j); });
+    for (std::size_t j = 0; j < balls.centres.size(); ++j) {
+      const Vector3 way = balls.centres[j] - balls.centres[i];
+      const bool is_near = balls.radii[j] > 0 && std::hypot(way.x, way.y) <= 0.9 * (balls.radii[i] + balls.radii[j]);
+      EXPECT_LE(seen.count(j), balls.radii[j] > 0 ? 1u : 0u);
+      EXPECT_GE(seen.count(j), is_near ? 1u : 0u) << seed << " " << i << " " << j;
+    }
+  }
+}
+
+// Also where the plan is smaller than the place in which they lie.
 TEST(PlanBuckets, FindsAllThatALookAtEveryBallFinds) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Balls balls = random_balls(seed, 300, 80);
-    const PlanBuckets buckets(balls.centres, balls.radii);
-    for (std::size_t i = 0; i < 60; ++i) {
-      std::multiset<std::size_t> seen;
-      buckets.near(balls.centres[i], balls.radii[i], 0.9, [&](std::size_t j) { seen.insert(j); });
-      for (std::size_t j = 0; j < balls.centres.size(); ++j) {
-        const Vector3 way = balls.centres[j] - balls.centres[i];
-        const bool is_near = balls.radii[j] > 0 && std::hypot(way.x, way.y) <= 0.9 * (balls.radii[i] + balls.radii[j]);
-        EXPECT_LE(seen.count(j), 1u);
-        EXPECT_GE(seen.count(j), is_near ? 1u : 0u) << seed << " " << i << " " << j;
-      }
+    expect_all_near_are_seen(balls, balls.buckets(seed % 2 == 0 ? 80 : 40), seed);
+  }
+}
+
+// Balls move, grow, shrink, go and come back.
+TEST(PlanBuckets, FindsBallsThatHaveChanged) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Balls balls = random_balls(seed, 300, 80);
+    PlanBuckets buckets = balls.buckets(80);
+    Random random(seed, 4);
+    for (int step = 0; step < 200; ++step) {
+      const std::size_t i = random.below(300);
+      balls.centres[i].x += random.uniform(-60, 60);
+      balls.centres[i].y += random.uniform(-6, 6);
+      balls.radii[i] = step % 7 == 0 ? 0 : random.uniform(0.1, 20);
+      buckets.change(i, balls.centres[i], balls.radii[i]);
     }
+    expect_all_near_are_seen(balls, buckets, seed);
   }
 }
 
@@ -47,7 +71,7 @@ TEST(PlanBuckets, FindsAllThatALookAtEveryBallFinds) {
 // square.
 TEST(PlanBuckets, SeesAFewOfMany) {
   const Balls balls = random_balls(5, 4000, 600);
-  const PlanBuckets buckets(balls.centres, balls.radii);
+  const PlanBuckets buckets = balls.buckets(600);
   std::size_t seen = 0;
   for (std::size_t i = 0; i < balls.centres.size(); ++i)
     buckets.near(balls.centres[i], balls.radii[i], 0.87, [&](std::size_t) { ++seen; });
@@ -58,7 +82,7 @@ TEST(PlanBuckets, SeesAFewOfMany) {
 TEST(PlanBuckets, FarAndOddPlacesAreTaken) {
   const std::vector<Point3> centres = {{1e300, 0, 0}, {0, 0, 0}, {-1e300, -1e300, 0}, {3, 0, 0}};
   const std::vector<double> radii = {1, 2, 1e-300, 2};
-  const PlanBuckets buckets(centres, radii);
+  const PlanBuckets buckets({-100, -100, 0}, {100, 100, 0}, centres, radii);
   std::set<std::size_t> seen;
   buckets.near({0, 0, 0}, 2, 1, [&](std::size_t i) { seen.insert(i); });
   EXPECT_TRUE(seen.contains(1) && seen.contains(3) && !seen.contains(0));
