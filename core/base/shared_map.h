@@ -13,8 +13,9 @@
 
 namespace bl {
 
-/// A map in ascending names, read as a std::map. Copies share leaves of up to 64 records. Who writes gets a record of their own;
-/// it may be written to until the map is copied. Adding or removing a record costs a pass over the leaves.
+/// A map in ascending names, read as a std::map. Copies share leaves of up to 64 records. Whoever writes gets a record of their
+/// own, which takes the place of the one before: references to that one hold as long as a copy of the map does, and read what it
+/// was. Iterators go on over the map as it was when they were made. Adding or removing a record costs a pass over the leaves.
 template <class T>
 class SharedMap {
  public:
@@ -62,8 +63,8 @@ class SharedMap {
 
    private:
     friend class SharedMap;
-    Iterator(const SharedMap& map, std::size_t leaf, std::size_t at) : leaves_(map.leaves_.get()), leaf_(leaf), at_(at) {}
-    const typename SharedMap::Leaves* leaves_ = nullptr;
+    Iterator(const SharedMap& map, std::size_t leaf, std::size_t at) : leaves_(map.leaves_), leaf_(leaf), at_(at) {}
+    std::shared_ptr<const typename SharedMap::Leaves> leaves_;  // held: the map may change meanwhile
     std::size_t leaf_ = 0, at_ = 0;
   };
   using const_iterator = Iterator;
@@ -91,7 +92,7 @@ class SharedMap {
     return (*(*leaves_)[leaf])[at]->second;
   }
 
-  /// The record to write to; it must exist.
+  /// The record to write to, which must exist; only until the map is copied.
   T& edit(const std::string& name) {
     const auto [leaf, at, is_there] = place_of(name);
     if (!is_there) throw std::out_of_range("there is no `" + name + "`");

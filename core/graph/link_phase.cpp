@@ -153,8 +153,9 @@ class LinkRun {
   std::size_t count(End end) const { return plan_.nodes[static_cast<int>(end)].size(); }
   // The place of a target among those that are spoken to.
   std::size_t slot_of(std::uint32_t target) const {
-    return targets_.empty() ? target
-                            : static_cast<std::size_t>(std::lower_bound(targets_.begin(), targets_.end(), target) - targets_.begin());
+    return targets_.empty()
+               ? target
+               : static_cast<std::size_t>(std::lower_bound(targets_.begin(), targets_.end(), target) - targets_.begin());
   }
 
   void note(std::size_t f, std::size_t t, const Error& error) {

@@ -24,17 +24,28 @@ Result<const LinkRecord*> SceneEdit::link(const std::string& id) const {
   return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean_among(id, scene_->links)};
 }
 
+NodeRecord& SceneEdit::own_node(const std::string& id) {
+  past_nodes_.push_back(scene_->nodes);
+  return scene_->nodes.edit(id);
+}
+
+LinkRecord& SceneEdit::own_link(const std::string& id) {
+  past_links_.push_back(scene_->links);
+  return scene_->links.edit(id);
+}
+
 void SceneEdit::add_node(const std::string& id, NodeRecord node) {
   note_names(id, node);
   if (scene_->nodes.emplace(id, std::move(node))) touch(ScenePart::node, id);
 }
 
 void SceneEdit::remove_node(const std::string& id) {
+  past_nodes_.push_back(scene_->nodes);
   if (scene_->nodes.erase(id) > 0) touch(ScenePart::node, id);
 }
 
 void SceneEdit::set_name(const std::string& node, const std::string& name) {
-  NodeRecord& record = scene_->nodes.edit(node);
+  NodeRecord& record = own_node(node);
   if (record.name == name) return;
   record.name = name;
   touch(ScenePart::node, node, "name");
@@ -42,11 +53,11 @@ void SceneEdit::set_name(const std::string& node, const std::string& name) {
 
 void SceneEdit::add_type(const std::string& node, const std::string& type, PortValues values) {
   for (const auto& [port, value] : values) note_names(node, value);
-  if (scene_->nodes.edit(node).types.emplace(type, std::move(values)).second) touch(ScenePart::node, node, "types/" + type);
+  if (own_node(node).types.emplace(type, std::move(values)).second) touch(ScenePart::node, node, "types/" + type);
 }
 
 void SceneEdit::remove_type(const std::string& node, const std::string& type) {
-  if (scene_->nodes.edit(node).types.erase(type) > 0) touch(ScenePart::node, node, "types/" + type);
+  if (own_node(node).types.erase(type) > 0) touch(ScenePart::node, node, "types/" + type);
 }
 
 bool SceneEdit::put(PortValues& values, const PortDefinition& port, const Value& value) {
@@ -60,14 +71,14 @@ bool SceneEdit::put(PortValues& values, const PortDefinition& port, const Value&
 
 void SceneEdit::set_value(const std::string& node, const std::string& type, const PortDefinition& port, const Value& value) {
   note_names(node, value);
-  PortValues& values = scene_->nodes.edit(node).types.at(type);
+  PortValues& values = own_node(node).types.at(type);
   const auto old = values.find(port.id);
   const Value before = old == values.end() ? port.default_value : old->second;
   if (put(values, port, value)) touch_port(node, type, port, before, value);
 }
 
 void SceneEdit::erase_value(const std::string& node, const std::string& type, const PortDefinition& port) {
-  PortValues& values = scene_->nodes.edit(node).types.at(type);
+  PortValues& values = own_node(node).types.at(type);
   const auto old = values.find(port.id);
   if (old == values.end()) return;
   const Value before = old->second;
@@ -87,7 +98,7 @@ void SceneEdit::touch_port(const std::string& node, const std::string& type, con
 }
 
 bool SceneEdit::set_locked(const std::string& node, const std::string& path, bool is_locked) {
-  std::set<std::string>& locked = scene_->nodes.edit(node).locked;
+  std::set<std::string>& locked = own_node(node).locked;
   const bool is_changed = is_locked ? locked.insert(path).second : locked.erase(path) > 0;
   if (is_changed) touch(ScenePart::node, node, "locked/" + path);
   return is_changed;
@@ -99,12 +110,13 @@ void SceneEdit::add_link(const std::string& id, LinkRecord link) {
 }
 
 void SceneEdit::remove_link(const std::string& id) {
+  past_links_.push_back(scene_->links);
   if (scene_->links.erase(id) > 0) touch(ScenePart::link, id);
 }
 
 void SceneEdit::change_link(const std::string& id, LinkRecord link) {
   note_names(id, link);
-  LinkRecord& old = scene_->links.edit(id);
+  LinkRecord& old = own_link(id);
   if (old.kind != link.kind || old.ghost != link.ghost) {
     touch(ScenePart::link, id);
   } else {

@@ -73,12 +73,18 @@ class SceneEdit {
   /// Returns whether the values changed.
   bool put(PortValues& values, const PortDefinition& port, const Value& value);
 
+  // The record to write to. Commands may hold references to what it was before.
+  NodeRecord& own_node(const std::string& id);
+  LinkRecord& own_link(const std::string& id);
+
   Scene* scene_;
   const Registry* registry_;
   std::optional<Namers>* kept_;
   std::optional<Namers> own_;
   std::set<std::pair<std::string, std::string>> placed_;
   std::vector<Touch> touches_;
+  std::vector<SharedMap<NodeRecord>> past_nodes_;
+  std::vector<SharedMap<LinkRecord>> past_links_;
   bool is_logic_touched_ = false;
 };
 

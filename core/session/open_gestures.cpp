@@ -8,7 +8,7 @@ namespace bl {
 namespace {
 
 // Scenes that were shown, where nobody says that they can go.
-constexpr std::size_t kMostPast = 8;
+constexpr std::size_t kMostPast = 8, kMostHeld = 1024;
 
 bool covers(const std::vector<Touch>& places, const std::vector<Touch>& others) {
   return std::all_of(others.begin(), others.end(),
@@ -21,7 +21,23 @@ OpenGestures::OpenGestures(Ledger& ledger)
     : ledger_(&ledger), listener_(ledger.subscribe([this](const LogEntry&) {
         // What was said by others, or by an undo, lies under what waits.
         if (!is_saying_) show_again();
-      })) {}
+        hold_records();
+      })) {
+  hold_records();
+}
+
+void OpenGestures::forget_past() {
+  past_.clear();
+  held_.clear();
+  hold_records();
+}
+
+// A record that changes is replaced by another one: whoever has a reference to it may go on to read the old one.
+void OpenGestures::hold_records() {
+  if (held_.size() >= kMostHeld) held_.erase(held_.begin());
+  held_.push_back({ledger_->scene().nodes, ledger_->scene().links});
+  if (shown_) held_.push_back({shown_->nodes, shown_->links});
+}
 
 // Anew from what was said. What does not fit any more is not seen; whoever says it hears why.
 void OpenGestures::show_again() {
@@ -49,6 +65,7 @@ Result<void> OpenGestures::show(Submission frame, std::int64_t tick, double now)
     if (open_.empty()) stop_showing();
     return done.error();
   }
+  hold_records();
   Gesture& gesture = known != open_.end() ? known->second : open_[frame.gesture];
   gesture.author = frame.author;
   // A hand that rests says nothing.

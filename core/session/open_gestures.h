@@ -43,7 +43,7 @@ class OpenGestures {
   /// The scene for display, with the values that wait to be logged. A returned scene can be read until forget_past() is called,
   /// even if the gesture has ended meanwhile: a window may use it while it draws.
   const Scene& shown() const { return shown_ ? *shown_ : ledger_->scene(); }
-  void forget_past() { past_.clear(); }
+  void forget_past();
   bool is_waiting() const;
   /// The ports that waiting values have set to a place, by node and path.
   std::set<std::pair<std::string, std::string>> placed() const;
@@ -56,6 +56,10 @@ class OpenGestures {
     std::vector<Touch> touches;
     std::set<std::pair<std::string, std::string>> placed;
   };
+  struct Held {
+    SharedMap<NodeRecord> nodes;
+    SharedMap<LinkRecord> links;
+  };
   struct Gesture {
     Author author;
     double said_at = -std::numeric_limits<double>::infinity();
@@ -64,11 +68,13 @@ class OpenGestures {
   Result<void> say(Gesture& gesture, std::int64_t tick);
   void show_again();
   void stop_showing();
+  void hold_records();
 
   Ledger* ledger_;
   std::size_t listener_;
   std::unique_ptr<Scene> shown_;              // while a gesture is open
   std::vector<std::unique_ptr<Scene>> past_;  // that were shown, while somebody may still read them
+  std::vector<Held> held_;                    // likewise the records of all scenes since
   std::map<std::int64_t, Gesture> open_;
   std::uint64_t revision_ = 0;
   bool is_saying_ = false;
