@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "core/graph/phases.h"
 
@@ -104,12 +105,15 @@ class LinkRun {
 
   void run_pair(std::size_t f, std::size_t t, const Tick& tick) {
     if (is_stopped_) return fail(f, t);
+    ++pairs_;
     LinkRemarks remarks;
     Tick one = tick;
     one.remarks = &remarks;
     if (auto done = evaluate(f, t, one); !done) note(f, t, done.error());
     hear(remarks);
   }
+
+  std::size_t pairs() const { return pairs_; }
 
   // What the first pair that failed says, and how many others there are; nothing where all is well.
   std::optional<Error> error() const {
@@ -247,11 +251,11 @@ class LinkRun {
   std::vector<bool> has_failed_;        // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
   LinkRemarks remarks_;
-  std::size_t failures_ = 0, remarked_ = 0;
+  std::size_t failures_ = 0, remarked_ = 0, pairs_ = 0;
   bool is_stopped_ = false;
 };
 
-LinkState evaluated(const State& frozen, std::size_t index) {
+LinkState evaluated(const State& frozen, std::size_t index, std::size_t& pairs) {
   const LinkPlan& plan = frozen.plan->links[index];
   LinkState next;
   if (!plan.is_enabled) return next;
@@ -265,6 +269,7 @@ LinkState evaluated(const State& frozen, std::size_t index) {
   LinkRun run(frozen, plan);
   Memo memo;
   run.run(Tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo});
+  pairs += run.pairs();
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
     next.error = error->within("links/" + plan.id);
@@ -302,7 +307,7 @@ std::optional<End> end_of_single_pairs(const LinkPlan& plan) {
 }
 
 // What the link says after changes of these nodes, or nothing where all of its pairs have to be asked.
-std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& due) {
+std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& due, std::size_t& asked) {
   const LinkPlan& plan = frozen.plan->links[due.link];
   const LinkState& last = frozen.links[due.link];
   if (due.is_whole || plan.error || last.error || last.remark || last.work) return std::nullopt;
@@ -324,6 +329,7 @@ std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& d
   Memo memo;
   const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
   for (const std::size_t pair : pairs) run.run_pair(*many == End::to ? 0 : pair, *many == End::to ? pair : 0, tick);
+  asked += run.pairs();
   const std::vector<Voice> fresh = run.voices(last.voices);
   if (run.error() || run.remarks().said) return std::nullopt;
   LinkState next;
@@ -378,13 +384,15 @@ void add_differences(const std::vector<Voice>& before, const std::vector<Voice>&
 void evaluate_links(TickWork& work, ThreadPool& pool) {
   const std::vector<DueLink> due = due_links(work.frozen);
   std::vector<LinkState> fresh(due.size());
+  std::vector<std::size_t> pairs(due.size(), 0);
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto in_part = evaluated_in_part(work.frozen, due[i]);
-      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link);
+      auto in_part = evaluated_in_part(work.frozen, due[i], pairs[i]);
+      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, pairs[i]);
     }
   });
   work.counts.links += due.size();
+  work.counts.pairs += std::accumulate(pairs.begin(), pairs.end(), std::size_t{0});
   for (std::size_t i = 0; i < due.size(); ++i) {
     const LinkState& before = work.frozen.links[due[i].link];
     if (before.says_the_same(fresh[i])) continue;

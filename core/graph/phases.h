@@ -14,12 +14,13 @@ namespace bl {
 
 /// How much a tick has asked; what has not changed is not asked.
 struct TickCounts {
-  std::size_t links = 0;          ///< that were evaluated
+  std::size_t links = 0;          ///< of which pairs were evaluated
+  std::size_t pairs = 0;          ///< of all links
   std::size_t nodes = 0;          ///< whose ports were resolved
   std::size_t typifications = 0;  ///< without sets, that were evaluated
   std::size_t sets = 0;           ///< typifications with sets, that were evaluated or looked at
   TickCounts& operator+=(const TickCounts& more) {
-    links += more.links, nodes += more.nodes, typifications += more.typifications, sets += more.sets;
+    links += more.links, pairs += more.pairs, nodes += more.nodes, typifications += more.typifications, sets += more.sets;
     return *this;
   }
 };

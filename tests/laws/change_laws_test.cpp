@@ -4,8 +4,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
+#include "core/session/commands.h"
 #include "tests/support/random_commands.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scene_files.h"
@@ -110,6 +113,75 @@ TEST(ChangeLawsOfAll, WhatAStateSharesWithTheOneBeforeIsTheSameObject) {
   EXPECT_EQ(now.sets, counted.sets);
   for (std::size_t leaf = 0; leaf < after.nodes.leaf_count(); ++leaf)
     EXPECT_TRUE(after.nodes.shares_leaf(before->nodes, leaf)) << "leaf " << leaf;
+}
+
+// A box of many volumes at random places, held inside it and under a sum, of which every tenth keeps its distance from the
+// others of its kind. The solver fits those who miss their demand alone only where there are many.
+std::string crowded_box(std::uint64_t seed, double fill) {
+  constexpr int kCount = 120;
+  Random random(seed);
+  std::string nodes, links;
+  for (int v = 0; v < kCount; ++v) {
+    const Point3 at{random.uniform(2, 48), random.uniform(2, 48), random.uniform(2, 48)};
+    nodes += ", \"v" + std::to_string(1000 + v) + R"(": {"node": {"position": [)" + shortest(at.x) + ", " + shortest(at.y) +
+             ", " + shortest(at.z) + "]" + (v % 10 == 0 ? R"(, "tags": ["public"])" : "") + R"(}, "smart_volume": {"demand": )" +
+             shortest(fill * 125000 / kCount) + "}}";
+  }
+  return R"({"format": "behaviourlinks", "version": 1, "nodes": {)"
+         R"("plot": {"boundary": {"form": "plan", "plan": [[0, 0], [50, 0], [50, 50], [0, 50]], "height": 50}}, )"
+         R"("solver": {"smart_volumes_solver": {}}, "sum": {"statistics": {"port": "smart_volume.volume", "nodes": )"
+         R"({"typification": "smart_volume"}}})" +
+         nodes +
+         R"(}, "links": {)"
+         R"("apart": {"kind": "keep_distance", "from": {"tag": "public"}, "to": {"tag": "public"}, )"
+         R"("parameters": {"minimum": 12, "maximum": 1000}}, )"
+         R"("cap": {"kind": "set_cap", "from": "sum", "to": {"typification": "smart_volume"}, "parameters": {"cap": 1e9}}, )"
+         R"("inside": {"kind": "inside_boundary", "from": "plot", "to": {"typification": "smart_volume"}, )"
+         R"("parameters": {"margin": 1}}}})";
+}
+
+std::string volume_name(Random& random) { return "v" + std::to_string(1000 + random.below(120)); }
+
+Command moved(const State& state, const std::string& node, const Vector3& by) {
+  const Vector3 place =
+      std::get<Vector3>(state.value(*state.plan->find(state.plan->node_index(node), {"node", "position", ""}))) + by;
+  return command<SetPort>({node, {"node.position"}, JsonValue::of(Json::array({place.x, place.y, place.z}))});
+}
+
+TEST(ChangeLawsOfAll, SoItIsInACrowdUnderManyHands) {
+  for (const double fill : {0.6, 0.95}) {
+    SCOPED_TRACE("fill " + shortest(fill));
+    expect_the_same_states(crowded_box(7, fill), 30, 2, [&](World& world, int tick) {
+      Random random(3, static_cast<std::uint64_t>(tick));
+      const std::string node = volume_name(random);
+      if (tick % 2 == 0) (void)world.submit(moved(world.state(), node, {random.uniform(-1, 1), random.uniform(-1, 1), 0}));
+      if (tick % 5 == 0)
+        (void)world.submit(
+            command<SetPort>({volume_name(random), {"smart_volume.demand"}, JsonValue::of(Json(random.uniform(100, 900)))}));
+      if (tick % 7 == 0) (void)world.session().undo(Author{"test"});
+    });
+  }
+}
+
+// One volume is dragged through many that rest: those far away stay the same objects, and pairs without it are not asked.
+TEST(ChangeLawsOfAll, ADragCostsWhatIsAroundIt) {
+  World world = World::from_text(crowded_box(11, 0.5));
+  while (!world.state().due.is_nothing() && world.state().tick < 3000) world.tick();
+  ASSERT_TRUE(world.state().due.is_nothing());
+  Random random(5);
+  for (int frame = 0; frame < 10; ++frame) {
+    const auto before = world.session().state();
+    const std::size_t pairs = world.session().counts().pairs;
+    (void)world.submit(moved(*before, "v1055", {0.1, 0, 0}));
+    world.tick();
+    std::size_t changed = 0;
+    for (std::size_t n = 0; n < before->nodes.size(); ++n) changed += world.state().nodes.item(n) != before->nodes.item(n);
+    EXPECT_LE(changed, 60u) << "frame " << frame;
+    // The dragged one inside its boundary, and the cap, which is one evaluation.
+    EXPECT_LE(world.session().counts().pairs - pairs, 40u) << "frame " << frame;
+  }
+  world.tick(40);
+  EXPECT_LE(world.state().largest_residual, 0.005);
 }
 
 }  // namespace
