@@ -17,6 +17,25 @@ bool plays_role(const Plan& plan, const std::pair<std::string, std::string>& nod
   return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == node_and_type.second; });
 }
 
+template <class List>
+bool is_shared(const List& a, const List& b) {
+  for (std::size_t leaf = 0; leaf < a.leaf_count(); ++leaf)
+    if (!a.shares_leaf(b, leaf)) return false;
+  return a.size() == b.size();
+}
+
+// Has a tick found nothing to do, and will the next one find nothing, either? Calm that still counts may bring rest about, and
+// rest may bring about that the scene counts as settled: both are news.
+bool is_idle_after(const State& before, const TickCounts& counts, const State& next) {
+  if (counts.links + counts.nodes + counts.typifications + counts.sets != 0) return false;
+  if (!before.due.is_nothing() || !next.due.is_nothing() || next.due.was_at_rest != is_at_rest(next)) return false;
+  if (next.calm == 0 ? before.calm != 0 : !next.is_settled()) return false;
+  const bool is_waiting = std::any_of(next.analyses.begin(), next.analyses.end(), [&](const AnalysisState& analysis) {
+    return analysis.running || (analysis.as_of >= 0 && analysis.as_of != next.tick);
+  });
+  return !is_waiting && is_shared(before.nodes, next.nodes) && is_shared(before.links, next.links);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
@@ -32,7 +51,7 @@ std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
 }
 
 void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
-  state_ = with_scene(scene, placed);
+  take(with_scene(scene, placed));
   // What was kept for evaluations of nodes that are gone, or that play the role no more, is for nobody.
   std::erase_if(memos_, [&](const auto& memo) { return !plays_role(*state_->plan, memo.first); });
 }
@@ -41,13 +60,13 @@ Result<void> Simulation::restore_state(const SavedState& saved) {
   auto state = restore(saved, state_->plan);
   if (!state) return state.error();
   recall_meshes(*state, pool_, memos_);
-  state_ = std::make_shared<State>(std::move(*state));
+  take(std::make_shared<State>(std::move(*state)));
   return {};
 }
 
 void Simulation::return_to(std::shared_ptr<const State> earlier) {
-  if (earlier->plan == state_->plan) state_ = std::move(earlier);
-  else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
+  if (earlier->plan == state_->plan) take(std::move(earlier));
+  else take(std::make_shared<State>(carry(*earlier, state_->plan, {})));
 }
 
 std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
@@ -86,10 +105,24 @@ bool Simulation::step() {
     return false;
   }
   counts_ += work.counts;
+  const TickCounts counts = work.counts;
   auto next = std::make_shared<State>(commit(std::move(work)));
   lap(times_.commit);
+  is_idle_ = is_idle_after(*state_, counts, *next);
   state_ = std::move(next);
   return true;
+}
+
+void Simulation::pass(std::int64_t ticks) {
+  if (ticks <= 0) return;
+  auto next = std::make_shared<State>(*state_);
+  next->tick += ticks;
+  if (next->calm > 0) next->calm += ticks;
+  // Data that is still the same is that of each tick.
+  for (AnalysisState& analysis : next->analyses)
+    if (analysis.as_of >= 0) analysis.as_of += ticks;
+  next->hash = hash_of(*next);
+  state_ = std::move(next);
 }
 
 }  // namespace bl

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <GLFW/glfw3.h>
@@ -64,16 +65,19 @@ NullDesktop::~NullDesktop() {
 }
 
 void NullDesktop::frames(int count) {
+  for (int k = 0; k < count; ++k) frame_at(now_ + kFrame);
+}
+
+void NullDesktop::frame_at(double now) {
   ImGui::SetCurrentContext(context_);  // a test may have two desktops
-  for (int k = 0; k < count; ++k) {
-    now_ += kFrame;
-    // What the other thread shows of people's changes is there before each frame: tests are the same every time.
-    if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
-    ImGui::NewFrame();
-    desktop_->frame(now_);
-    ImGui::Render();
-    ImGui::GetIO().MouseWheel = 0;
-  }
+  ImGui::GetIO().DeltaTime = static_cast<float>(std::max(kFrame, now - now_));
+  now_ = now;
+  // What the other thread shows of people's changes is there before each frame: tests are the same every time.
+  if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
+  ImGui::NewFrame();
+  desktop_->frame(now_);
+  ImGui::Render();
+  ImGui::GetIO().MouseWheel = 0;
 }
 
 void NullDesktop::ticks(int count) {

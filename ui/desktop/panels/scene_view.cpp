@@ -19,6 +19,9 @@ constexpr double kChangeSeconds = 0.28;
 // Nothing has moved for so long: there is time for a finer picture.
 constexpr double kStillSeconds = 0.3;
 
+// How often pictures that are on their way are looked for.
+constexpr double kPictureSeconds = 0.05;
+
 }  // namespace
 
 void SceneView::draw(ImVec2 size) {
@@ -50,6 +53,7 @@ void SceneView::draw(ImVec2 size) {
   still_sun_ = scene.sun;
   still_volumes_ = scene.volumes;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
+  if (scene.is_hurried) editor_->wake_at(still_since_ + kStillSeconds);
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
   const float dense = density.x > 0 ? density.x : 1;
   const std::uintptr_t picture = renderer_->draw(scene, static_cast<int>(size.x * dense), static_cast<int>(size.y * dense));
@@ -57,6 +61,8 @@ void SceneView::draw(ImVec2 size) {
   if (picture != 0)
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1},
                                          {1, 0});
+  if (change_began_ >= 0 || is_sun_running_) editor_->go_on();
+  if (renderer_->is_waiting()) editor_->wake_at(editor_->now + kPictureSeconds);
   draw_overlay();
   shown_for_ = is_hovered_ ? ImGui::GetIO().MousePos : ImVec2{-1, -1};
   last_frame_ = editor_->now;

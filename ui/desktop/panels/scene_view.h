@@ -92,6 +92,8 @@ class SceneView {
   const std::string& pointed_at() const { return pointed_at_; }
   /// What is drawn and can be picked: without the nodes that are hidden.
   const SceneFacts* facts() const { return facts_.get(); }
+  /// Does what is drawn follow from the number of the tick alone?
+  bool shows_ticks() const { return all_facts_ && all_facts_->has_sequence; }
   /// Where the note on hidden nodes was drawn in the last frame [pixels]; no size where there is none.
   ImVec4 hidden_note() const { return hidden_note_; }
   /// As they were drawn in the last frame.

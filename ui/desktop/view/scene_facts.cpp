@@ -141,6 +141,7 @@ void read_boundary(const State& state, std::uint32_t node, MeshPointer shape, co
 void read_media(const State& state, std::uint32_t node, const reading::MediaFigures& read, SceneFacts& facts) {
   MediaFacts media{node, state.plan->nodes[node].id, state.plan->nodes[node].name, read.message, read.file, {}};
   if (media.file.empty()) return;
+  facts.has_sequence |= read.kind == "sequence";
   if (read.kind == "sequence") media.file = frame_file(media.file, state.tick, read.rate, read.frames);
   const MediaPlace place =
       place_of({read.placement, read.position, read.azimuth, read.tilt, read.width, read.height, read.distance});

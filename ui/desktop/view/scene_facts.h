@@ -71,6 +71,7 @@ struct SceneFacts {
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
   std::vector<MediaFacts> media;
+  bool has_sequence = false;     ///< a medium that shows another file in another tick
   std::vector<LinkFacts> links;  ///< of sets that are not too large
   std::vector<PullFacts> pulls;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
