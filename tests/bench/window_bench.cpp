@@ -94,7 +94,7 @@ class BenchWindow {
   }
 
  private:
-  PersonSettings person_;
+  desktop::PersonSettings person_;
   NoDriver renderer_;
   ImGuiContext* context_;
   std::unique_ptr<desktop::Desktop> desktop_;
