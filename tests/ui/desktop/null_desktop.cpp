@@ -9,6 +9,8 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "ui/desktop/panels/statistics_record.h"
+
 namespace bl::desktop {
 
 namespace {
@@ -84,6 +86,8 @@ void NullDesktop::ticks(int count) {
   editor().document->session().step(count);
   editor().document->session().settle();
   frames(1);
+  // Lists of large scenes follow a moment later.
+  if (const double pause = figures_pause(editor().state().nodes.size()); pause > 0) frame_at(now_ + 2 * pause);
 }
 
 void NullDesktop::move_to(ImVec2 at) {

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kMostSamples = 600;
 constexpr double kRecordSmoothing = 0.1;
+constexpr std::size_t kManyNodes = 500;
+constexpr double kPauseOfNode = 1e-4;  // [s]
 // Rows that change places more often than this cannot be read [s].
 constexpr double kSortPause = 1;
 
@@ -20,6 +22,8 @@ constexpr double kDrawingPause = 0.2;
 double smooth(double old, double fresh) { return old == 0 ? fresh : old + kRecordSmoothing * (fresh - old); }
 
 }  // namespace
+
+double figures_pause(std::size_t nodes) { return nodes > kManyNodes ? kPauseOfNode * static_cast<double>(nodes) : 0; }
 
 void RunRecord::forget_from(double number) {
   while (!tick.empty() && tick.back() >= number)
@@ -69,8 +73,16 @@ std::vector<reading::ErrorSample> RunRecord::errors() const {
 }
 
 const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
-  if (figured_ == editor.moment->state && figures_) return *figures_;
-  figured_ = editor.moment->state;
+  const std::shared_ptr<const State>& state = editor.moment->state;
+  if (figured_ == state && figures_) return *figures_;
+  const bool has_the_same_rows = figures_ && figured_->plan->dependents == state->plan->dependents;
+  const double next = figured_at_ + figures_pause(state->nodes.size());
+  if (has_the_same_rows && editor.now < next) {
+    editor.wake_at(next);
+    return *figures_;
+  }
+  figured_ = state;
+  figured_at_ = editor.now;
   figures_ = std::make_unique<reading::ReportModel>();
   reading::read_figures(*figured_, *figures_);
   return *figures_;
