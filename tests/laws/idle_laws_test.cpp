@@ -18,7 +18,7 @@ struct Twins {
   explicit Twins(const std::string& path) : reading(read_scene(project_file(path), full_registry())) {
     for (Simulation* one : {&at_once, &one_by_one}) {
       one->set_scene(reading.scene);
-      if (reading.state) EXPECT_TRUE(one->restore_state(*reading.state).ok());
+      if (reading.state) { EXPECT_TRUE(one->restore_state(*reading.state).ok()); }
     }
   }
   void step() { at_once.step(), one_by_one.step(); }

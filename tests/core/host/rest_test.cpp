@@ -8,7 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/host/host.h"
-#include "core/session/session.h"
+#include "tests/core/host/replays.h"
 #include "tests/support/hand_clock.h"
 #include "tests/support/world.h"
 
@@ -83,13 +83,7 @@ TEST_F(RestTest, ACommandWakesItAtTheTickOfTheClockAndTheLogReplays) {
   clock_.advance(30);
   session().play(false);
   EXPECT_GE(session().moment()->ticked->tick, said + 30 * kRate - 1) << "a clock that is stopped shows where it stands";
-  const auto log = read_log(host_->log_text(), full_registry());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  const auto report = replay(*log, full_registry(), 1);
-  ASSERT_TRUE(report.ok()) << report.error().text();
-  EXPECT_EQ(report->checks, 1u);
-  EXPECT_FALSE(report->first_mismatch.has_value());
-  EXPECT_EQ(report->hash, hex_digits(session().moment()->ticked->hash));
+  test::expect_replays(*host_);
 }
 
 TEST_F(RestTest, AClockThatStoodHasNotCounted) {
