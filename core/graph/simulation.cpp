@@ -24,10 +24,19 @@ bool is_shared(const List& a, const List& b) {
   return a.size() == b.size();
 }
 
-// Has a tick found nothing to do, and will the next one find nothing, either? Calm that still counts may bring rest about, and
-// rest may bring about that the scene counts as settled: both are news.
-bool is_idle_after(const State& before, const TickCounts& counts, const State& next) {
-  if (counts.links + counts.nodes + counts.typifications + counts.sets != 0) return false;
+// Does anything follow from the number of the tick?
+bool reads_time(const Plan& plan) {
+  const Dependents& dependents = *plan.dependents;
+  return !dependents.timed_links.empty() || !dependents.timed_nodes.empty() ||
+         std::any_of(dependents.groups.begin(), dependents.groups.end(),
+                     [&](const SetGroup& group) { return plan.nodes[group.node].types[group.type].definition->reads_time; });
+}
+
+// Has a tick changed nothing, and will the next one change nothing, either? Whoever is asked in every tick says the same again
+// where nothing that is read has changed. Calm that still counts may bring rest about, and rest may bring about that the scene
+// counts as settled: both are news.
+bool is_idle_after(const State& before, const State& next) {
+  if (reads_time(*next.plan)) return false;
   if (!before.due.is_nothing() || !next.due.is_nothing() || next.due.was_at_rest != is_at_rest(next)) return false;
   if (next.calm == 0 ? before.calm != 0 : !next.is_settled()) return false;
   const bool is_waiting = std::any_of(next.analyses.begin(), next.analyses.end(), [&](const AnalysisState& analysis) {
@@ -105,10 +114,9 @@ bool Simulation::step() {
     return false;
   }
   counts_ += work.counts;
-  const TickCounts counts = work.counts;
   auto next = std::make_shared<State>(commit(std::move(work)));
   lap(times_.commit);
-  is_idle_ = is_idle_after(*state_, counts, *next);
+  is_idle_ = !evaluates_everything_ && is_idle_after(*state_, *next);
   state_ = std::move(next);
   return true;
 }

@@ -43,7 +43,7 @@ class Simulation {
   /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
   bool step();
 
-  /// Would the next ticks only count on? So it is after a tick at rest that had nothing to do and left nothing to do.
+  /// Would the next ticks only count on? So it is after a tick at rest that has changed nothing and left nothing to do.
   bool is_idle() const { return is_idle_; }
   /// So many idle ticks at once: the state is the one that step() would give, tick by tick.
   void pass(std::int64_t ticks);

