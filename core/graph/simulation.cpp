@@ -17,11 +17,23 @@ bool plays_role(const Plan& plan, const std::pair<std::string, std::string>& nod
   return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == node_and_type.second; });
 }
 
+bool is_unchanged(const NodeState& a, const NodeState& b) {
+  return std::equal(a.types.begin(), a.types.end(), b.types.begin(), b.types.end(), [](const TypeState& x, const TypeState& y) {
+    return x.is_evaluated == y.is_evaluated && x.error == y.error && x.tension == y.tension && x.values == y.values;
+  });
+}
+
+bool is_unchanged(const LinkState& a, const LinkState& b) { return a.says_the_same(b); }
+
+// Looks at what is not shared alone: somebody who was asked may have said the same again.
 template <class List>
-bool is_shared(const List& a, const List& b) {
-  for (std::size_t leaf = 0; leaf < a.leaf_count(); ++leaf)
-    if (!a.shares_leaf(b, leaf)) return false;
-  return a.size() == b.size();
+bool is_unchanged_list(const List& a, const List& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (i % List::kLeaf == 0 && a.shares_leaf(b, i / List::kLeaf)) i += List::kLeaf - 1;
+    else if (a.item(i) != b.item(i) && !is_unchanged(a[i], b[i])) return false;
+  }
+  return true;
 }
 
 // Does anything follow from the number of the tick?
@@ -42,7 +54,7 @@ bool is_idle_after(const State& before, const State& next) {
   const bool is_waiting = std::any_of(next.analyses.begin(), next.analyses.end(), [&](const AnalysisState& analysis) {
     return analysis.running || (analysis.as_of >= 0 && analysis.as_of != next.tick);
   });
-  return !is_waiting && is_shared(before.nodes, next.nodes) && is_shared(before.links, next.links);
+  return !is_waiting && is_unchanged_list(before.nodes, next.nodes) && is_unchanged_list(before.links, next.links);
 }
 
 }  // namespace
