@@ -95,6 +95,7 @@ end_window 0
 # A plan at rest is not drawn again and again: there is a pause between two frames, and an end to it when the mouse comes.
 cp "$checkout/scenes/links/attract.json" "$place/attract.json"
 start_window "$place/attract.json" --frame-times "$place/frames.csv"
+key Escape
 pause 15
 point "$((width / 2))" "$((height / 2))"
 key q ctrl
