@@ -17,6 +17,46 @@ bool plays_role(const Plan& plan, const std::pair<std::string, std::string>& nod
   return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == node_and_type.second; });
 }
 
+bool is_unchanged(const NodeState& a, const NodeState& b) {
+  return std::equal(a.types.begin(), a.types.end(), b.types.begin(), b.types.end(), [](const TypeState& x, const TypeState& y) {
+    return x.is_evaluated == y.is_evaluated && x.error == y.error && x.tension == y.tension && x.values == y.values;
+  });
+}
+
+bool is_unchanged(const LinkState& a, const LinkState& b) { return a.says_the_same(b); }
+
+// Looks at what is not shared alone: somebody who was asked may have said the same again.
+template <class List>
+bool is_unchanged_list(const List& a, const List& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (i % List::kLeaf == 0 && a.shares_leaf(b, i / List::kLeaf)) i += List::kLeaf - 1;
+    else if (a.item(i) != b.item(i) && !is_unchanged(a[i], b[i])) return false;
+  }
+  return true;
+}
+
+// Does anything follow from the number of the tick?
+bool reads_time(const Plan& plan) {
+  const Dependents& dependents = *plan.dependents;
+  return !dependents.timed_links.empty() || !dependents.timed_nodes.empty() ||
+         std::any_of(dependents.groups.begin(), dependents.groups.end(),
+                     [&](const SetGroup& group) { return plan.nodes[group.node].types[group.type].definition->reads_time; });
+}
+
+// Has a tick changed nothing, and will the next one change nothing, either? Whoever is asked in every tick says the same again
+// where nothing that is read has changed. Calm that still counts may bring rest about, and rest may bring about that the scene
+// counts as settled: both are news.
+bool is_idle_after(const State& before, const State& next) {
+  if (reads_time(*next.plan)) return false;
+  if (!before.due.is_nothing() || !next.due.is_nothing() || next.due.was_at_rest != is_at_rest(next)) return false;
+  if (next.calm == 0 ? before.calm != 0 : !next.is_settled()) return false;
+  const bool is_waiting = std::any_of(next.analyses.begin(), next.analyses.end(), [&](const AnalysisState& analysis) {
+    return analysis.running || (analysis.as_of >= 0 && analysis.as_of != next.tick);
+  });
+  return !is_waiting && is_unchanged_list(before.nodes, next.nodes) && is_unchanged_list(before.links, next.links);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
@@ -32,7 +72,7 @@ std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
 }
 
 void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
-  state_ = with_scene(scene, placed);
+  take(with_scene(scene, placed));
   // What was kept for evaluations of nodes that are gone, or that play the role no more, is for nobody.
   std::erase_if(memos_, [&](const auto& memo) { return !plays_role(*state_->plan, memo.first); });
 }
@@ -41,13 +81,13 @@ Result<void> Simulation::restore_state(const SavedState& saved) {
   auto state = restore(saved, state_->plan);
   if (!state) return state.error();
   recall_meshes(*state, pool_, memos_);
-  state_ = std::make_shared<State>(std::move(*state));
+  take(std::make_shared<State>(std::move(*state)));
   return {};
 }
 
 void Simulation::return_to(std::shared_ptr<const State> earlier) {
-  if (earlier->plan == state_->plan) state_ = std::move(earlier);
-  else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
+  if (earlier->plan == state_->plan) take(std::move(earlier));
+  else take(std::make_shared<State>(carry(*earlier, state_->plan, {})));
 }
 
 std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
@@ -88,8 +128,21 @@ bool Simulation::step() {
   counts_ += work.counts;
   auto next = std::make_shared<State>(commit(std::move(work)));
   lap(times_.commit);
+  is_idle_ = !evaluates_everything_ && is_idle_after(*state_, *next);
   state_ = std::move(next);
   return true;
+}
+
+void Simulation::pass(std::int64_t ticks) {
+  if (ticks <= 0) return;
+  auto next = std::make_shared<State>(*state_);
+  next->tick += ticks;
+  if (next->calm > 0) next->calm += ticks;
+  // Data that is still the same is that of each tick.
+  for (AnalysisState& analysis : next->analyses)
+    if (analysis.as_of >= 0) analysis.as_of += ticks;
+  next->hash = hash_of(*next);
+  state_ = std::move(next);
 }
 
 }  // namespace bl

@@ -1,6 +1,7 @@
 // The tick: links read S(t) and propose, proposals are resolved, nodes and solvers evaluate, S(t+1) is published.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
@@ -32,7 +33,7 @@ class Simulation {
   /// Continues from an earlier state of this scene, as far as it still fits the scene.
   void return_to(std::shared_ptr<const State> earlier);
   /// Restores `earlier` with its plan, as it was before set_scene(), if no tick has run since.
-  void put_back(std::shared_ptr<const State> earlier) { state_ = std::move(earlier); }
+  void put_back(std::shared_ptr<const State> earlier) { take(std::move(earlier)); }
   /// A state for display before its next tick. It contains the results that nodes compute from their own settings and that no
   /// tick has computed yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands.
   /// Where there are none, it is the state itself. No tick continues from it.
@@ -42,6 +43,11 @@ class Simulation {
   /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
   bool step();
 
+  /// Would the next ticks only count on? So it is after a tick at rest that has changed nothing and left nothing to do.
+  bool is_idle() const { return is_idle_; }
+  /// So many idle ticks at once: the state is the one that step() would give, tick by tick.
+  void pass(std::int64_t ticks);
+
   /// The last published state; it stays valid and unchanged as long as a pointer to it exists.
   std::shared_ptr<const State> state() const { return state_; }
   const PhaseTimes& times() const { return times_; }
@@ -50,13 +56,19 @@ class Simulation {
   ThreadPool& pool() { return pool_; }
 
  private:
+  // A state that no step() has made: whether it is idle, the next tick finds out.
+  void take(std::shared_ptr<const State> state) {
+    state_ = std::move(state);
+    is_idle_ = false;
+  }
+
   const Registry* registry_;
   ThreadPool pool_;
   double (*now_)();
   std::shared_ptr<const State> state_;
   PhaseTimes times_;
   TickCounts counts_;
-  bool evaluates_everything_ = false;
+  bool evaluates_everything_ = false, is_idle_ = false;
   SetMemos memos_;
   AnalysisRunner runner_;
 };

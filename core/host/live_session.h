@@ -19,6 +19,7 @@ struct Moment {
   std::shared_ptr<const State> state;   ///< with people's changes since the last tick, where they are shown already
   std::shared_ptr<const State> ticked;  ///< as the last tick left it
   bool is_playing = false;
+  bool is_resting = false;  ///< the clock counts on and nothing else happens; the ticks since then are not in `state`
   double wanted_rate = 0;   ///< wanted ticks per second
   double tick_seconds = 0;  ///< duration of a tick, smoothed [s]
   double rate = 0;          ///< reached ticks per second, smoothed
@@ -26,7 +27,7 @@ struct Moment {
   PhaseTimes times;         ///< total time of all ticks so far [s]
   std::string failure;      ///< why the ticks stopped: out of memory, or an error of the program; the state is the last good one
 
-  bool is_behind() const { return is_playing && tick_seconds * wanted_rate > 1.05; }
+  bool is_behind() const { return is_playing && !is_resting && tick_seconds * wanted_rate > 1.05; }
 };
 
 /// The holder of a session, and its clock and threads.
@@ -65,6 +66,8 @@ class LiveSession {
   Result<void> show(const Command& command, std::int64_t gesture);
   /// Logs the values that are due. Call it often, such as at the beginning of each frame of a window.
   Result<void> keep_up();
+  /// Will keep_up() have values to log?
+  bool has_waiting_values() const { return gestures_.is_waiting(); }
   Result<void> end_gesture(std::int64_t gesture);
   /// Undoes the holder's gesture in progress for good: it cannot be redone.
   void abandon(std::int64_t gesture);
@@ -81,8 +84,8 @@ class LiveSession {
 
   // Of the clock.
   std::shared_ptr<const Moment> moment() const;
-  /// Registers a listener that is called with each new moment, on the ticking thread. It must return soon, and must not call the
-  /// session.
+  /// Registers a listener that is called with each new moment, on the ticking thread or on the holder's. It must return soon, and
+  /// must not call the session.
   std::size_t subscribe_moments(std::function<void(const std::shared_ptr<const Moment>&)> listener);
   void unsubscribe_moments(std::size_t number);
   void play(bool is_playing);
@@ -93,6 +96,10 @@ class LiveSession {
   /// they assign a reading to each tick.
   void make_ticks_wait(bool is_waiting);
   bool do_ticks_wait() const;
+  /// Lets the ticking thread sleep while the scene is at rest and the clock plays. The clock counts on: the ticks that have
+  /// passed are in the state as soon as somebody says something, or asks for the coming state. Who needs each tick does not let
+  /// it.
+  void let_rest(bool may_rest);
   /// The tick before the waiting one, if that one is due; else nothing.
   std::optional<std::int64_t> unserved_tick() const;
   void serve(std::int64_t tick);

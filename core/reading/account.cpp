@@ -160,9 +160,26 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
   return brief;
 }
 
+double account_tolerance(const State& state) { return std::max(state.plan->settings.tolerance, 1e-6); }
+
+std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes) {
+  const BriefTargets briefed = read_briefed(state);
+  const auto brief = brief_of(state);
+  std::vector<VolumeAccount> accounts;
+  for (const std::uint32_t node : nodes) {
+    auto figures = reading::row_of<reading::VolumeFigures>(state, node);
+    if (!figures) continue;
+    VolumeAccount& account = accounts.emplace_back(account_of({node, std::move(*figures)}, briefed));
+    const bool is_in_programme =
+        std::any_of(brief.begin(), brief.end(), [&](const auto& row) { return row.first == account.use; });
+    account.is_by_area = is_in_programme && briefed.nodes.contains(node);
+  }
+  return accounts;
+}
+
 Accounts accounts_of(const State& state) {
   Accounts accounts;
-  accounts.tolerance = std::max(state.plan->settings.tolerance, 1e-6);
+  accounts.tolerance = account_tolerance(state);
   const BriefTargets briefed = read_briefed(state);
   std::map<std::string, std::size_t> index;
   const auto use_of = [&](const std::string& use) -> UseAccount& {

@@ -68,6 +68,10 @@ struct Accounts {
 };
 
 Accounts accounts_of(const State& state);
+/// As Accounts has it.
+double account_tolerance(const State& state);
+/// The same of these nodes alone, as far as they are volumes, in their order.
+std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes);
 
 /// What programmes ask for a use: all of its rows and items together.
 struct BriefRow {

@@ -123,21 +123,21 @@ std::string crowded_box(std::uint64_t seed, double fill) {
   std::string nodes, links;
   for (int v = 0; v < kCount; ++v) {
     const Point3 at{random.uniform(2, 48), random.uniform(2, 48), random.uniform(2, 48)};
-    nodes += ", \"v" + std::to_string(1000 + v) + R"(": {"node": {"position": [)" + shortest(at.x) + ", " + shortest(at.y) +
-             ", " + shortest(at.z) + "]" + (v % 10 == 0 ? R"(, "tags": ["public"])" : "") + R"(}, "smart_volume": {"demand": )" +
-             shortest(fill * 125000 / kCount) + "}}";
+    nodes += R"(, {"id": "v)" + std::to_string(1000 + v) + R"(", "position": [)" + shortest(at.x) + ", " + shortest(at.y) + ", " +
+             shortest(at.z) + "]" + (v % 10 == 0 ? R"(, "tags": ["public"])" : "") +
+             R"(, "types": {"smart_volume": {"demand": )" + shortest(fill * 125000 / kCount) + "}}}";
   }
-  return R"({"format": "behaviourlinks", "version": 1, "nodes": {)"
-         R"("plot": {"boundary": {"form": "plan", "plan": [[0, 0], [50, 0], [50, 50], [0, 50]], "height": 50}}, )"
-         R"("solver": {"smart_volumes_solver": {}}, "sum": {"statistics": {"port": "smart_volume.volume", "nodes": )"
-         R"({"typification": "smart_volume"}}})" +
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [)"
+         R"({"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0, 0], [50, 0], [50, 50], [0, 50]], "height": 50}}}, )"
+         R"({"id": "solver", "types": {"smart_volumes_solver": {}}}, )"
+         R"({"id": "sum", "types": {"statistics": {"port": "smart_volume.volume", "nodes": {"typification": "smart_volume"}}}})" +
          nodes +
-         R"(}, "links": {)"
-         R"("apart": {"kind": "keep_distance", "from": {"tag": "public"}, "to": {"tag": "public"}, )"
+         R"(], "links": [)"
+         R"({"id": "apart", "kind": "keep_distance", "from": {"tag": "public"}, "to": {"tag": "public"}, )"
          R"("parameters": {"minimum": 12, "maximum": 1000}}, )"
-         R"("cap": {"kind": "set_cap", "from": "sum", "to": {"typification": "smart_volume"}, "parameters": {"cap": 1e9}}, )"
-         R"("inside": {"kind": "inside_boundary", "from": "plot", "to": {"typification": "smart_volume"}, )"
-         R"("parameters": {"margin": 1}}}})";
+         R"({"id": "cap", "kind": "set_cap", "from": ["sum"], "to": {"typification": "smart_volume"}, "parameters": {"cap": 1e9}}, )"
+         R"({"id": "inside", "kind": "inside_boundary", "from": ["plot"], "to": {"typification": "smart_volume"}, )"
+         R"("parameters": {"margin": 1}}]})";
 }
 
 std::string volume_name(Random& random) { return "v" + std::to_string(1000 + random.below(120)); }

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/session/session.h"
+#include "tests/core/host/replays.h"
 #include "tests/support/hand_clock.h"
 #include "tests/support/world.h"
 
@@ -38,15 +39,7 @@ class HostTest : public testing::Test {
     session().step(count);
     session().settle();
   }
-  void expect_replays() {
-    const auto log = read_log(host_->log_text(), full_registry());
-    ASSERT_TRUE(log.ok()) << log.error().text();
-    const auto report = replay(*log, full_registry(), 1);
-    ASSERT_TRUE(report.ok()) << report.error().text();
-    EXPECT_EQ(report->checks, 1u);
-    EXPECT_FALSE(report->first_mismatch.has_value());
-    EXPECT_EQ(report->hash, hex_digits(session().moment()->ticked->hash));
-  }
+  void expect_replays() { test::expect_replays(*host_); }
 
   test::HandClock clock_;
   std::unique_ptr<Host> host_;

@@ -30,7 +30,7 @@ measure() {
   [ -z "${BL_LATENCY_PICTURES:-}" ] || import -window root "$BL_LATENCY_PICTURES/$node.png"
   key q ctrl
   end_window 0
-  tail -n +100 "$place/frames.csv" | summary "$what, a frame"
+  tail -n +100 "$place/frames.csv" | cut -d, -f1 | summary "$what, a frame"
   summary "$what, mouse to selection frame" <"$place/band"
   [ "$node" = - ] || summary "$what, mouse to dragged box" <"$place/box"
 }

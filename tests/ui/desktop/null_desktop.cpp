@@ -3,10 +3,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
+
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 
@@ -64,22 +67,27 @@ NullDesktop::~NullDesktop() {
 }
 
 void NullDesktop::frames(int count) {
+  for (int k = 0; k < count; ++k) frame_at(now_ + kFrame);
+}
+
+void NullDesktop::frame_at(double now) {
   ImGui::SetCurrentContext(context_);  // a test may have two desktops
-  for (int k = 0; k < count; ++k) {
-    now_ += kFrame;
-    // What the other thread shows of people's changes is there before each frame: tests are the same every time.
-    if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
-    ImGui::NewFrame();
-    desktop_->frame(now_);
-    ImGui::Render();
-    ImGui::GetIO().MouseWheel = 0;
-  }
+  ImGui::GetIO().DeltaTime = static_cast<float>(std::max(kFrame, now - now_));
+  now_ = now;
+  // What the other thread shows of people's changes is there before each frame: tests are the same every time.
+  if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
+  ImGui::NewFrame();
+  desktop_->frame(now_);
+  ImGui::Render();
+  ImGui::GetIO().MouseWheel = 0;
 }
 
 void NullDesktop::ticks(int count) {
   editor().document->session().step(count);
   editor().document->session().settle();
   frames(1);
+  // Lists of large scenes follow a moment later.
+  if (const double pause = figures_pause(editor().state().nodes.size()); pause > 0) frame_at(now_ + 2 * pause);
 }
 
 void NullDesktop::move_to(ImVec2 at) {

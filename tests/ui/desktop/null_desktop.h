@@ -23,6 +23,9 @@ class NullDesktop {
   Desktop& desktop() { return *desktop_; }
   /// Draws so many frames with the input as it is.
   void frames(int count = 1);
+  /// Draws one frame at that time of the window's clock [s], however long after the last one.
+  void frame_at(double now);
+  double now() const { return now_; }
   /// Ticks, and the frame that shows them.
   void ticks(int count);
 

@@ -92,6 +92,18 @@ key q ctrl
 end_window 0
 [ -n "$(ls "$place/state/behaviourlinks/journals")" ] || fail 'the journal of the killed window is gone'
 
+# A plan at rest is not drawn again and again: there is a pause between two frames, and an end to it when the mouse comes.
+cp "$checkout/scenes/links/attract.json" "$place/attract.json"
+start_window "$place/attract.json" --frame-times "$place/frames.csv"
+key Escape
+pause 15
+point "$((width / 2))" "$((height / 2))"
+key q ctrl
+end_window 0
+longest=$(awk -F, 'NR > 2 && $2 - last > most { most = $2 - last } { last = $2 } END { print int(most) }' "$place/frames.csv")
+[ "$longest" -ge 4 ] || fail "a plan at rest is drawn all the time: no pause is longer than $longest s"
+case $(tail -n 1 "$place/frames.csv" | cut -d, -f2) in 0*|1.*|2.*|3.*) fail 'nothing was drawn after the rest' ;; esac
+
 # What cannot be opened leaves a window that says so.
 echo '{"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "typos": {}}]}' >"$place/bad.json"
 start_window "$place/bad.json"

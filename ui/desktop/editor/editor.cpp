@@ -16,7 +16,6 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr double kNoticeSeconds = 5;
 constexpr std::size_t kMostNotices = 4;
 
 // That there is nothing is no error; that it does not fit any more is one, and says so itself.
@@ -94,8 +93,9 @@ void Editor::point_at(Area where) {
 void Editor::notify(NoticeKind kind, std::string text) {
   text = bounded({ErrorCode::internal, "", std::move(text)}).message;
   std::erase_if(notices, [&](const Notice& n) { return n.text == text; });
-  notices.push_back({kind, std::move(text), now + (kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds});
+  notices.push_back({.kind = kind, .text = std::move(text)});
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
+  go_on();
 }
 
 void Editor::list_problems(std::string file, std::vector<Problem> found) {
@@ -103,6 +103,7 @@ void Editor::list_problems(std::string file, std::vector<Problem> found) {
   problems = std::move(found);
   for (Problem& problem : problems) problem.error.message = bounded({problem.error.code, "", problem.error.message}).message;
   ++problems_revision;
+  go_on();
 }
 
 bool Editor::open(const std::string& wanted, bool plays) {

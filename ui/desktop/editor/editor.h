@@ -1,8 +1,10 @@
 // What all panels of a window share: the document, the selection, the theme, and `submit`, which changes the scene.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -36,8 +38,13 @@ enum class NoticeKind { told, warning, error };
 struct Notice {
   NoticeKind kind = NoticeKind::told;
   std::string text;
-  double until = 0;  ///< on the window's clock [s]
+  double until = kUnseen;  ///< on the window's clock [s]
+  /// Its time begins with the first frame that shows it: the window may have rested for long before.
+  static constexpr double kUnseen = -1;
 };
+
+/// Nothing that is drawn changes by itself.
+inline constexpr double kNoFrame = std::numeric_limits<double>::infinity();
 
 /// The wanted id, or the first free one of wish-2, wish-3 and so on.
 std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
@@ -63,9 +70,11 @@ class Editor {
   std::uint64_t problems_revision = 0;         ///< changes with each list
   std::shared_ptr<const host::Moment> moment;  ///< taken once for each frame; none without a document
   double now = 0;                              ///< the window's clock [s]
+  mutable double next_frame = kNoFrame;        ///< when this frame's panels want the next one, though nobody does anything [s]
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
+  bool has_devices = false;                    ///< sensors and actuators are connected: they are served in each tick
   bool serves_ticks = false;                   ///< each tick of a scene with recordings waits until it was served
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< memory of inspector, lists and charts for this document
@@ -100,6 +109,10 @@ class Editor {
   /// The mouse is over this area. A mouse that does not move leaves the keys with the other area.
   void point_at(Area where);
   void notify(NoticeKind kind, std::string text);
+  /// Asks for a frame at that time of the window's clock: what is drawn then is something else than now.
+  void wake_at(double time) const { next_frame = std::min(next_frame, time); }
+  /// Asks for a frame as soon as possible: something moves.
+  void go_on() const { wake_at(now); }
   /// Sets the problems of a file in place of those of the last one.
   void list_problems(std::string file, std::vector<Problem> found);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.

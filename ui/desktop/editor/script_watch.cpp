@@ -33,11 +33,16 @@ void ScriptWatch::add(Editor& editor, const std::string& path) {
   take(editor, name, file);
 }
 
-void ScriptWatch::poll(Editor& editor) {
-  if (!editor.document || editor.now < next_look_) return;
+bool ScriptWatch::poll(Editor& editor) {
+  if (!editor.document || editor.now < next_look_) return false;
   next_look_ = editor.now + kLook;
+  bool has_news = false;
   for (auto& [name, file] : files_)
-    if (has_changed(file.path, file.written, file.size)) take(editor, name, file);
+    if (has_changed(file.path, file.written, file.size)) {
+      take(editor, name, file);
+      has_news = true;
+    }
+  return has_news;
 }
 
 void ScriptWatch::take(Editor& editor, const std::string& name, const File& file) {

@@ -14,11 +14,13 @@ class ScriptWatch {
  public:
   /// Puts the file's text into the scene as a link kind, and watches the file from now on, even where it cannot be read yet.
   void add(Editor& editor, const std::string& path);
-  /// Looks for newly saved files a few times a second of the window's clock.
-  void poll(Editor& editor);
+  /// Looks for newly saved files a few times a second of the window's clock; whether there was one.
+  bool poll(Editor& editor);
   /// Forgets all files when their scene is closed.
   void clear() { files_.clear(); }
   std::size_t size() const { return files_.size(); }
+  /// When poll() looks at the files again [s].
+  double next_look() const { return next_look_; }
 
  private:
   struct File {

@@ -9,6 +9,16 @@ namespace bl::desktop {
 
 void watch_run(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
+  const std::shared_ptr<const State>& state = editor.moment->state;
+  const bool is_the_same_scene = memory.watched && memory.watched->plan->dependents == state->plan->dependents &&
+                                 memory.watched_problems == editor.problems_revision;
+  if (is_the_same_scene && editor.now < memory.watch_at) {
+    if (memory.watched != state) editor.wake_at(memory.watch_at);
+    return;
+  }
+  if (memory.watched != state) memory.watch_at = editor.now + figures_pause(state->nodes.size());
+  memory.watched = state;
+  memory.watched_problems = editor.problems_revision;
   memory.record->sample(editor);
   memory.problems->refresh(editor, memory.record->figures(editor));
 }

@@ -69,6 +69,9 @@ void draw_standing(Workbench& editor) {
   } else if (state.is_settled()) {
     colour = c.good;
     text = std::string(icon::kCheck) + "  settled, worst error " + fixed(100 * state.largest_residual, 2) + " %";
+  } else if (moment.is_resting) {
+    colour = c.warning;
+    text = "nothing moves, but not settled: worst error " + fixed(100 * state.largest_residual, 2) + " %";
   } else if (state.tick > 0 && !moment.is_playing) {
     text = "paused: worst error " + fixed(100 * state.largest_residual, 2) + " %, press P to go on";
   } else if (state.tick > 0) {
@@ -101,7 +104,9 @@ void draw_clock(Workbench& editor) {
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(theme.fonts().strong);
-  ImGui::Text("tick %lld", static_cast<long long>(editor.state().tick));
+  // A number that counts on while nothing else happens would keep the whole window busy.
+  if (moment.is_resting) ImGui::TextUnformatted("at rest");
+  else ImGui::Text("tick %lld", static_cast<long long>(editor.state().tick));
   ImGui::PopFont();
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();

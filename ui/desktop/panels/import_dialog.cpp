@@ -19,6 +19,7 @@ namespace bl::desktop {
 namespace {
 
 constexpr float kLabelAt = 250;
+constexpr double kProgressSeconds = 1.0 / 30;  // between two frames of a running import
 
 std::string name_of_file(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -146,6 +147,7 @@ void Dialogs::draw_import_options() {
 void Dialogs::draw_import_progress() {
   const Theme& theme = editor_->theme;
   const importing::ImportWatch& watch = import_task_->watch();
+  editor_->wake_at(editor_->now + kProgressSeconds);
   const std::size_t file = std::min<std::size_t>(watch.file, import_.files.size() - 1), done = watch.done, total = watch.total;
   const std::string name = name_of_file(import_.files[file]);
   ImGui::Dummy({0, theme.px(30)});

@@ -53,6 +53,9 @@ struct PanelMemory {
   std::unique_ptr<InspectorView> view;    ///< of what is chosen, per tick
   std::unique_ptr<ProblemList> problems;  ///< of the last tick
   std::unique_ptr<RunRecord> record;      ///< of the last ticks
+  std::shared_ptr<const State> watched;   ///< of `record` and `problems`
+  std::uint64_t watched_problems = 0;     ///< the revision of those of the file
+  double watch_at = 0;                    ///< when they are made anew at the earliest [s]
   std::unique_ptr<ImportList> imports;    ///< of the reports, as they are shown
 };
 

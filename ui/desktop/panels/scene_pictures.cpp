@@ -163,7 +163,7 @@ struct ScenePictures::Worker {
   const Registry& registry;
   mutable std::mutex mutex;
   std::vector<std::shared_ptr<const ScenePicture>> pictures;
-  std::atomic<bool> is_ending = false;
+  std::atomic<bool> is_ending = false, is_done = false;
   std::thread thread;
 
   explicit Worker(const Registry& all) : registry(all) {}
@@ -200,6 +200,7 @@ ScenePictures::ScenePictures(const Registry& registry, std::vector<std::string> 
         // A scene without a picture can be opened all the same, and then says what is wrong.
       }
     }
+    worker.is_done = true;
   });
 }
 
@@ -207,6 +208,8 @@ ScenePictures::~ScenePictures() {
   worker_->is_ending = true;
   worker_->thread.join();
 }
+
+bool ScenePictures::is_done() const { return worker_->is_done; }
 
 std::vector<std::shared_ptr<const ScenePicture>> ScenePictures::pictures() const {
   const std::lock_guard lock(worker_->mutex);

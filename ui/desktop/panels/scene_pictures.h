@@ -36,6 +36,8 @@ class ScenePictures {
 
   /// Pictures in the order of the paths; each is replaced by a finished one as soon as there is one.
   std::vector<std::shared_ptr<const ScenePicture>> pictures() const;
+  /// Have all been made that can be?
+  bool is_done() const;
 
  private:
   struct Worker;

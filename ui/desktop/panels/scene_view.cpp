@@ -19,6 +19,18 @@ constexpr double kChangeSeconds = 0.28;
 // Nothing has moved for so long: there is time for a finer picture.
 constexpr double kStillSeconds = 0.3;
 
+// How often pictures that are on their way are looked for.
+constexpr double kPictureSeconds = 0.05;
+
+bool has_same_shapes(const VolumeList& a, const VolumeList& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (k % VolumeList::kLeaf == 0 && a.shares_leaf(b, k / VolumeList::kLeaf)) k += VolumeList::kLeaf - 1;
+    else if (a[k].cell != b[k].cell) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void SceneView::draw(ImVec2 size) {
@@ -40,16 +52,16 @@ void SceneView::draw(ImVec2 size) {
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   follow_sun();
   follow_choice();
-  colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
+  follow_colours();
   choices_.folder = editor_->document->folder();
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
-  const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
-                                         [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
+  const bool has_same_cells = still_facts_ && has_same_shapes(facts_->volumes, still_facts_->volumes);
   if (scene.camera != still_camera_ || scene.sun != still_sun_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
   still_sun_ = scene.sun;
-  still_volumes_ = scene.volumes;
+  still_facts_ = facts_;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
+  if (scene.is_hurried) editor_->wake_at(still_since_ + kStillSeconds);
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
   const float dense = density.x > 0 ? density.x : 1;
   const std::uintptr_t picture = renderer_->draw(scene, static_cast<int>(size.x * dense), static_cast<int>(size.y * dense));
@@ -57,6 +69,8 @@ void SceneView::draw(ImVec2 size) {
   if (picture != 0)
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1},
                                          {1, 0});
+  if (change_began_ >= 0 || is_sun_running_) editor_->go_on();
+  if (renderer_->is_waiting()) editor_->wake_at(editor_->now + kPictureSeconds);
   draw_overlay();
   shown_for_ = is_hovered_ ? ImGui::GetIO().MousePos : ImVec2{-1, -1};
   last_frame_ = editor_->now;
@@ -92,7 +106,8 @@ void SceneView::draw_overlay() {
 void SceneView::forget() {
   document_ = 0;
   all_facts_ = facts_ = nullptr;
-  still_volumes_.clear();
+  still_facts_ = coloured_ = nullptr;
+  uses_ = {};
   move_.reset();
   preview_.reset();
   is_sun_running_ = false;
@@ -142,6 +157,16 @@ void SceneView::follow_state() {
   camera.fit({facts_->centre.x, facts_->centre.y, facts_->ground + 0.35 * (facts_->centre.z - facts_->ground)},
              0.86 * facts_->radius, width() / std::max(1.0f, height()));
   set_camera(camera);
+}
+
+// Colours follow from what there is, and are kept as long as that is the same.
+void SceneView::follow_colours() {
+  const bool is_dark = editor_->theme.is_dark();
+  if (coloured_ == facts_ && coloured_by_ == colour_choice() && is_coloured_dark_ == is_dark) return;
+  coloured_ = facts_;
+  coloured_by_ = colour_choice();
+  is_coloured_dark_ = is_dark;
+  colouring_ = colour_volumes(*facts_, coloured_by_, editor_->theme, uses_.of(facts_->state));
 }
 
 void SceneView::set_camera(const Camera& camera) {

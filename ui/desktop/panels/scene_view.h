@@ -31,6 +31,9 @@ struct LegendPlaces {
   float top = 0, highest = 0;       ///< where they end, and where they have to [pixels]
 };
 
+/// What is to be written beside a node.
+struct LabelRequest;
+
 class SceneView {
  public:
   SceneView(Workbench& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
@@ -92,6 +95,8 @@ class SceneView {
   const std::string& pointed_at() const { return pointed_at_; }
   /// What is drawn and can be picked: without the nodes that are hidden.
   const SceneFacts* facts() const { return facts_.get(); }
+  /// Does what is drawn follow from the number of the tick alone?
+  bool shows_ticks() const { return all_facts_ && all_facts_->has_sequence; }
   /// Where the note on hidden nodes was drawn in the last frame [pixels]; no size where there is none.
   ImVec4 hidden_note() const { return hidden_note_; }
   /// As they were drawn in the last frame.
@@ -117,6 +122,7 @@ class SceneView {
   void follow_document();
   void follow_state();
   void advance_camera();
+  void follow_colours();
   void take_keys();
   void take_mouse();
   void draw_overlay();
@@ -150,6 +156,7 @@ class SceneView {
 
   // scene_view_overlay.cpp
   void draw_marks();
+  std::vector<LabelRequest> label_wishes() const;
   void draw_labels();
   void draw_media_notes();
   void draw_pin();
@@ -202,12 +209,16 @@ class SceneView {
   HiddenNodes hidden_;
   std::set<std::string> left_out_;  ///< of `facts_`
   Colouring colouring_;
+  std::shared_ptr<const SceneFacts> coloured_;  ///< what `colouring_` is of, by this choice and on this ground
+  std::string coloured_by_;
+  bool is_coloured_dark_ = false;
+  UseMemo uses_;
   std::uint64_t document_ = 0;  ///< whose facts these are
   bool wants_fit_ = true, has_fitted_boundary_ = false;
   Camera from_, to_;
   double change_began_ = -1, last_frame_ = 0;
   Camera still_camera_;
-  std::vector<ViewVolume> still_volumes_;
+  std::shared_ptr<const SceneFacts> still_facts_;
   Vector3 still_sun_;
   double still_since_ = 0;
   bool is_walking_ = false;

@@ -11,6 +11,14 @@
 
 namespace bl::desktop {
 
+struct LabelRequest {
+  const std::string* text = nullptr;
+  Seen at;
+  bool is_chosen = false, is_mark = false;
+  std::uint32_t node = 0;
+  std::optional<StreamText> stream;
+};
+
 namespace {
 
 constexpr std::size_t kMostLabels = 70, kMostSigns = 120, kMostDots = 4000;
@@ -21,13 +29,13 @@ struct Rectangle {
   bool meets(const Rectangle& o) const { return left < o.right && o.left < right && top < o.bottom && o.top < bottom; }
 };
 
-struct LabelRequest {
-  const std::string* text;
-  Seen at;
-  double importance;
-  bool is_chosen, is_mark;
-  std::uint32_t node;
-  std::optional<StreamText> stream;
+// A wish before anybody knows whether it is among those that are written: thousands of them are looked at.
+struct LabelCandidate {
+  double importance = 0;
+  std::size_t order = 0;  // volumes, then marks
+  bool operator<(const LabelCandidate& o) const {
+    return importance != o.importance ? importance > o.importance : order < o.order;
+  }
 };
 
 // Of the name, and of the line below it in which a sensor says what it has measured.
@@ -111,29 +119,50 @@ Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   return nowhere;
 }
 
+// The most important ones, and of those that are alike the first.
+std::vector<LabelRequest> SceneView::label_wishes() const {
+  const Lens lens(choices_.camera, width(), height());
+  const double least = kLeastVolumeOnScreen * editor_->theme.scale(), of_marks = 14.0 * editor_->theme.scale();
+  const std::size_t volumes = facts_->volumes.size(), marks = shows("marks") ? facts_->marks.size() : 0;
+  const auto is_lit = [&](const std::string& id, bool& is_chosen) {
+    is_chosen = editor_->picks.nodes.contains(id);
+    return editor_->picks.hovered_node == id;
+  };
+  std::vector<LabelCandidate> candidates;
+  const auto consider = [&](const std::string& id, std::uint32_t node, double size, std::size_t order) {
+    bool is_chosen = false;
+    const bool is_hovered = is_lit(id, is_chosen);
+    const Seen at = lens.project(place_of(node));
+    const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
+    if (!at.is_in_front || !is_inside || (!is_chosen && !is_hovered && size < least)) return;
+    candidates.push_back({size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), order});
+  };
+  std::size_t order = 0;
+  for (const VolumeFacts& volume : facts_->volumes)
+    consider(volume.id, volume.node, volume.figures.radius / lens.metres_per_pixel(volume.figures.position), order++);
+  for (std::size_t k = 0; k < marks; ++k) consider(facts_->marks[k].id, facts_->marks[k].node, of_marks, order++);
+  const std::size_t count = std::min(kMostLabels, candidates.size());
+  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
+  std::vector<LabelRequest> wishes;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t row = candidates[k].order;
+    LabelRequest& wish = wishes.emplace_back();
+    wish.is_mark = row >= volumes;
+    const std::string& id = wish.is_mark ? facts_->marks[row - volumes].id : facts_->volumes[row].id;
+    wish.text = wish.is_mark ? &facts_->marks[row - volumes].name : &facts_->volumes[row].name;
+    wish.node = wish.is_mark ? facts_->marks[row - volumes].node : facts_->volumes[row].node;
+    wish.at = lens.project(place_of(wish.node));
+    wish.is_chosen = is_lit(id, wish.is_chosen) || wish.is_chosen;
+    wish.stream = stream_of(*editor_, *facts_->state, wish.node);
+  }
+  return wishes;
+}
+
 void SceneView::draw_labels() {
   if (!shows("labels")) return;
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  std::vector<LabelRequest> wishes;
-  const auto wish = [&](const std::string& id, const std::string& text, std::uint32_t node, double size, bool is_mark) {
-    const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
-    const Seen at = seen(place_of(node));
-    const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
-    if (!at.is_in_front || !is_inside) return;
-    if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back(
-        {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
-  };
-  for (const VolumeFacts& volume : facts_->volumes)
-    wish(volume.id, volume.name, volume.node,
-         volume.figures.radius / choices_.camera.metres_per_pixel(volume.figures.position, height()), false);
-  if (shows("marks"))
-    for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
-  std::stable_sort(wishes.begin(), wishes.end(),
-                   [](const LabelRequest& a, const LabelRequest& b) { return a.importance > b.importance; });
-  if (wishes.size() > kMostLabels) wishes.resize(kMostLabels);
-  for (LabelRequest& one : wishes) one.stream = stream_of(*editor_, *facts_->state, one.node);
+  std::vector<LabelRequest> wishes = label_wishes();
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = theme.fonts().small;

@@ -16,6 +16,8 @@ namespace {
 
 namespace files = std::filesystem;
 
+constexpr double kPicturesSeconds = 0.2;  // between two looks at what pictures there are
+
 // What shows most of the program comes first; the others follow by name.
 int rank_of(const files::path& scene) {
   constexpr std::array<const char*, 3> kFirst = {"urban_mode", "sixty_volumes", "thousand_volumes"};
@@ -58,6 +60,7 @@ bool row(const Theme& theme, const char* sign, const std::string& text, const st
 
 void StartPage::draw() {
   if (!pictures_) pictures_ = std::make_unique<ScenePictures>(editor_->program, shipped_scenes());
+  if (!pictures_->is_done()) editor_->wake_at(editor_->now + kPicturesSeconds);
   const Theme& theme = editor_->theme;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float margin = theme.px(48), left = theme.px(380);

@@ -11,12 +11,19 @@ namespace {
 
 constexpr std::size_t kMostSamples = 600;
 constexpr double kRecordSmoothing = 0.1;
+constexpr std::size_t kManyNodes = 500;
+constexpr double kPauseOfNode = 1e-4;  // [s]
 // Rows that change places more often than this cannot be read [s].
 constexpr double kSortPause = 1;
+
+// Frames further apart than this do not belong to one movement [s].
+constexpr double kDrawingPause = 0.2;
 
 double smooth(double old, double fresh) { return old == 0 ? fresh : old + kRecordSmoothing * (fresh - old); }
 
 }  // namespace
+
+double figures_pause(std::size_t nodes) { return nodes > kManyNodes ? kPauseOfNode * static_cast<double>(nodes) : 0; }
 
 void RunRecord::forget_from(double number) {
   while (!tick.empty() && tick.back() >= number)
@@ -29,7 +36,9 @@ void RunRecord::drop_oldest() {
 }
 
 void RunRecord::sample(const Workbench& editor) {
-  if (last_frame_ > 0 && editor.now > last_frame_) frame_rate = smooth(frame_rate, 1 / (editor.now - last_frame_));
+  // Pauses in which there was nothing to draw say nothing about how fast pictures follow each other.
+  if (const double since = editor.now - last_frame_; last_frame_ > 0 && since > 0 && since < kDrawingPause)
+    frame_rate = smooth(frame_rate, 1 / since);
   last_frame_ = editor.now;
   const std::shared_ptr<const State>& state = editor.moment->state;
   if (state == sampled_) return;
@@ -64,8 +73,16 @@ std::vector<reading::ErrorSample> RunRecord::errors() const {
 }
 
 const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
-  if (figured_ == editor.moment->state && figures_) return *figures_;
-  figured_ = editor.moment->state;
+  const std::shared_ptr<const State>& state = editor.moment->state;
+  if (figured_ == state && figures_) return *figures_;
+  const bool has_the_same_rows = figures_ && figured_->plan->dependents == state->plan->dependents;
+  const double next = figured_at_ + figures_pause(state->nodes.size());
+  if (has_the_same_rows && editor.now < next) {
+    editor.wake_at(next);
+    return *figures_;
+  }
+  figured_ = state;
+  figured_at_ = editor.now;
   figures_ = std::make_unique<reading::ReportModel>();
   reading::read_figures(*figured_, *figures_);
   return *figures_;
@@ -73,8 +90,11 @@ const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
 
 const std::vector<std::size_t>& RunRecord::ordered(const Workbench& editor) {
   const auto& volumes = figures(editor).volumes;
-  const bool is_due = sorted_ != editor.moment->state && editor.now - sorted_at_ > kSortPause;
-  if (!is_order_stale && ordered_.size() == volumes.size() && !is_due) return ordered_;
+  const bool is_stale = sorted_ != editor.moment->state, is_due = is_stale && editor.now >= sorted_at_ + kSortPause;
+  if (!is_order_stale && ordered_.size() == volumes.size() && !is_due) {
+    if (is_stale) editor.wake_at(sorted_at_ + kSortPause);
+    return ordered_;
+  }
   is_order_stale = false;
   sorted_ = editor.moment->state;
   sorted_at_ = editor.now;

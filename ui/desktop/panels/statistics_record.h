@@ -14,13 +14,18 @@ namespace bl::desktop {
 
 enum class VolumeOrder { error, name, use, size };
 
+/// How often lists and figures of a scene of so many nodes are made anew while it changes [s]. Thousands of rows that change in
+/// every frame are read by nobody; what they are rows of is followed at once.
+double figures_pause(std::size_t nodes);
+
 class RunRecord {
  public:
   /// Takes a sample where a tick has passed since the last call; after a rewind the ticks that were undone are forgotten.
   void sample(const Workbench& editor);
   /// The ticks that are remembered, as the report wants them.
   std::vector<reading::ErrorSample> errors() const;
-  /// Volumes, uses and totals of the current state; made when they are asked for.
+  /// Volumes, uses and totals of the current state; made when they are asked for. Of a large scene that changes in every frame
+  /// they are those of a moment ago.
   const reading::ReportModel& figures(const Workbench& editor);
   /// Indices of the volumes in the order that is wanted; it settles down between changes.
   const std::vector<std::size_t>& ordered(const Workbench& editor);
@@ -41,7 +46,7 @@ class RunRecord {
   std::vector<std::size_t> ordered_;
   PhaseTimes times_;
   std::uint64_t bytes_sent_ = 0;
-  double sorted_at_ = -1, last_frame_ = 0;
+  double sorted_at_ = -1, figured_at_ = -1, last_frame_ = 0;
 };
 
 }  // namespace bl::desktop

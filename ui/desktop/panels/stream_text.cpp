@@ -13,6 +13,8 @@ namespace {
 using reading::ActuatorFigures;
 using reading::SensorFigures;
 
+constexpr double kAgeSeconds = 1;  // an age that is written in seconds is another one then
+
 // A unit that the program does not know stands behind the number as people have written it.
 std::string value_text(double value, const std::string& unit) {
   const UnitInfo* known = find_unit(unit);
@@ -52,6 +54,7 @@ StreamText actuator_text(const Workbench& editor, const State& state, std::uint3
     const Delivery& one = delivery->second;
     const double since = editor.now - one.sent_at;
     stream.age = one.sent_at < 0 ? "not sent yet" : since < 0.5 ? "sent just now" : "sent " + age_text(since) + " ago";
+    if (one.sent_at >= 0) editor.wake_at(editor.now + kAgeSeconds);
     stream.standing = one.sent_at < 0 ? StreamStanding::stale : StreamStanding::good;
     stream.message = one.problem;
     if (!one.problem.empty()) stream.standing = StreamStanding::lost, stream.quality = "line lost";

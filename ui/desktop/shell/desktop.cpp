@@ -2,6 +2,9 @@
 #include "ui/desktop/shell/desktop.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include <imgui_internal.h>
 
 #include "core/making/context_import.h"
 #include "core/making/media_making.h"
@@ -22,6 +25,11 @@ constexpr float kLeastPane = 160;
 // With large letters on a small screen, fields and lists leave room for what they are about.
 constexpr float kMostOfSide = 0.36f, kMostOfBottom = 0.4f;
 constexpr const char* kSide = "side";
+constexpr double kNoticeSeconds = 5;
+// Dear ImGui shows a caret for two thirds of 1.2 s and hides it for one.
+constexpr double kCaretSeconds = 0.4;
+// Values that a gesture has not logged yet are looked at this often.
+constexpr double kGestureSeconds = 0.05;
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
@@ -41,6 +49,18 @@ void pane(const char* name, ImVec2 at, ImVec2 size, ImU32 ground, ImVec2 padding
   ImGui::PopStyleVar(2);
   if (is_open) draw();
   ImGui::End();
+}
+
+// What input changes by the passing of time: keys that are held, a field that is written into, the ground behind a dialog.
+void ask_for_input(const Editor& editor) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto is_held = [](bool is_down) { return is_down; };
+  const bool has_dialog = ImGui::GetTopMostPopupModal() != nullptr;
+  const float dimmed = ImGui::GetCurrentContext()->DimBgRatio;
+  if (std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), is_held) ||
+      std::any_of(std::begin(io.MouseDown), std::end(io.MouseDown), is_held) || dimmed != (has_dialog ? 1.0f : 0.0f))
+    editor.go_on();
+  if (io.WantTextInput) editor.wake_at(editor.now + kCaretSeconds);
 }
 
 }  // namespace
@@ -113,8 +133,9 @@ void Desktop::watch_journal() {
 void Desktop::frame(double now) {
   Workbench& editor = *editor_;
   editor.now = now;
+  editor.next_frame = kNoFrame;
   editor.begin_frame();
-  editor.script_watch.poll(editor);
+  (void)editor.script_watch.poll(editor);
   if (editor.document) editor.moment = editor.document->session().moment();
   else editor.moment = nullptr;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -146,6 +167,15 @@ void Desktop::frame(double now) {
   editor.bytes_sent += renderer_->take_bytes_sent();
   dialogs_->draw();
   draw_notices();
+  if (editor.document) let_rest();
+  ask_for_input(editor);
+}
+
+// A scene that needs each tick for itself keeps the clock awake: devices are served in each, and some pictures follow its number.
+void Desktop::let_rest() {
+  host::LiveSession& session = editor_->document->session();
+  session.let_rest(!editor_->has_devices && !view_->shows_ticks());
+  if (session.has_waiting_values()) editor_->wake_at(editor_->now + kGestureSeconds);
 }
 
 // Toolbar, then canvas and 3D view side by side, the inspector to their right and lists and charts below.
@@ -203,7 +233,10 @@ void Desktop::draw_notices() {
   Workbench& editor = *editor_;
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
-  std::erase_if(editor.notices, [&](const Notice& n) { return n.until < editor.now; });
+  for (Notice& notice : editor.notices)
+    if (notice.until == Notice::kUnseen) notice.until = editor.now + (notice.kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds;
+  std::erase_if(editor.notices, [&](const Notice& n) { return n.until <= editor.now; });
+  for (const Notice& notice : editor.notices) editor.wake_at(notice.until);
   float y = ImGui::GetIO().DisplaySize.y - theme.px(20);
   for (std::size_t k = editor.notices.size(); k-- > 0;) {
     const Notice& notice = editor.notices[k];

@@ -18,7 +18,8 @@ class Desktop {
   Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer);
   ~Desktop();
 
-  /// One frame, between ImGui::NewFrame and ImGui::Render; `now` on the window's clock [s].
+  /// One frame, between ImGui::NewFrame and ImGui::Render; `now` on the window's clock [s]. Afterwards `Editor::next_frame` says
+  /// when the next one is wanted, though nobody does anything.
   void frame(double now);
   Workbench& editor() { return *editor_; }
   /// What the window is called: the scene, and a mark where it has unsaved changes.
@@ -39,6 +40,7 @@ class Desktop {
   void drop_one(const std::string& path);
   void draw_notices();
   void watch_journal();
+  void let_rest();
 
   std::unique_ptr<Workbench> editor_;
   std::unique_ptr<Canvas> canvas_;

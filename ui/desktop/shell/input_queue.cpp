@@ -1,6 +1,7 @@
 // Which events share a frame.
 #include "ui/desktop/shell/input_queue.h"
 
+#include <algorithm>
 #include <cfloat>
 
 #include <GLFW/glfw3.h>
@@ -15,6 +16,7 @@ constexpr int kOpeningFrames = 3;
 // Older than this nothing is acted on any more: frames that take so long are many more than a chord needs.
 constexpr double kStaleSeconds = 2;
 constexpr long kStaleFrames = 20;
+constexpr double kLongestFrame = 0.5;  // [s]
 
 bool is_modifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 bool is_shift(int key) { return key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT; }
@@ -101,7 +103,8 @@ void InputQueue::apply(const Event& event, Frame& frame, ImGuiIO& io) {
 void InputQueue::hand_over(ImGuiIO& io) {
   Frame frame;
   const bool is_typing = io.WantTextInput;
-  clock_ += static_cast<double>(io.DeltaTime);
+  // Before this frame the window may have stood still for hours: that has kept nobody's hands waiting.
+  clock_ += std::min(static_cast<double>(io.DeltaTime), kLongestFrame);
   ++frame_;
   ++frames_since_press_;
   ++frames_since_order_;

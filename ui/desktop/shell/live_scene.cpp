@@ -14,13 +14,15 @@ void LiveScene::frame() {
     folder_ = folder;
     devices_.reset();
     editor.deliveries.clear();
+    editor.has_devices = false;
     tick_ = -1;
     if (number != 0) devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
   }
   if (!devices_ || !editor.moment) return;
   host::LiveSession& session = editor.document->session();
-  if (devices_->follow(session.said(), session.last_seq()) && devices_->has_recordings() != session.do_ticks_wait())
-    session.make_ticks_wait(devices_->has_recordings());
+  const bool has_news = devices_->follow(session.said(), session.last_seq());
+  editor.has_devices = !devices_->is_empty();
+  if (has_news && devices_->has_recordings() != session.do_ticks_wait()) session.make_ticks_wait(devices_->has_recordings());
   std::int64_t tick = editor.moment->state->tick;
   if (session.do_ticks_wait()) {
     const auto unserved = session.unserved_tick();

@@ -13,7 +13,7 @@ namespace bl::desktop {
 class LiveScene {
  public:
   LiveScene(Editor& editor, bool is_live) : editor_(&editor), is_live_(is_live) { editor.serves_ticks = true; }
-  ~LiveScene() { editor_->serves_ticks = false; }
+  ~LiveScene() { editor_->serves_ticks = editor_->has_devices = false; }
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
   /// Once for each frame of the window.

@@ -17,7 +17,7 @@ int main(int count, char** arguments) {
   app.add_flag("--paused", is_paused, "Opens with the clock stopped.");
   app.add_flag("--live", options.is_live, "Connects to the sensors and actuators of the scene.");
   app.add_option("--pictures", options.pictures, "Folder for the pictures that F12 takes.")->type_name("DIR");
-  app.add_option("--frame-times", options.times, "File for the time of every frame, as CSV in milliseconds, written at the end.")
+  app.add_option("--frame-times", options.times, "File for the time that every frame took [ms] and when it began [s], as CSV, written at the end.")
       ->type_name("FILE");
   app.add_option("--seconds", options.seconds, "Closes the window after this number of seconds.")->type_name("S");
   app.add_option("--plugins", options.plugins,

@@ -1,7 +1,8 @@
-// GLFW, ImGui's backends and the loop: one frame at the display's rate, whatever the simulation does.
+// GLFW, ImGui's backends and the loop: frames at the display's rate while there is something to draw, and none while there is
+// not.
 #include "ui/desktop/shell/window.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "core/file/file_io.h"
 #include "core/session/types/plugins.h"
 #include "ui/desktop/shell/desktop.h"
+#include "ui/desktop/shell/frame_watch.h"
 #include "ui/desktop/shell/input_queue.h"
 #include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/view/gl_renderer.h"
@@ -32,9 +34,13 @@ namespace {
 constexpr int kDone = 0, kBadInput = 2;
 // A window that nobody looks at draws seldom.
 constexpr double kIdleFrame = 0.25;
+constexpr double kShortestRest = 0.001;  // [s]
 
 struct FrameTimes {
-  std::vector<double> milliseconds;
+  struct Frame {
+    double milliseconds, begin;
+  };
+  std::vector<Frame> frames;
 };
 
 // Writes what the window shows as a numbered PNG; where to, or why not, becomes a notice.
@@ -57,12 +63,22 @@ void take_picture(Editor& editor, const std::string& wanted_folder, GLFWwindow* 
 }
 
 // Without a display that paces the frames, the loop does it itself; an event ends the wait.
-void wait_for_next_frame(double begin) {
+void wait_for_next_frame(GLFWwindow* window, double begin) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
   const double frame = 1.0 / (mode != nullptr && mode->refreshRate > 20 ? mode->refreshRate : 60);
-  const double rest = 0.9 * frame - (glfwGetTime() - begin);
-  if (rest > 0.001) glfwWaitEventsTimeout(rest);
+  const bool is_seen = glfwGetWindowAttrib(window, GLFW_ICONIFIED) == 0;
+  const double left = (is_seen ? 0.9 * frame : kIdleFrame) - (glfwGetTime() - begin);
+  if (left > kShortestRest) glfwWaitEventsTimeout(left);
+}
+
+// Until somebody does something, another moment is there, or it is time to look again.
+void rest(FrameWatch& watch, double end) {
+  (void)watch.wait([&] {
+    const double until = std::min(watch.next_look(), end);
+    if (until == kNoFrame) glfwWaitEvents();
+    else glfwWaitEventsTimeout(std::max(kShortestRest, until - glfwGetTime()));
+  });
 }
 
 // What the screen has for windows; nothing known where there is no monitor.
@@ -129,30 +145,46 @@ class Window {
 // What the window's callbacks reach.
 struct CallbackTarget {
   Desktop& desktop;
+  FrameWatch& watch;
   InputQueue input;
 };
 CallbackTarget& hands_of(GLFWwindow* window) { return *static_cast<CallbackTarget*>(glfwGetWindowUserPointer(window)); }
+InputQueue& input_of(GLFWwindow* window) {
+  hands_of(window).watch.touch();
+  return hands_of(window).input;
+}
 
 void listen(GLFWwindow* window, CallbackTarget& hands) {
   glfwSetWindowUserPointer(window, &hands);
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    hands_of(w).watch.touch();
     if (count > 0) hands_of(w).desktop.drop(std::vector<std::string>(paths, paths + count));
   });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-    if (action != GLFW_REPEAT) hands_of(w).input.key(key, action == GLFW_PRESS);
+    if (action != GLFW_REPEAT) input_of(w).key(key, action == GLFW_PRESS);
   });
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int letter) { hands_of(w).input.text(letter); });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int letter) { input_of(w).text(letter); });
   glfwSetMouseButtonCallback(
-      window, [](GLFWwindow* w, int button, int action, int) { hands_of(w).input.button(button, action == GLFW_PRESS); });
+      window, [](GLFWwindow* w, int button, int action, int) { input_of(w).button(button, action == GLFW_PRESS); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-    hands_of(w).input.wheel({static_cast<float>(x), static_cast<float>(y)});
+    input_of(w).wheel({static_cast<float>(x), static_cast<float>(y)});
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-    hands_of(w).input.move({static_cast<float>(x), static_cast<float>(y)});
+    input_of(w).move({static_cast<float>(x), static_cast<float>(y)});
   });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int has_entered) {
-    if (has_entered == GLFW_FALSE) hands_of(w).input.leave();
+    if (has_entered == GLFW_FALSE) input_of(w).leave();
   });
+}
+
+// What has to be drawn anew though nobody has touched keys or mouse.
+void listen_to_screen(GLFWwindow* window) {
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { hands_of(w).watch.touch(); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { hands_of(w).watch.touch(); });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { hands_of(w).watch.touch(); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { hands_of(w).watch.touch(); });
+  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { hands_of(w).watch.touch(); });
+  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { hands_of(w).watch.touch(); });
 }
 
 // Fonts and colours as the person has chosen them, made anew only where that has changed.
@@ -191,12 +223,16 @@ void draw_frame(GLFWwindow* window, CallbackTarget& hands, double begin) {
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  hands.watch.drawn(begin);
+  // What one frame could not tell apart waits for the next one.
+  if (!hands.input.is_empty()) hands.watch.touch();
 }
 
 void write_times(const std::string& path, const FrameTimes& times) {
   if (path.empty()) return;
-  std::string text = "frame_ms\n";
-  for (const double ms : times.milliseconds) text += std::to_string(ms) + "\n";
+  std::string text = "frame_ms,begin_s\n";
+  for (const FrameTimes::Frame& frame : times.frames)
+    text += std::to_string(frame.milliseconds) + "," + std::to_string(frame.begin) + "\n";
   if (auto written = write_file(path, text); !written) complain(written.error().text());
 }
 
@@ -219,26 +255,32 @@ int run_window(const WindowOptions& options) noexcept {
   {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
-    CallbackTarget hands{desktop, {}};
+    FrameWatch watch(desktop, glfwPostEmptyEvent);
+    CallbackTarget hands{desktop, watch, {}};
     LiveScene live(editor, options.is_live);
     listen(window.handle(), hands);
+    listen_to_screen(window.handle());
     Look look;
     if (!options.scene.empty()) editor.open(options.scene, options.is_playing);
     desktop.offer_recovery();
     std::string title;
+    const double end = options.seconds > 0 ? options.seconds : kNoFrame;
     while (!editor.wants_quit) {
       glfwPollEvents();
-      if (glfwGetWindowAttrib(window.handle(), GLFW_ICONIFIED) != 0) glfwWaitEventsTimeout(kIdleFrame);
       if (glfwWindowShouldClose(window.handle()) != 0) {
         glfwSetWindowShouldClose(window.handle(), GLFW_FALSE);
         desktop.ask_to_quit();
       }
       const double begin = glfwGetTime();
-      if (options.seconds > 0 && begin > options.seconds) break;
+      if (begin > end) break;
+      if (!watch.is_due(begin)) {
+        rest(watch, end);
+        continue;
+      }
       look.follow(editor);
       draw_frame(window.handle(), hands, begin);
       live.frame();
-      if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
+      if (!options.times.empty()) times.frames.push_back({1000 * (glfwGetTime() - begin), begin});
       if (editor.wants_picture) take_picture(editor, options.pictures, window.handle());
       editor.wants_picture = false;
       glfwSwapBuffers(window.handle());
@@ -246,7 +288,7 @@ int run_window(const WindowOptions& options) noexcept {
         title = std::move(now_title);
         glfwSetWindowTitle(window.handle(), title.c_str());
       }
-      wait_for_next_frame(begin);
+      wait_for_next_frame(window.handle(), begin);
     }
     glfwGetWindowSize(window.handle(), &person.width, &person.height);
   }

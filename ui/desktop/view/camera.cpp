@@ -72,17 +72,35 @@ Ray Camera::ray(double x, double y, double width, double height) const {
   return {eye(), way / norm(way)};
 }
 
-Seen Camera::project(const Point3& point, double width, double height) const {
-  const Vector3 from_eye = point - eye();
-  const double depth = dot(from_eye, forward());
-  const double scale = height / (2 * std::tan(kFieldOfView / 2)) / (is_parallel ? distance : std::max(1e-6, depth));
-  return {width / 2 + scale * dot(from_eye, right()), height / 2 - scale * dot(from_eye, up()), depth,
-          is_parallel || depth > 1e-3 * distance};
-}
+Seen Camera::project(const Point3& point, double width, double height) const { return Lens(*this, width, height).project(point); }
 
 double Camera::metres_per_pixel(const Point3& point, double height) const {
-  const double depth = is_parallel ? distance : std::max(1e-3, dot(point - eye(), forward()));
-  return 2 * depth * std::tan(kFieldOfView / 2) / std::max(1.0, height);
+  return Lens(*this, height, height).metres_per_pixel(point);
+}
+
+Lens::Lens(const Camera& camera, double width, double height)
+    : eye_(camera.eye()),
+      forward_(camera.forward()),
+      right_(camera.right()),
+      up_(camera.up()),
+      width_(width),
+      height_(height),
+      distance_(camera.distance),
+      is_parallel_(camera.is_parallel) {}
+
+Seen Lens::project(const Point3& point) const {
+  static const double unit = 2 * std::tan(Camera::kFieldOfView / 2);
+  const Vector3 from_eye = point - eye_;
+  const double depth = dot(from_eye, forward_);
+  const double scale = height_ / unit / (is_parallel_ ? distance_ : std::max(1e-6, depth));
+  return {width_ / 2 + scale * dot(from_eye, right_), height_ / 2 - scale * dot(from_eye, up_), depth,
+          is_parallel_ || depth > 1e-3 * distance_};
+}
+
+double Lens::metres_per_pixel(const Point3& point) const {
+  static const double unit = std::tan(Camera::kFieldOfView / 2);
+  const double depth = is_parallel_ ? distance_ : std::max(1e-3, dot(point - eye_, forward_));
+  return 2 * depth * unit / std::max(1.0, height_);
 }
 
 void Camera::orbit(double dx, double dy) {

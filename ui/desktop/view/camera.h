@@ -55,6 +55,21 @@ struct Camera {
   void limit();                                                  ///< keeps all numbers sane
 };
 
+/// One picture of a camera, for projecting many points.
+class Lens {
+ public:
+  Lens(const Camera& camera, double width, double height);
+  Seen project(const Point3& point) const;
+  /// Metres that one pixel covers at a point.
+  double metres_per_pixel(const Point3& point) const;
+
+ private:
+  Point3 eye_;
+  Vector3 forward_, right_, up_;
+  double width_, height_, distance_;
+  bool is_parallel_;
+};
+
 /// In between, `t` from 0 to 1: the shorter way around, distances by ratio.
 Camera between(const Camera& a, const Camera& b, double t);
 

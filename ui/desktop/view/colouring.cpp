@@ -11,6 +11,7 @@
 #include "core/reading/report_model.h"
 #include "core/reading/views/programme.h"
 #include "core/reading/views/volume.h"
+#include "ui/desktop/view/changed_nodes.h"
 
 namespace bl::desktop {
 
@@ -50,10 +51,9 @@ std::string told(double value, Unit unit) {
   return unit == Unit::ratio ? reading::percent(value) : reading::quantity(value, unit);
 }
 
-Colouring by_use(const SceneFacts& facts, const Theme& theme) {
+Colouring by_use(const SceneFacts& facts, const Theme& theme, const UseNumbers& numbers) {
   Colouring out;
   out.legend.title = "Use";
-  const UseNumbers numbers(facts.state->plan->scene);
   for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_of_use(theme, numbers.of(volume.figures.use)));
   // As they are numbered; what has no use comes last.
   std::vector<std::string> uses = facts.uses;
@@ -96,6 +96,36 @@ UseNumbers::UseNumbers(const Scene& scene) {
   for (const std::string& use : others) add(use);
 }
 
+namespace {
+
+// What a node adds to the uses that there are.
+struct UsesOfNode {
+  std::optional<std::string> use;
+  std::optional<Shared<Table>> brief;
+  bool operator==(const UsesOfNode&) const = default;
+};
+
+UsesOfNode uses_of(const State& state, std::uint32_t node) {
+  const Scene& scene = state.plan->scene;
+  const NodeRecord& record = scene.nodes.at(state.plan->nodes[node].id);
+  UsesOfNode uses;
+  if (const auto use = reading::setting<&reading::VolumeFigures::use>(scene, full_registry(), record)) uses.use = *use;
+  if (const auto rows = reading::setting<&reading::ProgrammeFigures::rows>(scene, full_registry(), record)) uses.brief = *rows;
+  return uses;
+}
+
+}  // namespace
+
+const UseNumbers& UseMemo::of(const std::shared_ptr<const State>& state) {
+  const auto changed = state_ ? changed_nodes(*state_, *state) : std::nullopt;
+  const bool is_same = changed && std::all_of(changed->begin(), changed->end(), [&](std::uint32_t node) {
+                         return uses_of(*state_, node) == uses_of(*state, node);
+                       });
+  if (!is_same) numbers_ = UseNumbers(state->plan->scene);
+  state_ = state;
+  return *numbers_;
+}
+
 std::size_t UseNumbers::of(const std::string& use) const {
   if (use.empty()) return kNoUse;
   const auto found = numbers_.find(use);
@@ -136,12 +166,12 @@ std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
   return choices;
 }
 
-Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme) {
+Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme, const UseNumbers& numbers) {
   if (choice == "error") return by_error(facts, theme);
   // What another scene was coloured by may not be known to this one.
   const std::vector<ColourChoice> choices = colour_choices(facts);
   const auto known = std::find_if(choices.begin(), choices.end(), [&](const ColourChoice& c) { return c.id == choice; });
-  if (choice == "use" || known == choices.end()) return by_use(facts, theme);
+  if (choice == "use" || known == choices.end()) return by_use(facts, theme, numbers);
   Unit unit = Unit::none;
   const std::vector<double> values = values_of(facts, choice, unit);
   double low = std::numeric_limits<double>::infinity(), high = -low;

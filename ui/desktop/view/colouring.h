@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,16 @@ class UseNumbers {
  private:
   std::map<std::string, std::size_t> numbers_;
 };
+
+/// The numbers of the last scene, made anew only where a use has changed.
+class UseMemo {
+ public:
+  const UseNumbers& of(const std::shared_ptr<const State>& state);
+
+ private:
+  std::shared_ptr<const State> state_;
+  std::optional<UseNumbers> numbers_;
+};
 Colour colour_of_use(const Theme& theme, std::size_t number);
 
 /// How a volume stands against what was asked for; bars, list and card share the colours.
@@ -55,6 +67,9 @@ struct Colouring {
   std::vector<Colour> colours;  ///< as facts.volumes
   Legend legend;
 };
-Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme);
+Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme, const UseNumbers& numbers);
+inline Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme) {
+  return colour_volumes(facts, choice, theme, UseNumbers(facts.state->plan->scene));
+}
 
 }  // namespace bl::desktop

@@ -20,6 +20,7 @@ class GlPictures {
 
   /// A file has come in: a picture that was drawn before is out of date.
   bool has_news() { return store_.has_news(); }
+  bool is_waiting() const { return store_.is_waiting(); }
   /// Until all files have come in that were asked for. For stills and tests.
   void wait() { store_.wait(); }
   /// A sentence where a file that was asked for could not be shown.

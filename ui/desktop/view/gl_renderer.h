@@ -22,6 +22,7 @@ class GlRenderer final : public Renderer {
   std::uint64_t take_bytes_sent() override;
   std::uint64_t take_bytes_spared() override;
   std::string description() const override { return description_; }
+  bool is_waiting() const override { return pictures_.is_waiting(); }
   std::string why_missing(const std::string& path) override { return pictures_.why_missing(path); }
 
   /// The corners of all triangles as the shaders make them, relative to the balls' centres: three floats each. For tests.

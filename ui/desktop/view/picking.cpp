@@ -76,14 +76,49 @@ std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& 
   return {};
 }
 
+namespace {
+
+// A ball that the line of sight goes through, and where it goes in.
+struct BallOnTheWay {
+  double from = 0;
+  std::size_t row = 0;
+  auto operator<=>(const BallOnTheWay&) const = default;
+};
+
+// Nearest first. All balls are looked at in one go without a branch, since a picture asks this for every label.
+std::vector<BallOnTheWay> balls_on_the_way(const Ray& ray, const SightBalls& balls) {
+  const std::size_t count = balls.size();
+  std::vector<double> along(count), inside(count);  // to the ball's middle, and half of the way through it, squared
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = ray.origin.x - balls.x[k], y = ray.origin.y - balls.y[k], z = ray.origin.z - balls.z[k];
+    const double b = x * ray.direction.x + y * ray.direction.y + z * ray.direction.z;
+    along[k] = b;
+    inside[k] = b * b - (x * x + y * y + z * z - balls.squared_radius[k]);
+  }
+  std::vector<BallOnTheWay> found;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(inside[k] >= 0) || balls.squared_radius[k] < 0) continue;
+    const double root = std::sqrt(inside[k]);
+    if (-along[k] + root >= 0) found.push_back({std::max(0.0, -along[k] - root), k});
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
 std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies) {
   std::optional<Hit> nearest;
   const auto take = [&](std::uint32_t node, const Mesh& cell) {
     const auto at = meet(ray, cell, section);
-    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{node, *at, ray.origin + *at * ray.direction};
+    // Of two at one place the first one of the list is met.
+    if (at && (!nearest || *at < nearest->distance || (*at == nearest->distance && node < nearest->node)))
+      nearest = Hit{node, *at, ray.origin + *at * ray.direction};
   };
-  for (const VolumeFacts& volume : facts.volumes)
-    if (volume.cell) take(volume.node, *volume.cell);
+  for (const BallOnTheWay& ball : balls_on_the_way(ray, facts.balls)) {
+    if (nearest && ball.from > nearest->distance) break;
+    take(facts.volumes[ball.row].node, *facts.volumes[ball.row].cell);
+  }
   for (const BodyFacts& body : facts.urban.bodies)
     if (with_bodies) take(body.node, *body.cell);
   return nearest;

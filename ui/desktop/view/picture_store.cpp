@@ -144,6 +144,11 @@ bool PictureStore::has_news() {
   return std::exchange(worker_->has_news, false);
 }
 
+bool PictureStore::is_waiting() const {
+  const std::scoped_lock lock(worker_->mutex);
+  return worker_->has_news || worker_->is_busy || !worker_->queue.empty();
+}
+
 void PictureStore::wait() {
   std::unique_lock lock(worker_->mutex);
   worker_->done.wait(lock, [&] { return worker_->queue.empty() && !worker_->is_busy; });

@@ -28,6 +28,8 @@ class PictureStore {
   std::shared_ptr<const DecodedPicture> find(const std::string& path);
   /// Files that came in since the last call.
   bool has_news();
+  /// Are files still to come in, or news of them to be taken?
+  bool is_waiting() const;
   /// Until nothing is asked for any more. For stills and tests.
   void wait();
   /// Everything that is not among `kept`.

@@ -22,6 +22,8 @@ class Renderer {
     (void)path;
     return "";
   }
+  /// Are files of pictures still to come in, so that the next picture will be another one?
+  virtual bool is_waiting() const { return false; }
   /// Name of the driver, for the statistics.
   virtual std::string description() const = 0;
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <set>
 
 #include "core/geometry/mesh_lines.h"
@@ -15,6 +16,7 @@
 #include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 #include "ui/desktop/document/media_place.h"
+#include "ui/desktop/view/changed_nodes.h"
 
 namespace bl::desktop {
 
@@ -115,18 +117,6 @@ void read_pulls(const State& state, SceneFacts& facts) {
     }
 }
 
-void read_neighbours(const State& state, SceneFacts& facts) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (const VolumeFacts& volume : facts.volumes) {
-    const Table& table = *volume.figures.neighbours;
-    for (std::size_t row = 0; row < table.rows.size(); ++row) {
-      const std::uint32_t other = state.plan->node_index(table.text(row, "node"));
-      if (other < state.plan->nodes.size()) pairs.insert(std::minmax(volume.node, other));
-    }
-  }
-  facts.neighbours.assign(pairs.begin(), pairs.end());
-}
-
 void read_boundary(const State& state, std::uint32_t node, MeshPointer shape, const SceneFacts* last, SceneFacts& facts) {
   BoundaryFacts boundary{node, state.plan->nodes[node].id, std::move(shape), {}};
   if (!boundary.shape || boundary.shape->triangles.empty()) return;
@@ -147,6 +137,7 @@ void read_boundary(const State& state, std::uint32_t node, MeshPointer shape, co
 void read_media(const State& state, std::uint32_t node, const reading::MediaFigures& read, SceneFacts& facts) {
   MediaFacts media{node, state.plan->nodes[node].id, state.plan->nodes[node].name, read.message, read.file, {}};
   if (media.file.empty()) return;
+  facts.has_sequence |= read.kind == "sequence";
   if (read.kind == "sequence") media.file = frame_file(media.file, state.tick, read.rate, read.frames);
   const MediaPlace place =
       place_of({read.placement, read.position, read.azimuth, read.tilt, read.width, read.height, read.distance});
@@ -187,40 +178,123 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
 
 }  // namespace
 
-const VolumeFacts* SceneFacts::volume_of(std::uint32_t node) const {
-  const auto at =
-      std::lower_bound(volumes.begin(), volumes.end(), node, [](const VolumeFacts& v, std::uint32_t n) { return v.node < n; });
-  return at != volumes.end() && at->node == node ? &*at : nullptr;
+void SightBalls::resize(std::size_t size) {
+  for (auto* column : {&x, &y, &z, &squared_radius}) column->resize(size);
 }
+
+void SightBalls::set(std::size_t row, const Mesh* cell) {
+  const bool has_shape = cell != nullptr && cell->wrap;
+  const Point3 centre = has_shape ? cell->wrap->ball_centre : Point3{};
+  x[row] = centre.x, y[row] = centre.y, z[row] = centre.z;
+  squared_radius[row] = has_shape ? cell->wrap->radius * cell->wrap->radius : -1;
+}
+
+std::size_t SceneFacts::row_of(std::uint32_t node) const {
+  std::size_t low = 0;
+  for (std::size_t rest = volumes.size(); rest > 0;) {
+    const std::size_t half = rest / 2;
+    if (volumes[low + half].node < node) low += half + 1, rest -= half + 1;
+    else rest = half;
+  }
+  return low < volumes.size() && volumes[low].node == node ? low : volumes.size();
+}
+
+const VolumeFacts* SceneFacts::volume_of(std::uint32_t node) const {
+  const std::size_t row = row_of(node);
+  return row < volumes.size() ? &volumes[row] : nullptr;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_of(const SceneFacts& facts) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const VolumeFacts& volume : facts.volumes) {
+    const Table& table = *volume.figures.neighbours;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const std::uint32_t other = facts.state->plan->node_index(table.text(row, "node"));
+      if (facts.volume_of(other) != nullptr) pairs.insert(std::minmax(volume.node, other));
+    }
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+namespace {
+
+// A ball is remade only where it is another one: what is drawn of it is known by its mesh.
+void keep_ball(VolumeFacts& volume, const VolumeFacts* before) {
+  if (before != nullptr && volume.is_ball && before->is_ball && before->figures.position == volume.figures.position &&
+      before->figures.radius == volume.figures.radius)
+    volume.cell = before->cell;
+}
+
+VolumeList published(VolumeList::Draft&& draft) {
+  return std::move(draft).publish([](const VolumeFacts&, std::size_t) {}, [](const auto&, std::size_t) { return NoDigest{}; });
+}
+
+void read_uses(SceneFacts& facts) {
+  std::set<std::string> uses;
+  for (const VolumeFacts& volume : facts.volumes) uses.insert(volume.figures.use);
+  facts.uses.assign(uses.begin(), uses.end());
+}
+
+void read_all_nodes(const State& state, const SceneFacts* last, SceneFacts& facts) {
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    facts.places.push_back(reading::read<&reading::NodePlace::position>(state, n));
+  std::vector<VolumeFacts> volumes;
+  for (reading::VolumeAccount& account : reading::accounts_of(state).volumes) {
+    VolumeFacts& volume = volumes.emplace_back(read_volume(state, std::move(account)));
+    keep_ball(volume, last != nullptr ? last->volume_of(volume.node) : nullptr);
+  }
+  facts.balls.resize(volumes.size());
+  for (std::size_t k = 0; k < volumes.size(); ++k) facts.balls.set(k, volumes[k].cell.get());
+  facts.volumes = published(VolumeList::Draft(std::move(volumes)));
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (const NodePlan& node = state.plan->nodes[n]; facts.volume_of(n) == nullptr && !has_own_picture(state, n))
+      facts.marks.push_back({n, node.id, node.name, icon_of(node), facts.places[n]});
+  read_uses(facts);
+  read_links(*state.plan, facts);
+}
+
+// Of nodes that have changed alone; who is a volume and who is a mark is as before.
+void read_changed_nodes(const State& state, const SceneFacts& last, const std::vector<std::uint32_t>& changed,
+                        SceneFacts& facts) {
+  facts.places = last.places;
+  facts.marks = last.marks;
+  facts.links = last.links;
+  facts.balls = last.balls;
+  facts.uses = last.uses;
+  for (const std::uint32_t n : changed) {
+    facts.places[n] = reading::read<&reading::NodePlace::position>(state, n);
+    const auto mark = std::lower_bound(facts.marks.begin(), facts.marks.end(), n,
+                                       [](const MarkFacts& m, std::uint32_t node) { return m.node < node; });
+    if (mark != facts.marks.end() && mark->node == n) mark->position = facts.places[n];
+  }
+  VolumeList::Draft draft(last.volumes);
+  bool has_other_use = false;
+  for (reading::VolumeAccount& account : reading::accounts_of_volumes(state, changed)) {
+    VolumeFacts volume = read_volume(state, std::move(account));
+    const VolumeFacts* before = last.volume_of(volume.node);
+    const auto row = last.row_of(volume.node);
+    keep_ball(volume, before);
+    has_other_use |= before->figures.use != volume.figures.use;
+    facts.balls.set(row, volume.cell.get());
+    draft.put(row, std::move(volume));
+  }
+  facts.volumes = published(std::move(draft));
+  if (has_other_use) read_uses(facts);
+}
+
+}  // namespace
 
 std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given, const SceneFacts* last) {
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
-  std::set<std::string> uses;
-  reading::Accounts accounts = reading::accounts_of(state);
-  facts->tolerance = accounts.tolerance;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    facts->places.push_back(reading::read<&reading::NodePlace::position>(state, n));
+  facts->tolerance = reading::account_tolerance(state);
+  const auto changed = last != nullptr ? changed_nodes(*last->state, state) : std::nullopt;
+  if (changed) read_changed_nodes(state, *last, *changed, *facts);
+  else read_all_nodes(state, last, *facts);
   for (auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state))
     read_boundary(state, node, std::move(boundary.shape), last, *facts);
   for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) read_media(state, node, media, *facts);
-  for (reading::VolumeAccount& account : accounts.volumes) {
-    VolumeFacts volume = read_volume(state, std::move(account));
-    // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
-    const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(volume.node) : nullptr;
-    if (before != nullptr && before->is_ball && before->figures.position == volume.figures.position &&
-        before->figures.radius == volume.figures.radius)
-      volume.cell = before->cell;
-    uses.insert(volume.figures.use);
-    facts->volumes.push_back(std::move(volume));
-  }
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    if (const NodePlan& node = state.plan->nodes[n]; facts->volume_of(n) == nullptr && !has_own_picture(state, n))
-      facts->marks.push_back({n, node.id, node.name, icon_of(node), facts->places[n]});
-  facts->uses.assign(uses.begin(), uses.end());
-  read_links(*state.plan, *facts);
   read_pulls(state, *facts);
-  read_neighbours(state, *facts);
   read_extent(last, *facts);
   read_surroundings(state, last, *facts);
   facts->state = std::move(given);
@@ -231,7 +305,11 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   auto rest = std::make_shared<SceneFacts>(facts);
   const auto is_hidden = [&](std::uint32_t node) { return hidden.contains(facts.state->plan->nodes[node].id); };
   const auto is_gone = [&](const auto& item) { return is_hidden(item.node); };
-  std::erase_if(rest->volumes, is_gone);
+  std::vector<VolumeFacts> shown;
+  std::copy_if(facts.volumes.begin(), facts.volumes.end(), std::back_inserter(shown), [&](const auto& v) { return !is_gone(v); });
+  rest->balls.resize(shown.size());
+  for (std::size_t k = 0; k < shown.size(); ++k) rest->balls.set(k, shown[k].cell.get());
+  rest->volumes = published(VolumeList::Draft(std::move(shown)));
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);
   std::erase_if(rest->media, is_gone);
@@ -245,7 +323,6 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->urban.casters, is_gone);
   std::erase_if(rest->urban.grounds, [&](const auto& ground) { return is_hidden(ground.first); });
   std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
-  std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });
   return rest;
 }
 

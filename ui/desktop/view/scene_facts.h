@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shared_list.h"
 #include "core/graph/state.h"
 #include "core/reading/account.h"
 #include "ui/desktop/view/urban_facts.h"
@@ -64,25 +65,44 @@ struct PullFacts {
   Vector3 change;  ///< [m]
 };
 
+/// Volumes in ascending node. Facts of two states share those that are the same.
+struct NoDigest {};
+using VolumeList = SharedList<VolumeFacts, NoDigest>;
+
+/// The balls that shapes lie in, in columns: lines of sight find what they may meet without a look at the shapes.
+struct SightBalls {
+  std::vector<double> x, y, z, squared_radius;  ///< a radius below 0: no shape
+
+  void resize(std::size_t size);
+  void set(std::size_t row, const Mesh* cell);
+  std::size_t size() const { return x.size(); }
+};
+
 struct SceneFacts {
   std::shared_ptr<const State> state;
-  std::vector<VolumeFacts> volumes;  ///< ascending node
-  double tolerance = 0;              ///< share of what was asked for below which nobody is short
+  VolumeList volumes;
+  SightBalls balls;      ///< as volumes
+  double tolerance = 0;  ///< share of what was asked for below which nobody is short
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
   std::vector<MediaFacts> media;
+  bool has_sequence = false;     ///< a medium that shows another file in another tick
   std::vector<LinkFacts> links;  ///< of sets that are not too large
   std::vector<PullFacts> pulls;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
-  std::vector<std::string> uses;                                    ///< ascending
-  std::vector<Point3> places;                                       ///< of all nodes; of a boundary the middle of its ground
-  UrbanFacts urban;                                                 ///< what stands and runs around them
-  Point3 centre;                                                    ///< of volumes and boundaries [m]
-  double radius = 50, ground = 0;                                   ///< [m]
-  double reach = 50;                                                ///< [m] from the centre to the farthest surroundings
+  std::vector<std::string> uses;   ///< ascending
+  std::vector<Point3> places;      ///< of all nodes; of a boundary the middle of its ground
+  UrbanFacts urban;                ///< what stands and runs around them
+  Point3 centre;                   ///< of volumes and boundaries [m]
+  double radius = 50, ground = 0;  ///< [m]
+  double reach = 50;               ///< [m] from the centre to the farthest surroundings
 
+  /// Among `volumes`; volumes.size() where the node is none.
+  std::size_t row_of(std::uint32_t node) const;
   const VolumeFacts* volume_of(std::uint32_t node) const;
 };
+
+/// Volumes that share a face, the lower node first.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_of(const SceneFacts& facts);
 
 /// `last`: facts of an earlier state, of which what has not changed is taken over; may be null.
 std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state, const SceneFacts* last);

@@ -130,6 +130,7 @@ void UrbanPicture::add_bodies() {
     if (picks.nodes.contains(body.id)) shown.flags |= ViewVolume::chosen;
     for (const auto& [a, b] : body.edges) line(a, b, faded(ink, 0.7f), 1, 0);
   }
+  if (facts.urban.bodies.empty()) return;  // they are in order already
   std::stable_sort(scene.volumes.begin(), scene.volumes.end(),
                    [](const ViewVolume& a, const ViewVolume& b) { return a.node < b.node; });
 }

@@ -104,6 +104,8 @@ void Builder::add_volumes() {
   std::set<std::uint32_t> joined;
   for (const LinkFacts& link : facts.links)
     if (link.id == picks.hovered_link || picks.links.contains(link.id)) joined.insert({link.from, link.to});
+  const bool has_facades = shows("facades"), has_chosen = !picks.nodes.empty();
+  scene.volumes.reserve(facts.volumes.size() + facts.urban.bodies.size());
   for (std::size_t k = 0; k < facts.volumes.size(); ++k) {
     const VolumeFacts& volume = facts.volumes[k];
     if (!volume.cell) continue;
@@ -116,9 +118,9 @@ void Builder::add_volumes() {
     shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.figures.storey_height);
     const bool is_hovered = volume.id == picks.hovered_node || joined.contains(volume.node);
     if (is_hovered) shown.flags |= ViewVolume::hovered;
-    if (picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
+    if (has_chosen && picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
     if (volume.is_ball) shown.flags |= ViewVolume::dimmed;
-    if (!volume.is_dressed || volume.is_ball || !shows("facades")) continue;
+    if (!volume.is_dressed || volume.is_ball || !has_facades) continue;
     shown.flags |= ViewVolume::dressed;
     shown.facade = volume.facade;
   }
@@ -188,7 +190,7 @@ void Builder::add_weights() {
 void Builder::add_neighbours() {
   if (!shows("neighbours")) return;
   const Colour colour = theme.is_dark() ? 0xffffffffu : 0xff202020u;
-  for (const auto& [a, b] : facts.neighbours) line(place_of(a), place_of(b), faded(colour, 0.75f), 1.2f, 0.75f);
+  for (const auto& [a, b] : neighbours_of(facts)) line(place_of(a), place_of(b), faded(colour, 0.75f), 1.2f, 0.75f);
 }
 
 void Builder::add_cells() {

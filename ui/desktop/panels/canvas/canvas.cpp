@@ -91,6 +91,7 @@ void Canvas::draw(ImVec2 size) {
   if (ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) editor.point_at(Area::canvas);
   follow_document(board);
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
+  if (board.camera.is_gliding()) editor.go_on();
   const std::size_t revision = board.model.revision;
   bring_up_to_date(board);
   if (canvas::store_places(board)) bring_up_to_date(board);

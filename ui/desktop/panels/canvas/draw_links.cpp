@@ -86,6 +86,7 @@ void draw_chip(Board& board, ImVec2 middle, const std::string& text, float pixel
 void draw_pulse(Board& board, const Line& line, const LinkPulse& pulse, float width) {
   const double age = board.editor.now - pulse.pulse_at;
   if (pulse.pulse_at < 0 || age > kPulseSeconds || board.camera.zoom() < kPulseZoom) return;
+  board.editor.go_on();
   // Where a link writes in every tick, its pulse goes on running; it fades once the writing ends.
   const double share = std::fmod(board.editor.now, kPulseSeconds) / kPulseSeconds;
   const float light = static_cast<float>(1 - age / kPulseSeconds);

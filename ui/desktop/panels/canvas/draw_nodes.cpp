@@ -45,7 +45,8 @@ void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU
   for (const auto& [time, value] : samples) least = std::min(least, value), most = std::max(most, value);
   // A value that stands still is a straight line in the middle, not its own rounding magnified.
   const double span = std::max(most - least, kLeastSpan * std::max(std::abs(most), 1e-9));
-  const double middle = (least + most) / 2, now = ink.board.editor.now;
+  // Up to the last sample: where nothing happens, the line stands.
+  const double middle = (least + most) / 2, now = samples.back().first;
   std::vector<ImVec2> points;
   for (const auto& [time, value] : samples) {
     const double x = std::clamp(1 - (now - time) / kSparkSeconds, 0.0, 1.0);

@@ -317,8 +317,12 @@ void draw_cards(Board& board) {
   for (const std::string& id : board.pinned)
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
       draw_pinned_card(board, board.model.boxes[k]);
-  if (board.drag.deed != DragMode::none || board.editor.now - board.hovered_since < kCardSeconds) return;
   const Hit& hit = board.hovered;
+  if (board.drag.deed != DragMode::none) return;
+  if (board.editor.now - board.hovered_since < kCardSeconds) {
+    if (hit.thing != Thing::nothing) board.editor.wake_at(board.hovered_since + kCardSeconds);
+    return;
+  }
   const bool is_pinned = std::find(board.pinned.begin(), board.pinned.end(), hit.id) != board.pinned.end();
   if ((hit.thing == Thing::node || hit.thing == Thing::node_edge) && !is_pinned && hit.index < board.model.boxes.size())
     draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box),

@@ -46,6 +46,18 @@ CanvasColumn column_of(const Registry& registry, const NodeRecord& node) {
   return column;
 }
 
+// Do nodes only take other places by it?
+bool only_moves(const Command& command) {
+  if (const auto list = command.arguments.find("commands"); command.id == "batch" && list != command.arguments.end()) {
+    const auto* parts = std::get_if<CommandList>(&list->second);
+    return parts != nullptr && std::all_of((*parts)->begin(), (*parts)->end(), only_moves);
+  }
+  const auto port = command.arguments.find("port");
+  if (command.id != "set_port" || port == command.arguments.end()) return false;
+  const auto* path = std::get_if<std::string>(&port->second);
+  return path != nullptr && *path == "node.position";
+}
+
 }  // namespace
 
 bool NodeBox::is_ghost() const {
@@ -90,6 +102,9 @@ void Model::update(const Workbench& editor) {
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
   const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
+  const std::vector<LogEntry>& log = editor.document->session().log();
+  // A drag in 3D says a new place many times a second, of which no box says anything.
+  while (!is_other && log_size_ < log_size && only_moves(log[log_size_].command)) ++log_size_;
   if (is_other || log_size != log_size_ || entered != narrowed_to_ || is_dark_ != editor.theme.is_dark()) {
     if (document != document_ || log_size < log_size_) kept_.clear();
     document_ = document;
@@ -302,7 +317,9 @@ void Model::trace_lines() {
 
 void Model::find_indices(const Workbench& editor) {
   const Plan& plan = *editor.state().plan;
+  const bool has_the_same_indices = plan_ && plan_->dependents == plan.dependents;
   plan_ = editor.state().plan;
+  if (has_the_same_indices) return;
   for (NodeBox& box : boxes) {
     const std::uint32_t at = plan.node_index(box.id);
     box.in_state = at < plan.nodes.size() ? at : kNoIndex;

@@ -1,0 +1,179 @@
+// The ticking thread: takes the newest scene before each tick, keeps past states for rewinding, and publishes the new state.
+#include "core/host/ticker.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+namespace bl::host {
+
+namespace {
+
+// States kept for rewinding: their meshes and tables are shared between them as long as nothing changes.
+constexpr std::size_t kKeptStates = 400;
+// New ticks count so much in the smoothed times.
+constexpr double kSmoothing = 0.15;
+
+}  // namespace
+
+// The next four are called with the mutex held, and not while a tick is computed.
+void LiveSession::Shared::publish() {
+  auto moment = std::make_shared<Moment>();
+  moment->ticked = simulation.state();
+  moment->state = preview ? preview : moment->ticked;
+  moment->is_playing = is_playing;
+  moment->is_resting = rests_since.has_value();
+  moment->wanted_rate = wanted_rate;
+  moment->tick_seconds = tick_seconds;
+  moment->rate = is_playing ? rate : 0;
+  moment->oldest = past.empty() ? simulation.state()->tick : past.front()->tick;
+  moment->times = simulation.times();
+  moment->failure = failure;
+  published = std::move(moment);
+  for (const auto& [number, listener] : listeners) listener(published);
+}
+
+// What people say from now on belongs to the tick at which the clock stands now.
+void LiveSession::Shared::end_rest() {
+  if (!rests_since) return;
+  const auto ticks = static_cast<std::int64_t>((clock.now() - *rests_since) * wanted_rate);
+  last_tick = *rests_since + static_cast<double>(ticks) / wanted_rate;
+  rests_since.reset();
+  simulation.pass(ticks);
+  next_tick = simulation.state()->tick;
+  publish();
+}
+
+// What is taken from the ledger stays pending until a simulation has really taken it on: a tick that fails loses nothing.
+void LiveSession::Shared::gather_changes() {
+  Ledger::Changes changes = ledger.take_changes();
+  pending_placed.merge(changes.placed);
+  if (changes.is_logic_changed) pending = ledger.scene();
+}
+
+// Returns with the mutex held; until it is given up, no tick begins.
+void LiveSession::Shared::wait_between_ticks(std::unique_lock<std::mutex>& lock) {
+  ++holds;
+  done.wait(lock, [this] { return !is_ticking; });
+  --holds;
+  wake.notify_all();
+}
+
+// The newest kept state that is so many ticks old, or the oldest; those after it are given up. None where there is none.
+std::shared_ptr<const State> LiveSession::Shared::take_past(std::int64_t ticks) {
+  const std::int64_t now = simulation.state()->tick;
+  if (past.empty() || past.front()->tick >= now) return nullptr;
+  while (past.size() > 1 && past.back()->tick > std::min(now - ticks, now - 1)) past.pop_back();
+  const std::shared_ptr<const State> found = past.back();
+  past.pop_back();
+  return found;
+}
+
+// What no tick has seen is to be seen all the same: as the next tick will begin with it. The simulation itself waits for that
+// tick, so that a replay of the log meets the same states.
+void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
+  const Seen now = said();
+  gather_changes();
+  std::optional<Scene> scene = gestures.is_waiting() ? std::optional(gestures.shown()) : pending;
+  auto placed = pending_placed;
+  placed.merge(gestures.placed());
+  is_ticking = true;
+  lock.unlock();
+  std::shared_ptr<const State> seen = simulation.state();
+  try {
+    if (scene) seen = simulation.with_scene(*scene, placed);
+    seen = simulation.shown(std::move(seen));
+  } catch (const std::exception&) {
+    // The next tick will say so.
+  }
+  lock.lock();
+  is_ticking = false;
+  show(std::move(seen));
+  shown = now;
+  publish();
+}
+
+// One tick; the lock is given up while it computes. Whether it went well.
+bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
+  gather_changes();
+  shown = said();
+  is_ticking = true;
+  next_tick = simulation.state()->tick + 1;
+  std::string trouble;
+  lock.unlock();
+  const double begin = clock.now();
+  try {
+    // What is taken from the ledger stays pending until the simulation has really taken it on.
+    if (pending) simulation.set_scene(*pending, pending_placed);
+    pending.reset();
+    pending_placed.clear();
+    past.push_back(simulation.state());
+    if (past.size() > kKeptStates) past.pop_front();
+    simulation.step();
+  } catch (const std::bad_alloc&) {
+    trouble = "memory ran out in a tick; the last good state is kept, and the clock is stopped";
+  } catch (const std::exception& exception) {
+    trouble = std::string("a tick failed (") + exception.what() + "); the last good state is kept, and the clock is stopped";
+  }
+  const double end = clock.now(), seconds = end - begin, since = end - last_tick;
+  tick_seconds = tick_seconds == 0 ? seconds : tick_seconds + kSmoothing * (seconds - tick_seconds);
+  last_tick = end;
+  rate = since > 2 ? 0 : rate + kSmoothing * (1 / std::max(1e-4, since) - rate);
+  lock.lock();
+  is_ticking = false;
+  preview = nullptr;
+  next_tick = simulation.state()->tick;
+  failure = std::move(trouble);
+  if (!failure.empty()) {
+    is_playing = false;
+    steps_due = 0;
+    // The entries of a log are in the order of their ticks, also where the tick that some were made for never came.
+    if (!ledger.log().empty()) next_tick = std::max(next_tick, std::min(ledger.log().back().tick, next_tick + 1));
+  }
+  if (gestures.is_waiting() && holds == 0) show_changes(lock);
+  else publish();
+  return failure.empty();
+}
+
+void LiveSession::Shared::run() {
+  std::unique_lock lock(mutex);
+  double due = clock.now();
+  while (!is_ending) {
+    if (holds > 0) {
+      done.notify_all();
+      wake.wait(lock);
+      continue;
+    }
+    if (rests_since || can_rest()) {
+      if (!rests_since) {
+        // A clock that has stood until now has not counted on.
+        rests_since = std::max(last_tick, clock.now() - 1 / wanted_rate);
+        publish();
+      }
+      done.notify_all();
+      wake.wait(lock);
+      continue;
+    }
+    // A clock that has been set to go faster does not wait as long as it was to wait before.
+    const double step = 1 / wanted_rate;
+    due = std::min(due, last_tick + step);
+    const bool is_due = !is_held_up() && (steps_due > 0 || (is_playing && clock.now() >= due));
+    if (is_due) {
+      // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
+      due = std::max(clock.now(), due + step);
+      if (steps_due > 0) --steps_due;
+      tick(lock);
+      done.notify_all();
+      continue;
+    }
+    if (is_news()) {
+      show_changes(lock);
+      continue;
+    }
+    done.notify_all();
+    if (is_playing && !is_held_up()) clock.wait(wake, lock, due);
+    else wake.wait(lock);
+  }
+}
+
+}  // namespace bl::host

@@ -1,0 +1,95 @@
+// What the holder of a session and its ticking thread share, behind one mutex; for live_session.cpp alone.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/host/live_session.h"
+
+namespace bl::host {
+
+struct LiveSession::Shared {
+  // Times of phases are for benches: nothing but the real time will do.
+  Shared(const Registry& registry, Ledger& the_ledger, OpenGestures& the_gestures, const LiveSessionOptions& options)
+      : clock(*options.clock),
+        ledger(the_ledger),
+        gestures(the_gestures),
+        simulation(registry, options.threads, [] { return real_clock().now(); }),
+        last_tick(clock.now()) {}
+
+  Clock& clock;
+  std::mutex mutex;
+  std::condition_variable wake, done;
+  // Behind the mutex. Ledger and gestures are changed by the holder's thread alone, which therefore reads them without a lock and
+  // locks to change them; the ticking thread locks to read them, and to take the list of what has changed.
+  Ledger& ledger;
+  OpenGestures& gestures;
+  std::shared_ptr<const Moment> published;
+  std::int64_t next_tick = 0;  // the tick whose links read what people say now
+  int steps_due = 0;
+  int holds = 0;  // the holder waits for the pause between two ticks; no tick begins meanwhile
+  bool is_playing = false, is_ending = false, is_ticking = false;
+  bool do_ticks_wait = false;  // for somebody who serves them
+  std::int64_t served = -1;    // the last tick that was
+  double wanted_rate = 20;
+  bool may_rest = false;              // ticks that only count on need not be taken one by one
+  std::optional<double> rests_since;  // the time of the last tick, where the thread sleeps and the clock counts on without it
+  // What of the log and of the gestures is in what is published; none where not even the state has been looked at.
+  struct Seen {
+    std::int64_t seq = 0;
+    std::uint64_t gestures = 0;
+    bool operator==(const Seen&) const = default;
+  };
+  std::optional<Seen> shown;
+  std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since, and with what nodes make of
+                                         // settings that no tick has seen; none where there is nothing of it
+  std::string failure;                   // of the last tick; a tick that goes well ends it
+  // Of whoever has set `is_ticking`; else behind the mutex too.
+  Simulation simulation;
+  std::optional<Scene> pending;  // what people have said that the simulation has not taken yet
+  std::set<std::pair<std::string, std::string>> pending_placed;
+  // Of the ticking thread alone.
+  std::deque<std::shared_ptr<const State>> past;
+  double tick_seconds = 0, rate = 0, last_tick;
+  std::thread thread;
+  std::map<std::size_t, std::function<void(const std::shared_ptr<const Moment>&)>> listeners;
+  std::size_t last_listener = 0;
+
+  void run();
+  bool tick(std::unique_lock<std::mutex>& lock);
+  // With the mutex held, before anything is said or asked that belongs to a tick: the ticks that rest has passed over are
+  // counted.
+  void stir() {
+    end_rest();
+    wake.notify_all();
+  }
+  void end_rest();
+  std::shared_ptr<const State> take_past(std::int64_t ticks);
+  bool is_held_up() const { return do_ticks_wait && served != simulation.state()->tick; }
+  Seen said() const { return {ledger.last_seq(), gestures.revision()}; }
+  // A clock that stands shows all that people do; one that runs shows what its ticks do not know yet.
+  bool is_news() const {
+    const bool stands = !is_playing && steps_due == 0;
+    return stands ? shown != said() : !shown || shown->gestures != gestures.revision();
+  }
+  // Is there nothing that the next tick could do but count?
+  bool can_rest() const {
+    const bool has_heard_all = shown == said() && !pending && !gestures.is_waiting();
+    return may_rest && is_playing && steps_due == 0 && !do_ticks_wait && has_heard_all && !preview && simulation.is_idle();
+  }
+  void show_changes(std::unique_lock<std::mutex>& lock);
+  void show(std::shared_ptr<const State> seen) { preview = seen == simulation.state() ? nullptr : std::move(seen); }
+  void gather_changes();
+  void wait_between_ticks(std::unique_lock<std::mutex>& lock);
+  void publish();
+};
+
+}  // namespace bl::host
