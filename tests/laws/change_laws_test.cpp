@@ -135,8 +135,8 @@ std::string crowded_box(std::uint64_t seed, double fill) {
          R"(], "links": [)"
          R"({"id": "apart", "kind": "keep_distance", "from": {"tag": "public"}, "to": {"tag": "public"}, )"
          R"("parameters": {"minimum": 12, "maximum": 1000}}, )"
-         R"({"id": "cap", "kind": "set_cap", "from": ["sum"], "to": {"typification": "smart_volume"}, "parameters": {"cap": 1e9}}, )"
-         R"({"id": "inside", "kind": "inside_boundary", "from": ["plot"], "to": {"typification": "smart_volume"}, )"
+         R"({"id": "cap", "kind": "set_cap", "from": "sum", "to": {"typification": "smart_volume"}, "parameters": {"cap": 1e9}}, )"
+         R"({"id": "inside", "kind": "inside_boundary", "from": "plot", "to": {"typification": "smart_volume"}, )"
          R"("parameters": {"margin": 1}}]})";
 }
 

@@ -182,7 +182,7 @@ void SightBalls::resize(std::size_t size) {
   for (auto* column : {&x, &y, &z, &squared_radius}) column->resize(size);
 }
 
-void SightBalls::set(std::size_t row, const Mesh* cell) {
+void SightBalls::set(std::size_t row, const MeshPointer& cell) {
   const bool has_shape = cell != nullptr && cell->wrap;
   const Point3 centre = has_shape ? cell->wrap->ball_centre : Point3{};
   x[row] = centre.x, y[row] = centre.y, z[row] = centre.z;
@@ -244,7 +244,7 @@ void read_all_nodes(const State& state, const SceneFacts* last, SceneFacts& fact
     keep_ball(volume, last != nullptr ? last->volume_of(volume.node) : nullptr);
   }
   facts.balls.resize(volumes.size());
-  for (std::size_t k = 0; k < volumes.size(); ++k) facts.balls.set(k, volumes[k].cell.get());
+  for (std::size_t k = 0; k < volumes.size(); ++k) facts.balls.set(k, volumes[k].cell);
   facts.volumes = published(VolumeList::Draft(std::move(volumes)));
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     if (const NodePlan& node = state.plan->nodes[n]; facts.volume_of(n) == nullptr && !has_own_picture(state, n))
@@ -275,7 +275,7 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
     const auto row = last.row_of(volume.node);
     keep_ball(volume, before);
     has_other_use |= before->figures.use != volume.figures.use;
-    facts.balls.set(row, volume.cell.get());
+    facts.balls.set(row, volume.cell);
     draft.put(row, std::move(volume));
   }
   facts.volumes = published(std::move(draft));
@@ -308,7 +308,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::vector<VolumeFacts> shown;
   std::copy_if(facts.volumes.begin(), facts.volumes.end(), std::back_inserter(shown), [&](const auto& v) { return !is_gone(v); });
   rest->balls.resize(shown.size());
-  for (std::size_t k = 0; k < shown.size(); ++k) rest->balls.set(k, shown[k].cell.get());
+  for (std::size_t k = 0; k < shown.size(); ++k) rest->balls.set(k, shown[k].cell);
   rest->volumes = published(VolumeList::Draft(std::move(shown)));
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);

@@ -74,7 +74,7 @@ struct SightBalls {
   std::vector<double> x, y, z, squared_radius;  ///< a radius below 0: no shape
 
   void resize(std::size_t size);
-  void set(std::size_t row, const Mesh* cell);
+  void set(std::size_t row, const MeshPointer& cell);
   std::size_t size() const { return x.size(); }
 };
 
