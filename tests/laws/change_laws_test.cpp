@@ -128,7 +128,7 @@ std::string crowded_box(std::uint64_t seed, double fill) {
              R"(, "types": {"smart_volume": {"demand": )" + shortest(fill * 125000 / kCount) + "}}}";
   }
   return R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [)"
-         R"({"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0, 0], [50, 0], [50, 50], [0, 50]], "height": 50}}}, )"
+         R"({"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [50, 0, 0], [50, 50, 0], [0, 50, 0]], "height": 50}}}, )"
          R"({"id": "solver", "types": {"smart_volumes_solver": {}}}, )"
          R"({"id": "sum", "types": {"statistics": {"port": "smart_volume.volume", "nodes": {"typification": "smart_volume"}}}})" +
          nodes +

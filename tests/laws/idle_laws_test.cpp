@@ -32,7 +32,11 @@ class IdleLaws : public testing::TestWithParam<std::string> {};
 TEST_P(IdleLaws, PassingIdleTicksIsTheSameAsTakingThem) {
   Twins twins(GetParam());
   for (int tick = 0; tick < kMostToRest && !twins.at_once.is_idle(); ++tick) twins.step();
-  if (!twins.at_once.is_idle()) GTEST_SKIP() << "it never rests: a sensor, a memory or a clock goes on in it";
+  if (!twins.at_once.is_idle()) {
+    const Dependents& dependents = *twins.at_once.state()->plan->dependents;
+    EXPECT_FALSE(dependents.timed_nodes.empty() && dependents.timed_links.empty()) << "nothing in it reads the time";
+    return;
+  }
   twins.at_once.pass(kPassed);
   for (int tick = 0; tick < kPassed; ++tick) {
     twins.one_by_one.step();
