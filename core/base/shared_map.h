@@ -18,6 +18,9 @@ namespace bl {
 /// was. Iterators go on over the map as it was when they were made. Adding or removing a record costs a pass over the leaves.
 template <class T>
 class SharedMap {
+  using Leaf = std::vector<std::shared_ptr<std::pair<const std::string, T>>>;  // never empty
+  using Leaves = std::vector<std::shared_ptr<const Leaf>>;
+
  public:
   using value_type = std::pair<const std::string, T>;
 
@@ -64,7 +67,7 @@ class SharedMap {
    private:
     friend class SharedMap;
     Iterator(const SharedMap& map, std::size_t leaf, std::size_t at) : leaves_(map.leaves_), leaf_(leaf), at_(at) {}
-    std::shared_ptr<const typename SharedMap::Leaves> leaves_;  // held: the map may change meanwhile
+    std::shared_ptr<const Leaves> leaves_;  // held: the map may change meanwhile
     std::size_t leaf_ = 0, at_ = 0;
   };
   using const_iterator = Iterator;
@@ -162,8 +165,6 @@ class SharedMap {
 
  private:
   static constexpr std::size_t kMostInLeaf = 64;
-  using Leaf = std::vector<std::shared_ptr<value_type>>;  // never empty
-  using Leaves = std::vector<std::shared_ptr<const Leaf>>;
   struct Place {
     std::size_t leaf = 0, at = 0;  // where the record is, or would go
     bool is_there = false;
