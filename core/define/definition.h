@@ -229,6 +229,8 @@ struct LinkDefinition : TypeDefinition {
   std::vector<LinkWrite> proposes;
   std::vector<std::pair<std::string, std::string>> same_units;  ///< pairs of port parameters whose units must agree
   std::string same_units_unless;                                ///< a boolean parameter that disables that rule
+  /// Its pairs share what they may use up in one tick, so that one can fail for what others took: all are evaluated together.
+  bool has_common_budget = false;
   /// The parameters as a struct for the evaluation; made once per change of the link.
   std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
   std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;

@@ -2,6 +2,7 @@
 #include "core/graph/kept_sets.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bl {
 
@@ -36,7 +37,9 @@ SetValues read_set(const StateDraft& draft, const SetPlan& plan) {
 
 std::span<SetValues> KeptSets::read(const StateDraft& draft, const SetGroup& group, bool is_anew) {
   const auto plans = sets_of(*draft.state.plan, group);
-  if (is_anew || !is_complete_ || structure_ != draft.state.plan->dependents) {
+  // Until all is written: an exception on the way leaves replies that nobody has got.
+  const bool was_complete = std::exchange(is_complete_, false);
+  if (is_anew || !was_complete || structure_ != draft.state.plan->dependents) {
     structure_ = draft.state.plan->dependents;
     sets_.clear();
     seen_.clear();

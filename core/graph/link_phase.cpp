@@ -298,7 +298,7 @@ struct DueLink {
 // as its nodes stay as they are.
 std::optional<End> end_of_single_pairs(const LinkPlan& plan) {
   const LinkDefinition& definition = *plan.definition;
-  if (definition.is_whole(End::from) || definition.is_whole(End::to)) return std::nullopt;
+  if (definition.is_whole(End::from) || definition.is_whole(End::to) || definition.has_common_budget) return std::nullopt;
   const End many = plan.nodes[0].size() == 1 ? End::to : End::from;
   const bool is_alone = plan.nodes[many == End::to ? 0 : 1].size() == 1 && plan.nodes[static_cast<int>(many)].size() > 1;
   const bool speaks_there = std::all_of(definition.proposes.begin(), definition.proposes.end(),

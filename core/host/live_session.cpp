@@ -44,7 +44,7 @@ LiveSession::~LiveSession() {
   shared_->thread.join();
 }
 
-// With the mutex held, as the next eight.
+// With the mutex held.
 Result<void> LiveSession::end_own_gestures(std::int64_t but) {
   return but != 0 && gestures_.is_open(but) ? Result<void>() : gestures_.end_all(options_.author, shared_->next_tick);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace bl::host {
 
@@ -16,7 +17,7 @@ constexpr double kSmoothing = 0.15;
 
 }  // namespace
 
-// The next four are called with the mutex held, and not while a tick is computed.
+// With the mutex held, as all that follow; publish() to gather_changes() not while a tick is computed.
 void LiveSession::Shared::publish() {
   auto moment = std::make_shared<Moment>();
   moment->ticked = simulation.state();
@@ -138,6 +139,7 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
 void LiveSession::Shared::run() {
   std::unique_lock lock(mutex);
   double due = clock.now();
+  bool has_rested = false;
   while (!is_ending) {
     if (holds > 0) {
       done.notify_all();
@@ -150,10 +152,13 @@ void LiveSession::Shared::run() {
         rests_since = std::max(last_tick, clock.now() - 1 / wanted_rate);
         publish();
       }
+      has_rested = true;
       done.notify_all();
       wake.wait(lock);
       continue;
     }
+    // The clock counted on meanwhile: the next tick is due when it would have been.
+    if (std::exchange(has_rested, false)) due = last_tick + 1 / wanted_rate;
     // A clock that has been set to go faster does not wait as long as it was to wait before.
     const double step = 1 / wanted_rate;
     due = std::min(due, last_tick + step);

@@ -221,6 +221,7 @@ Result<LinkDefinition> read_link_script(const std::string& name, std::string_vie
     script->write_kinds.push_back(write.kind);
   }
   script->take_back(std::move(*machine));
+  link.has_common_budget = true;
   link.instantiate = [](std::span<const Value> values) -> std::shared_ptr<const void> {
     return std::make_shared<const std::vector<Value>>(values.begin(), values.end());
   };

@@ -34,7 +34,7 @@ void OpenGestures::forget_past() {
 
 // A record that changes is replaced by another one: whoever has a reference to it may go on to read the old one.
 void OpenGestures::hold_records() {
-  if (held_.size() >= kMostHeld) held_.erase(held_.begin());
+  if (held_.size() >= kMostHeld) held_.erase(held_.begin(), held_.begin() + kMostHeld / 2);
   held_.push_back({ledger_->scene().nodes, ledger_->scene().links});
   if (shown_) held_.push_back({shown_->nodes, shown_->links});
 }
@@ -61,11 +61,12 @@ Result<void> OpenGestures::show(Submission frame, std::int64_t tick, double now)
     return Error{ErrorCode::conflict, "gesture", "the gesture " + std::to_string(frame.gesture) + " is somebody else's"};
   if (!shown_) shown_ = std::make_unique<Scene>(ledger_->scene());
   SceneEdit edit(*shown_, ledger_->registry());
-  if (auto done = bl::apply(edit, frame.command); !done) {
+  auto done = bl::apply(edit, frame.command);
+  hold_records();
+  if (!done) {
     if (open_.empty()) stop_showing();
     return done.error();
   }
-  hold_records();
   Gesture& gesture = known != open_.end() ? known->second : open_[frame.gesture];
   gesture.author = frame.author;
   // A hand that rests says nothing.

@@ -20,8 +20,8 @@ constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
 constexpr double kIdleShare = 0.25, kLocalIdleShare = 0.5;
-// A step is that of the whole only where it would be that of more than this share of the demands anyway. It reaches so many
-// bonds beyond those who miss theirs.
+// A local step moves those who miss their demands and those up to so many bonds away. Where that comes to more than this share of
+// the demands, all move.
 constexpr double kFewMovers = 0.25;
 constexpr int kRings = 2;
 // Farther from the demands than this, a step of Newton's is careful with growth.
@@ -40,7 +40,9 @@ void WeightFit::move_together(std::span<const CellMeasure> cells) {
   for (std::uint32_t k = 0; k < targets_.size(); ++k) {
     if (targets_.sites(k).empty() || !(targets_.aim(k) > 0)) continue;
     const double error = targets_.total(k) - targets_.aim(k), part = targets_.total(k) / targets_.aim(k);
-    if (!is_local() || is_missed(k)) squares += error * error / targets_.aim(k);
+    // Of many, those within the tolerance stay as they are and are no part of what a step has to bring down.
+    const double counted = is_local() ? std::max(0.0, std::abs(error) - options_.tolerance * targets_.aim(k)) : error;
+    squares += counted * counted / targets_.aim(k);
     ratio = std::min(ratio, part);
     if (part < state.least_ratio) offenders.push_back(k);
   }
@@ -158,7 +160,9 @@ std::vector<double> WeightFit::wanted_changes() const {
 void WeightFit::step_together(std::span<const CellMeasure> cells, double residual) {
   FitState& state = report_.state;
   ++report_.iterations;
-  if (is_local()) choose_movers(cells);
+  // After a step that went too far, or was too small to help, the next one is that of the whole.
+  movers_.clear();
+  if (is_local() && std::abs(state.share) == options_.damping) choose_movers(cells);
   std::vector<std::uint8_t> fitted(cells.size());
   std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -173,7 +177,9 @@ void WeightFit::step_together(std::span<const CellMeasure> cells, double residua
   state.previous_move.assign(cells.size(), 0);
   std::vector<double> from(cells.size(), 0);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool counts = fitted[i] && cells[i].volume > 0 && !is_idle(cells, i, std::abs(change[unknown[i]]));
+    // Those who miss are never idle in a step of their own: their neighbours alone may be too slow for that.
+    const bool is_seed = !movers_.empty() && fitted[i] && is_missed(targets_.owner(i));
+    const bool counts = fitted[i] && cells[i].volume > 0 && (is_seed || !is_idle(cells, i, std::abs(change[unknown[i]])));
     if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[unknown[i]];
     from[i] = cube_of_radius(sites_[i].weight);
     if (fitted[i]) follow(i, from[i]);
