@@ -75,8 +75,8 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"ways", 1},
                                                {"districts", 2},
                                                {"study", 3},
-                                               {"tick", 6}}));
-  EXPECT_EQ(hashes.size(), 11u);
+                                               {"tick", 24}}));
+  EXPECT_EQ(hashes.size(), 20u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
 }

@@ -85,7 +85,7 @@ BenchTable table_of_ticks() {
   return {"tick",
           "Ticks of volumes with three links to sets, against the same ticks with everything evaluated",
           {{"case", "case", true},
-           {"fill", "fill"},
+           {"fill %", "fill_percent"},
            {"volumes", "sites"},
            {"threads", "threads"},
            {"median ms", "median_ms"},
@@ -98,9 +98,9 @@ BenchTable table_of_ticks() {
 void add_row(BenchTable& table, const std::string& name, double fill, int count, int threads, Times times, const State& state) {
   std::sort(times.tick.begin(), times.tick.end());
   const double mine = median(times.tick), all = median(times.everything), late = times.tick[times.tick.size() * 95 / 100];
-  table.add({word(name), figure(fill, 2), figure(static_cast<std::size_t>(count)), figure(static_cast<std::size_t>(threads)),
-             figure(1000 * mine, 4), figure(1000 * late, 4), figure(1000 * all, 3), figure(mine / all, 5),
-             word(hex_digits(state.hash))});
+  table.add({word(name), figure(100 * fill, 0), figure(static_cast<std::size_t>(count)),
+             figure(static_cast<std::size_t>(threads)), figure(1000 * mine, 4), figure(1000 * late, 4), figure(1000 * all, 3),
+             figure(mine / all, 5), word(hex_digits(state.hash))});
 }
 
 struct Case {
