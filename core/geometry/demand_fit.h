@@ -31,6 +31,8 @@ struct FitOptions {
                             ///< saves most of the work after a small change, and leaves errors within the tolerance as they are
   ThreadPool* pool = nullptr;
   PowerDiagram* diagram = nullptr;  ///< kept between calls, it reuses cells that cannot have changed; it changes no bit
+  bool with_whole_cells = false;    ///< the diagram's cells are made whole and with outlines, for who completes them afterwards;
+                                    ///< else only as far as their balls reach. It changes last bits of volumes
 };
 
 /// The state of the fit besides the weights. It is plain data, saved with the scene, so that a tick is a pure function of it.

@@ -24,7 +24,7 @@ Result<void> check_options(std::span<const PowerSite> sites, const Domain& domai
   if (!options.storey_heights.empty() && options.storey_heights.size() != sites.size()) {
     return Error{ErrorCode::out_of_range, "", "there has to be one storey height for each site"};
   }
-  if (!options.with_shape) return {};
+  if (!options.with_shape || !options.with_storeys) return {};
   const auto is_fit = [&](double storey) {
     return storey > 0 && std::isfinite(storey) && (domain.maximum.z - domain.minimum.z) / storey <= kMostStoreys;
   };
@@ -51,19 +51,22 @@ struct PowerDiagram::Workshop {
   CellWorkshop workshop;
   std::vector<CellMeasure> cells;
   std::vector<std::vector<std::uint32_t>> borders, faces;
-  std::vector<std::uint32_t> changed, made, empty, unlimited;
+  std::vector<std::uint32_t> changed, made, completed, empty, unlimited;
   std::vector<std::uint8_t> is_marked;
   std::vector<double> limits;  // how far from its site each cell is made [m]
   double largest_limit = 0;    // of those that end
   std::vector<double> storey_heights;
   CellOptions last;
   bool is_whole = false;  // do `cells` belong to the sites and options of the last call?
+  // Of the last complete(): what it asked for, and which cells have not been made anew since.
+  CellOptions completed_with;
+  std::vector<double> completed_heights;
+  std::vector<std::uint8_t> is_complete;
 
-  bool asks_the_same(const CellOptions& options) const {
-    return last.storey_height == options.storey_height && last.with_shape == options.with_shape &&
-           last.with_centroid == options.with_centroid && last.with_outlines == options.with_outlines &&
-           last.with_coarse_mesh == options.with_coarse_mesh && last.tessellation_depth == options.tessellation_depth &&
-           std::equal(storey_heights.begin(), storey_heights.end(), options.storey_heights.begin(), options.storey_heights.end());
+  static bool asks_the_same(const CellOptions& a, const CellOptions& b) {
+    return a.storey_height == b.storey_height && a.with_shape == b.with_shape && a.with_storeys == b.with_storeys &&
+           a.with_centroid == b.with_centroid && a.with_outlines == b.with_outlines && a.with_coarse_mesh == b.with_coarse_mesh &&
+           a.tessellation_depth == b.tessellation_depth;
   }
 
   void mark(std::uint32_t site) {
@@ -155,6 +158,7 @@ struct PowerDiagram::Workshop {
   Result<void> update_all(std::span<const PowerSite> sites, const CellOptions& options, bool same_places) {
     if (auto set = same_places ? workshop.set_weights(sites) : workshop.set_sites(sites); !set) return set.error();
     cells.resize(sites.size());
+    is_complete.resize(sites.size());
     borders.resize(sites.size());
     faces.resize(sites.size());
     made.resize(sites.size());
@@ -175,8 +179,10 @@ struct PowerDiagram::Workshop {
       changed.push_back(i);
       same_places = same_places && sites[i].position == workshop.sites()[i].position;
     }
-    const bool is_local = comparable && asks_the_same(options) &&
-                          static_cast<double>(changed.size()) <= kManyChanges * static_cast<double>(sites.size());
+    const bool is_same = asks_the_same(last, options) && std::equal(storey_heights.begin(), storey_heights.end(),
+                                                                    options.storey_heights.begin(), options.storey_heights.end());
+    const bool is_local =
+        comparable && is_same && static_cast<double>(changed.size()) <= kManyChanges * static_cast<double>(sites.size());
     is_whole = false;
     if (!is_local || !update_locally(sites, options)) {
       if (auto done = update_all(sites, options, same_places); !done) return done.error();
@@ -185,8 +191,29 @@ struct PowerDiagram::Workshop {
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
       if (!(cells[i].volume > 0)) empty.push_back(i);
     }
+    for (const std::uint32_t i : made) is_complete[i] = 0;
     last = options;
     storey_heights.assign(options.storey_heights.begin(), options.storey_heights.end());
+    is_whole = true;
+    return {};
+  }
+
+  Result<void> complete(const CellOptions& options) {
+    if (!is_whole || !last.with_shape || !last.with_outlines)
+      return Error{ErrorCode::missing, "", "only cells that were made with their outlines can be measured again"};
+    if (auto checked = check_options(workshop.sites(), workshop.domain(), options); !checked) return checked.error();
+    const bool is_same = asks_the_same(completed_with, options) && completed_heights.size() == options.storey_heights.size();
+    const auto is_due = [&](std::uint32_t i) {
+      return !is_same || !is_complete[i] || (!completed_heights.empty() && completed_heights[i] != options.storey_heights[i]);
+    };
+    completed.clear();
+    for (std::uint32_t i = 0; i < cells.size(); ++i)
+      if (is_due(i)) completed.push_back(i);
+    is_whole = false;
+    workshop.measure(completed, options, cells);
+    for (const std::uint32_t i : completed) is_complete[i] = 1;
+    completed_with = options;
+    completed_heights.assign(options.storey_heights.begin(), options.storey_heights.end());
     is_whole = true;
     return {};
   }
@@ -209,9 +236,15 @@ Result<void> PowerDiagram::set_domain(const Domain& domain) {
 const Domain& PowerDiagram::domain() const { return workshop_->workshop.domain(); }
 std::span<const CellMeasure> PowerDiagram::cells() const { return workshop_->cells; }
 std::span<const std::uint32_t> PowerDiagram::made() const { return workshop_->made; }
+std::span<const std::uint32_t> PowerDiagram::completed() const { return workshop_->completed; }
 
 Result<std::span<const CellMeasure>> PowerDiagram::update(std::span<const PowerSite> sites, const CellOptions& options) try {
   if (auto done = workshop_->update(sites, options); !done) return done.error();
+  return std::span<const CellMeasure>(workshop_->cells);
+} catch (const std::exception& problem) { return failure(problem); }
+
+Result<std::span<const CellMeasure>> PowerDiagram::complete(const CellOptions& options) try {
+  if (auto done = workshop_->complete(options); !done) return done.error();
   return std::span<const CellMeasure>(workshop_->cells);
 } catch (const std::exception& problem) { return failure(problem); }
 

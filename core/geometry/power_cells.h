@@ -74,15 +74,16 @@ struct CellMeasure {
 };
 
 struct CellOptions {
-  double storey_height = 3;                ///< [m], for the floor area
-  std::span<const double> storey_heights;  ///< [m], per site; overrides `storey_height` where not empty
-  bool with_shape = true;                  ///< off: volumes, areas and centroid of the shape only; cell_volume, floor area,
-                                           ///< footprint, height and bottom stay 0, and hidden sites count as starved
-  bool with_centroid = true;               ///< off: centroids are the sites' positions
-  bool with_outlines = false;              ///< keep the polyhedra of the cells; together with `with_shape` only
-  bool with_coarse_mesh = false;           ///< the mesh, where it is asked for, brings the coarse one along
-  int tessellation_depth = -1;             ///< -1: no mesh; 0 to 4: each face's triangles are split in four so many times
-  ThreadPool* pool = nullptr;              ///< null: on the calling thread. The result does not depend on it
+  double storey_height = 3;                     ///< [m], for the floor area
+  std::span<const double> storey_heights = {};  ///< [m], per site; overrides `storey_height` where not empty
+  bool with_shape = true;                       ///< off: volumes, areas and centroid of the shape only; cell_volume, floor area,
+                                                ///< footprint, height and bottom stay 0, and hidden sites count as starved
+  bool with_storeys = true;                     ///< off: floor area, footprint, height and bottom stay 0
+  bool with_centroid = true;                    ///< off: centroids are the sites' positions
+  bool with_outlines = false;                   ///< keep the polyhedra of the cells; together with `with_shape` only
+  bool with_coarse_mesh = false;                ///< the mesh, where it is asked for, brings the coarse one along
+  int tessellation_depth = -1;                  ///< -1: no mesh; 0 to 4: each face's triangles are split in four so many times
+  ThreadPool* pool = nullptr;                   ///< null: on the calling thread. The result does not depend on it
 };
 
 /// The cells of all sites, in the order of the sites. Every site gets a record. Fails on non-finite or absurd input only.
@@ -103,10 +104,16 @@ class PowerDiagram {
   const Domain& domain() const;
   /// Valid until the next call. An error leaves the last measures as they were.
   Result<std::span<const CellMeasure>> update(std::span<const PowerSite> sites, const CellOptions& options = {});
+  /// The measures that the last updates have left out, of the same sites: for cells that were made anew since the last call, or
+  /// of which it asks for something else. To be asked after an update with outlines. Like this a fit makes cells many times, and
+  /// who looks at the result has them measured once. Cells that an update without these measures keeps, keep them too.
+  Result<std::span<const CellMeasure>> complete(const CellOptions& options);
   /// The measures of the last update.
   std::span<const CellMeasure> cells() const;
   /// The sites whose cells the last update has computed anew; the other cells cannot have changed.
   std::span<const std::uint32_t> made() const;
+  /// The sites whose cells the last complete() has measured; the other cells have not changed since the one before.
+  std::span<const std::uint32_t> completed() const;
 
  private:
   struct Workshop;

@@ -62,20 +62,24 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
                              .tolerance = tolerance,
                              .is_local = true,
                              .pool = pool,
-                             .diagram = &kept.fitted};
+                             .diagram = &kept.cells,
+                             .with_whole_cells = true};
     auto adapted = adapt_weights(domain, sites, wanted, {}, state, options);
     if (!adapted) return adapted.error();
     fit = std::move(*adapted);
     take_weights(fit, sites);
   }
-  if (auto set = kept.shown.set_domain(domain); !set) return set.error();
-  const auto cells = kept.shown.update(
-      sites,
+  // The fit has made most of these cells. What people read of them is measured once, of those that it ends with.
+  if (auto set = kept.cells.set_domain(domain); !set) return set.error();
+  const auto made =
+      kept.cells.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true, .pool = pool});
+  if (!made) return made.error();
+  const auto cells = kept.cells.complete(
       {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});
   if (!cells) return cells.error();
   Outcome outcome{std::move(fit.state), std::move(fit.losses), "", *cells, {}, {}};
-  kept.stances.update(domain, sites, *cells, standing, kept.shown.made());
-  find_differing(state, kept.shown.made(), kept.stances, outcome);
+  kept.stances.update(domain, sites, *cells, standing, kept.cells.completed());
+  find_differing(state, kept.cells.completed(), kept.stances, outcome);
   return outcome;
 }
 
@@ -97,7 +101,7 @@ Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::v
   std::iota(all.begin(), all.end(), 0u);
   kept.stances.update(domain, sites, kept.sampled.cells, standing, all);
   // Stances and the exact cells, which are made anew in the next exact tick, no longer belong together.
-  kept.shown = PowerDiagram();
+  kept.cells = PowerDiagram();
   find_differing(state, all, kept.stances, outcome);
   return outcome;
 }

@@ -27,7 +27,7 @@ struct VolumeTick {
 
   /// Cells and lines of the last tick, so that unchanged ones are not computed again. It changes no bit.
   struct Cache {
-    PowerDiagram fitted, shown;
+    PowerDiagram cells;
     SampledDiagram lines;
     SampledCells sampled;
     StanceFinder stances;

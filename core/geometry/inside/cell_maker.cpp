@@ -64,7 +64,7 @@ void CellMaker::begin(const CellInput& ground, std::uint32_t site) {
   }
 }
 
-void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site) {
+void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site, std::span<const std::uint32_t> expected) {
   const PowerSite& own = ground.sites[site];
   const Point3 centre = own.position;
   const double weight = own.weight;
@@ -96,9 +96,21 @@ void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site) {
       free_link_ = first;
     }
   }
+  // Nobody may cut twice: what touches is no longer sure.
+  if (!expected.empty()) {
+    is_done_.resize(ground.sites.size(), 0);
+    ++cell_number_;
+  }
+  for (const std::uint32_t j : expected) {
+    const SiteGrid::Entry other = ground.grid.of(j);
+    cut_by(other.position, other.weight, j);
+    is_done_[j] = cell_number_;
+  }
   ground.grid.search(
       centre, weight, site, skip, [&] { return reach; },
-      [&](const SiteGrid::Entry& entry) { cut_by(entry.position, entry.weight, entry.site); });
+      [&](const SiteGrid::Entry& entry) {
+        if (expected.empty() || is_done_[entry.site] != cell_number_) cut_by(entry.position, entry.weight, entry.site);
+      });
 }
 
 void CellMaker::start_run(const CellInput& ground, std::uint32_t first_place, std::uint32_t count) {
@@ -185,7 +197,7 @@ bool CellMaker::keep_parts(const CellInput& ground, const Point3& origin) {
   return is_sure;
 }
 
-void CellMaker::make(const CellInput& ground, std::uint32_t site, bool whole) {
+void CellMaker::make(const CellInput& ground, std::uint32_t site, bool whole, std::span<const std::uint32_t> expected) {
   const PowerSite& own = ground.sites[site];
   part_count_ = 0;
   borders_.clear();
@@ -203,7 +215,7 @@ void CellMaker::make(const CellInput& ground, std::uint32_t site, bool whole) {
     gather(ground, site, kUnlimited);
     cut_in_order(ground, site);
   } else {
-    cut_by_search(ground, site);
+    cut_by_search(ground, site, expected);
   }
   const bool is_convex = ground.domain.is_convex();
   Polyhedron& outline = is_convex ? next_part() : outline_;

@@ -39,8 +39,10 @@ class CellMaker {
     known_.clear();
   }
 
-  /// `whole`: the whole power cell inside the domain; otherwise only what may lie in the site's ball.
-  void make(const CellInput& ground, std::uint32_t site, bool whole);
+  /// `whole`: the whole power cell inside the domain; otherwise only what may lie in the site's ball. `expected`: participants
+  /// that may border the cell, each once, such as those that did before a change. They are cut with first, so that the search
+  /// ends early; outside of a run only.
+  void make(const CellInput& ground, std::uint32_t site, bool whole, std::span<const std::uint32_t> expected = {});
 
   /// Relative to the site; one for each piece of the domain that the cell reaches into.
   std::span<const Polyhedron> parts() const { return std::span(parts_).first(part_count_); }
@@ -57,7 +59,7 @@ class CellMaker {
   };
   void remember(const CellInput& ground, std::uint32_t site, bool is_sure);
   void begin(const CellInput& ground, std::uint32_t site);
-  void cut_by_search(const CellInput& ground, std::uint32_t site);
+  void cut_by_search(const CellInput& ground, std::uint32_t site, std::span<const std::uint32_t> expected);
   void cut_in_order(const CellInput& ground, std::uint32_t site);
   void gather(const CellInput& ground, std::uint32_t site, double reach);
   bool keep_parts(const CellInput& ground, const Point3& origin);
@@ -67,7 +69,9 @@ class CellMaker {
 
   Clipper cell_, piece_;
   Polyhedron outline_;
-  double limit_ = 0;  // nothing beyond this distance matters [m]
+  double limit_ = 0;                    // nothing beyond this distance matters [m]
+  std::vector<std::uint32_t> is_done_;  // per site: the number of the cell that was last cut by it before the search
+  std::uint32_t cell_number_ = 0;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> borders_, faces_;
   std::vector<Polyhedron> parts_;

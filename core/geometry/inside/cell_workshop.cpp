@@ -90,9 +90,9 @@ std::shared_ptr<const std::vector<Polyhedron>> polyhedra_of(std::span<const Poly
   return std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
 }
 
-void measure_parts(const CellInput& ground, std::uint32_t index, const CellOptions& options, CellBench& bench, CellMeasure& out) {
+void measure_parts(const CellInput& ground, std::uint32_t index, std::span<const Polyhedron> parts, const CellOptions& options,
+                   CellBench& bench, CellMeasure& out) {
   const PowerSite& site = ground.sites[index];
-  const auto parts = bench.maker.parts();
   bench.shapes.resize(parts.size());
   Vector3 moment;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -115,7 +115,7 @@ void measure_parts(const CellInput& ground, std::uint32_t index, const CellOptio
   const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
   if (options.with_centroid) out.centroid = site.position + centroid;
   add_up(ground, site, out);
-  if (options.with_shape) {
+  if (options.with_shape && options.with_storeys) {
     const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
@@ -229,22 +229,31 @@ void CellWorkshop::erase(std::uint32_t site) {
   ground_.grid.erase(site);
 }
 
-void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const {
+void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, std::span<const std::uint32_t> expected,
+                            CellBench& bench, CellMeasure& out) const {
+  out.outlines.reset();
+  if (twin_[site] != kNone) return measure_one(site, {}, options, bench, out);
+  bench.maker.make(ground_, site, options.with_shape, expected);
+  if (options.with_outlines && options.with_shape) out.outlines = polyhedra_of(bench.maker.parts());
+  measure_one(site, bench.maker.parts(), options, bench, out);
+}
+
+// Of the record that was there only the outlines count, and the room that its lists take.
+void CellWorkshop::measure_one(std::uint32_t site, std::span<const Polyhedron> parts, const CellOptions& options,
+                               CellBench& bench, CellMeasure& out) const {
   std::vector<FacetArea> facets = std::move(out.facets);
   facets.clear();
+  auto outlines = std::move(out.outlines);
   out = CellMeasure{};
   out.facets = std::move(facets);
+  out.outlines = std::move(outlines);
   out.centroid = sites_[site].position;
   out.bottom = sites_[site].position.z;
   const std::uint32_t twin = twin_[site];
-  if (twin == kNone) {
-    bench.maker.make(ground_, site, options.with_shape);
-    if (options.with_outlines && options.with_shape) out.outlines = polyhedra_of(bench.maker.parts());
-    measure_parts(ground_, site, options, bench, out);
-  }
+  if (twin == kNone) measure_parts(ground_, site, parts, options, bench, out);
   std::string emptiness;
   if (twin == kNone && !(out.volume > 0)) {
-    const bool has_cell = out.cell_volume > 0 || (!options.with_shape && !bench.maker.parts().empty());
+    const bool has_cell = out.cell_volume > 0 || (!options.with_shape && !parts.empty());
     const std::uint32_t winner = has_cell ? kNone : ground_.grid.least_power(sites_[site].position);
     out.state = has_cell ? SiteState::starved : SiteState::hidden;
     emptiness = winner != kNone && winner != site ? "swallowed: " + number(winner) + " outweighs it at its position"
@@ -282,6 +291,8 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
                               const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
                               std::vector<std::uint32_t>* faces) {
   auto bench = take_bench();
+  // Who bordered a cell before is likely to do so again. Of sites at one place only one has a cell that can be cut by.
+  const bool is_expected = !is_run && faces != nullptr && !has_twins_ && !ground_.is_triangulated;
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
     if (k % kCellsPerLook == 0 && is_stop_wished()) break;
@@ -290,7 +301,7 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
       fetch_ahead(cells[which[k + 1]]);
       fetch_ahead(sites_[which[k + 1]]);
     }
-    make_one(which[k], options, *bench, cells[which[k]]);
+    make_one(which[k], options, is_expected ? faces[which[k]] : std::span<const std::uint32_t>{}, *bench, cells[which[k]]);
     if (borders == nullptr) continue;
     const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
     borders[which[k]].assign(found.begin(), found.end());
@@ -304,13 +315,29 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
 
 void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
                         std::vector<std::uint32_t>* borders, std::vector<std::uint32_t>* faces) {
-  const auto body = [&](std::size_t begin, std::size_t end) {
-    make_range(which, false, begin, end, options, cells, borders, faces);
-  };
-  if (options.pool != nullptr && which.size() > kSitesAtATime) {
-    options.pool->for_each_chunk(which.size(), kSitesAtATime, body);
-  } else if (!which.empty()) {
-    body(0, which.size());
+  share_out(which.size(), options.pool,
+            [&](std::size_t begin, std::size_t end) { make_range(which, false, begin, end, options, cells, borders, faces); });
+}
+
+void CellWorkshop::measure(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells) {
+  share_out(which.size(), options.pool, [&](std::size_t begin, std::size_t end) {
+    auto bench = take_bench();
+    for (std::size_t k = begin; k < end; ++k) {
+      CellMeasure& cell = cells[which[k]];
+      const auto outlines = cell.outlines;
+      measure_one(which[k], outlines ? std::span<const Polyhedron>(*outlines) : std::span<const Polyhedron>{}, options, *bench,
+                  cell);
+    }
+    give_back(std::move(bench));
+  });
+}
+
+template <class Body>
+void CellWorkshop::share_out(std::size_t count, ThreadPool* pool, const Body& body) {
+  if (pool != nullptr && count > kSitesAtATime) {
+    pool->for_each_chunk(count, kSitesAtATime, body);
+  } else if (count > 0) {
+    body(0, count);
   }
 }
 

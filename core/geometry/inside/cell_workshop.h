@@ -59,6 +59,8 @@ class CellWorkshop {
   /// change can change the cell; `faces` (likewise) those of them that share a face with it.
   void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
             std::vector<std::uint32_t>* borders = nullptr, std::vector<std::uint32_t>* faces = nullptr);
+  /// Measures cells anew from the outlines that they were made with.
+  void measure(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells);
   /// Makes all cells, which takes less than making each of them.
   void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr,
                 std::vector<std::uint32_t>* faces = nullptr);
@@ -70,7 +72,12 @@ class CellWorkshop {
   std::size_t runs_per_thread(std::size_t threads, const CellOptions& options) const;
   void make_place(std::uint32_t site);
   bool has_room_for(std::uint32_t site, const Point3& position) const;
-  void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;
+  void make_one(std::uint32_t site, const CellOptions& options, std::span<const std::uint32_t> expected, CellBench& bench,
+                CellMeasure& out) const;
+  void measure_one(std::uint32_t site, std::span<const Polyhedron> parts, const CellOptions& options, CellBench& bench,
+                   CellMeasure& out) const;
+  template <class Body>
+  void share_out(std::size_t count, ThreadPool* pool, const Body& body);
   std::unique_ptr<CellBench> take_bench();
   void give_back(std::unique_ptr<CellBench> bench);
 

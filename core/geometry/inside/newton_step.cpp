@@ -19,11 +19,11 @@ constexpr double kFewOffenders = 0.02;
 constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
-constexpr double kIdleShare = 0.25, kLocalIdleShare = 0.5;
-// A local step moves those who miss their demands and those up to so many bonds away. Where that comes to more than this share of
-// the demands, all move.
-constexpr double kFewMovers = 0.25;
-constexpr int kRings = 2;
+constexpr double kIdleShare = 0.25;
+// A local step moves those who miss their demands, and those who by that would come to miss theirs by more than this share of
+// the tolerance: found in so many rounds. Where it comes to more than this share of the demands, all move.
+constexpr double kStayShare = 0.9, kFewMovers = 0.25;
+constexpr int kMostRounds = 8;
 // Farther from the demands than this, a step of Newton's is careful with growth.
 constexpr double kFarError = 1.6;
 // Newton's step is halved no further than this.
@@ -127,23 +127,54 @@ void WeightFit::repair(std::span<const CellMeasure> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
 }
 
-// Where few miss their demands by more than the tolerance, the step is theirs and that of those around them; all others stay as
-// they are, bit for bit. What these come to miss by that is taken up by the next step.
-void WeightFit::choose_movers(std::span<const CellMeasure> cells) {
+// Where few miss their demands by more than the tolerance, the step is theirs, and that of those whom it would make miss theirs;
+// all others stay as they are, bit for bit. Empty where all have to move.
+WeightFit::Step WeightFit::local_step(std::span<const CellMeasure> cells) {
   movers_.assign(targets_.size(), 0);
-  std::vector<std::uint32_t> near;
-  for (std::uint32_t k = 0; k < targets_.size(); ++k)
-    if (is_missed(k)) movers_[k] = 1, near.push_back(k);
-  const double most = kFewMovers * static_cast<double>(targets_.size());
-  std::size_t first = 0;
-  for (int ring = 0; ring < kRings && static_cast<double>(near.size()) <= most; ++ring)
-    for (const std::size_t end = near.size(); first < end; ++first)
-      for (const std::uint32_t i : targets_.sites(near[first]))
-        for (const FacetArea& facet : cells[i].facets) {
-          const std::uint32_t k = facet.kind == FacetArea::Kind::site ? targets_.owner(facet.index) : FitTargets::kNone;
-          if (k != FitTargets::kNone && !movers_[k]) movers_[k] = 1, near.push_back(k);
-        }
-  if (static_cast<double>(near.size()) > most) movers_.clear();
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) movers_[k] = is_missed(k);
+  const auto most = static_cast<std::ptrdiff_t>(kFewMovers * static_cast<double>(targets_.size()));
+  for (int round = 0; std::count(movers_.begin(), movers_.end(), 1) <= most; ++round) {
+    Step step = solve(cells);
+    if (round == kMostRounds || !add_movers(cells, step)) return step;
+  }
+  movers_.clear();
+  return {};
+}
+
+// Adds those who would come to miss their demands by a step to those who take part in it. Is there one?
+bool WeightFit::add_movers(std::span<const CellMeasure> cells, const Step& step) {
+  std::vector<double> totals(targets_.size());
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) totals[k] = targets_.total(k);
+  for (const std::uint32_t i : step.sites) {
+    for (const FacetArea& facet : cells[i].facets) {
+      const std::uint32_t k = facet.kind == FacetArea::Kind::site ? targets_.owner(facet.index) : FitTargets::kNone;
+      if (k == FitTargets::kNone || movers_[k]) continue;
+      totals[k] -= step.change[targets_.owner(i)] * facet.area / (2 * distance(sites_[i].position, sites_[facet.index].position));
+    }
+  }
+  bool has_added = false;
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+    if (movers_[k] || totals[k] == targets_.total(k) || !(targets_.most(k) > 0) || !targets_.is_active(k)) continue;
+    if (std::abs(totals[k] - targets_.aim(k)) <= kStayShare * options_.tolerance * targets_.aim(k)) continue;
+    movers_[k] = 1;
+    has_added = true;
+  }
+  return has_added;
+}
+
+WeightFit::Step WeightFit::solve(std::span<const CellMeasure> cells) const {
+  Step step;
+  std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
+  std::vector<std::uint8_t> fitted(cells.size());
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    fitted[i] = moves(i);
+    if (!fitted[i]) continue;
+    unknown[i] = targets_.owner(i);
+    step.sites.push_back(i);
+  }
+  step.change =
+      ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+  return step;
 }
 
 // What the linear response is asked for, per demand [m³].
@@ -162,34 +193,28 @@ void WeightFit::step_together(std::span<const CellMeasure> cells, double residua
   ++report_.iterations;
   // After a step that went too far, or was too small to help, the next one is that of the whole.
   movers_.clear();
-  if (is_local() && std::abs(state.share) == options_.damping) choose_movers(cells);
-  std::vector<std::uint8_t> fitted(cells.size());
-  std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    fitted[i] = moves(i);
-    if (fitted[i]) unknown[i] = targets_.owner(i);
-  }
-  const std::vector<double> change =
-      ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+  Step step;
+  if (is_local() && std::abs(state.share) == options_.damping) step = local_step(cells);
+  const bool is_local_step = !movers_.empty();
+  if (!is_local_step) step = solve(cells);
   state.residual = residual;
   state.share = options_.damping;
   state.direction.assign(cells.size(), 0);
   state.previous_move.assign(cells.size(), 0);
   std::vector<double> from(cells.size(), 0);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    // Those who miss are never idle in a step of their own: their neighbours alone may be too slow for that.
-    const bool is_seed = !movers_.empty() && fitted[i] && is_missed(targets_.owner(i));
-    const bool counts = fitted[i] && cells[i].volume > 0 && (is_seed || !is_idle(cells, i, std::abs(change[unknown[i]])));
-    if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[unknown[i]];
+  for (const std::uint32_t i : step.sites) {
+    const double change = step.change[targets_.owner(i)];
+    const bool counts = cells[i].volume > 0 && (is_local_step || !is_idle(cells, i, std::abs(change)));
+    if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change;
     from[i] = cube_of_radius(sites_[i].weight);
-    if (fitted[i]) follow(i, from[i]);
+    follow(i, from[i]);
   }
   move_groups_alike(from);
 }
 
 // Would this change of weight [m²] move no volume by what anybody counts?
 bool WeightFit::is_idle(std::span<const CellMeasure> cells, std::size_t i, double change) const {
-  const double enough = (movers_.empty() ? kIdleShare : kLocalIdleShare) * options_.tolerance;
+  const double enough = kIdleShare * options_.tolerance;
   if (change * cells[i].volume_by_own_weight > enough * targets_.part(i)) return false;
   for (const FacetArea& facet : cells[i].facets) {
     if (facet.kind != FacetArea::Kind::site || !is_fitted(facet.index)) continue;

@@ -59,7 +59,14 @@ class WeightFit {
   void raise(std::uint32_t target, std::vector<double>& weights) const;
   void repair_offenders(std::span<const std::uint32_t> offenders);
   void repair(Cells cells);
-  void choose_movers(Cells cells);
+  /// What the linear response asks for.
+  struct Step {
+    std::vector<std::uint32_t> sites;  ///< that take part
+    std::vector<double> change;        ///< of weight [m²], per target
+  };
+  Step local_step(Cells cells);
+  bool add_movers(Cells cells, const Step& step);
+  Step solve(Cells cells) const;
   std::vector<double> wanted_changes() const;
   void step_together(Cells cells, double residual);
   bool is_idle(Cells cells, std::size_t i, double change) const;

@@ -110,5 +110,58 @@ TEST(CellHistory, SitesThatLeaveTheirOldBoxFindEachOther) {
   }
 }
 
+bool same_shape_bits(const geometry::CellMeasure& a, const geometry::CellMeasure& b) {
+  return same_measure_bits(a, b) && a.reason == b.reason && a.floor_area == b.floor_area && a.footprint == b.footprint &&
+         a.height == b.height && a.bottom == b.bottom && (a.mesh == nullptr) == (b.mesh == nullptr) &&
+         (a.mesh == nullptr || (*a.mesh).vertices == (*b.mesh).vertices);
+}
+
+// Made without storeys, some times over, and completed now and then: every cell is as if it had been made with all at once, and
+// what complete() does not name has not changed.
+TEST(CellHistory, WhatIsCompletedLaterIsWhatIsMadeAtOnce) {
+  std::size_t kept = 0;
+  for (int k = 0; k < rounds(40) && !HasFailure(); ++k) {
+    const SiteSet set = zoo_set(k % kZooKinds, 30 + static_cast<std::size_t>(k) % 50, 900 + static_cast<std::uint64_t>(k));
+    SCOPED_TRACE(set.name);
+    Random random(40 + static_cast<std::uint64_t>(k));
+    std::vector<double> heights(set.sites.size(), 0.1);
+    geometry::PowerDiagram diagram;
+    ASSERT_TRUE(diagram.set_domain(set.domain).ok());
+    std::vector<geometry::PowerSite> sites = set.sites;
+    std::vector<geometry::CellMeasure> before;
+    for (int step = 0; step < 25; ++step) {
+      for (std::size_t n = random.below(3); n > 0; --n) {
+        change(sites, set.sites, random);
+        ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true}).ok());
+      }
+      if (random.below(4) == 0) heights[random.below(heights.size())] = random.uniform(0.05, 0.2);
+      ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true}).ok());
+      const geometry::CellOptions asked{.storey_heights = heights, .tessellation_depth = random.below(8) == 0 ? 1 : 0};
+      const auto cells = diagram.complete(asked);
+      ASSERT_TRUE(cells.ok()) << cells.error().text();
+      const auto fresh = power_cells(set.domain, sites, asked);
+      ASSERT_TRUE(fresh.ok());
+      std::vector<std::uint8_t> is_completed(sites.size(), 0);
+      for (const std::uint32_t i : diagram.completed()) is_completed[i] = 1;
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        ASSERT_TRUE(same_shape_bits((*cells)[i], (*fresh)[i])) << "site " << i << " in step " << step;
+        if (is_completed[i]) continue;
+        ++kept;
+        ASSERT_TRUE(same_shape_bits((*cells)[i], before[i])) << "site " << i << " in step " << step;
+      }
+      before.assign(cells->begin(), cells->end());
+    }
+  }
+  EXPECT_GT(kept, 0u);
+}
+
+TEST(CellHistory, OnlyCellsWithOutlinesCanBeCompleted) {
+  geometry::PowerDiagram diagram;
+  ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
+  EXPECT_FALSE(diagram.complete({}).ok());
+  ASSERT_TRUE(diagram.update(random_sites(20, 1, 0.01, 0.02)).ok());
+  EXPECT_FALSE(diagram.complete({}).ok());
+}
+
 }  // namespace
 }  // namespace bl::test
