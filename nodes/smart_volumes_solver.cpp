@@ -322,6 +322,7 @@ struct SmartVolumesSolver {
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
                    std::back_inserter(answered));
+    out.replies.replies.reserve(answered.size());
     for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(i, volumes, *done, members, names));
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);

@@ -17,6 +17,7 @@ class NumberLists {
   std::span<const std::uint32_t> operator[](std::size_t key) const {
     return std::span(numbers_).subspan(starts_[key], starts_[key + 1] - starts_[key]);
   }
+  std::size_t keys() const { return starts_.size() - 1; }
   /// Pairs of a key below `keys` and a number, in any order; each list ascends and holds a number once.
   static NumberLists made(std::size_t keys, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs);
 

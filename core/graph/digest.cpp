@@ -52,6 +52,12 @@ std::uint64_t hash_of(const NodeState& node, const NodePlan& plan) {
   return hash.value();
 }
 
+void sum_up(NodeState& node, const NodePlan& plan) {
+  node.hash = hash_of(node, plan);
+  node.residual = residual_of(node, plan);
+  node.has_failure = fails(node);
+}
+
 std::uint64_t hash_of(const LinkState& link, const Plan& plan, std::size_t index) {
   Hash hash;
   bool has_any = false;
@@ -79,12 +85,12 @@ State StateDraft::publish() && {
   const Plan& plan = *state.plan;
   State published = std::move(state);
   published.nodes =
-      std::move(nodes).publish([&](NodeState& node, std::size_t n) { node.hash = hash_of(node, plan.nodes[n]); },
-                               [&](const auto& items, std::size_t first) {
+      std::move(nodes).publish([&](NodeState& node, std::size_t n) { sum_up(node, plan.nodes[n]); },
+                               [&](const auto& items, std::size_t) {
                                  NodeDigest digest{.hash = hash_of_items(items), .residual = 0, .has_failure = false};
                                  for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
-                                   digest.residual = std::max(digest.residual, residual_of(*items[k], plan.nodes[first + k]));
-                                   digest.has_failure |= fails(*items[k]);
+                                   digest.residual = std::max(digest.residual, items[k]->residual);
+                                   digest.has_failure |= items[k]->has_failure;
                                  }
                                  return digest;
                                });
@@ -103,7 +109,8 @@ State StateDraft::publish() && {
 
 std::optional<Error> first_failure(const State& state) {
   if (const auto n = first_in(
-          state.nodes, [](const NodeDigest& d) { return d.has_failure; }, [&](std::size_t i) { return fails(state.nodes[i]); }))
+          state.nodes, [](const NodeDigest& d) { return d.has_failure; },
+          [&](std::size_t i) { return state.nodes[i].has_failure; }))
     for (const TypeState& type : state.nodes[*n].types)
       if (type.error) return type.error;
   const auto l = first_in(

@@ -246,9 +246,29 @@ void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCa
   hand_on();
 }
 
+void write_reply(StateDraft& next, Reply& reply) {
+  if (next.value(reply.target) == reply.value) return;
+  next.edit(reply.target) = std::move(reply.value);
+  next.state.due.replied.push_back(reply.target);
+}
+
+bool has_rivals(const Dependents& dependents, const std::vector<Reply>& replies) {
+  std::vector<bool> is_written(dependents.groups_writing.keys());
+  for (const Reply& reply : replies) {
+    const std::size_t port = dependents.port_index(reply.target);
+    if (is_written[port]) return true;
+    is_written[port] = true;
+  }
+  return false;
+}
+
 // Where two write to one port the first one has it, and the other one says so.
 void write_replies(StateDraft& next, std::vector<Reply>& replies) {
   const Plan& plan = *next.state.plan;
+  if (!has_rivals(*plan.dependents, replies)) {
+    for (Reply& reply : replies) write_reply(next, reply);
+    return;
+  }
   std::vector<std::size_t> order(replies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -262,9 +282,7 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
       continue;
     }
     first = at;
-    if (next.value(reply.target) == reply.value) continue;
-    next.edit(reply.target) = std::move(reply.value);
-    next.state.due.replied.push_back(reply.target);
+    write_reply(next, reply);
   }
   std::sort(late.begin(), late.end());
   for (const auto& [at, before] : late) {

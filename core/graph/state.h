@@ -24,7 +24,10 @@ struct TypeState {
 
 struct NodeState {
   std::vector<TypeState> types;
-  std::uint64_t hash = 0;  ///< of everything in it that the next tick depends on; made when the state is published
+  // What it comes to: made when the state is published.
+  std::uint64_t hash = 0;    ///< of everything in it that the next tick depends on
+  double residual = 0;       ///< the largest of its residual ports
+  bool has_failure = false;  ///< one of its typifications fails
 };
 
 /// What a leaf of nodes comes to.
