@@ -2,6 +2,7 @@
 #include "core/graph/dependents.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/graph/phases.h"
 
@@ -11,27 +12,51 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-void add_links(const Plan& plan, Dependents& index, std::size_t ports) {
-  Pairs reading, at;
-  for (std::uint32_t l = 0; l < plan.links.size(); ++l) {
-    const LinkPlan& link = plan.links[l];
-    if (!link.is_enabled) continue;
+// What is to be entered of links.
+struct LinkEntries {
+  std::vector<LinkLists::Entry> reading, at;
+  std::vector<std::uint32_t> timed, broken;
+
+  void add(const LinkPlan& link, std::uint32_t l) {
+    for (const PortRef& ref : link.targets) at.push_back({{ref.node, 0, 0}, l});
+    if (!link.is_enabled) return;
     if (link.error) {
-      index.broken_links.push_back(l);
-      continue;
+      broken.push_back(l);
+      return;
     }
     for (const auto& refs : link.reads)
       for (const PortRef& ref : refs)
-        if (ref.type != PortRef::kNodeId) reading.emplace_back(index.port_index(ref), l);
-    if (link.definition->reads_time) index.timed_links.push_back(l);
+        if (ref.type != PortRef::kNodeId) reading.push_back({ref, l});
+    if (link.definition->reads_time) timed.push_back(l);
   }
-  for (std::uint32_t l = 0; l < plan.links.size(); ++l)
-    for (const PortRef& ref : plan.links[l].targets) at.emplace_back(ref.node, l);
-  index.links_reading = NumberLists::made(ports, std::move(reading));
-  index.links_at = NumberLists::made(plan.nodes.size(), std::move(at));
+};
+
+std::uint32_t key_of(const PortRef& port) { return std::uint32_t{port.type} << 16 | port.port; }
+
+bool has_same_entries(const LinkPlan& a, const LinkPlan& b) {
+  return a.is_enabled == b.is_enabled && a.definition == b.definition && a.error.has_value() == b.error.has_value() &&
+         a.reads == b.reads && a.targets == b.targets;
 }
 
-void add_groups(const Plan& plan, Dependents& index, std::size_t ports) {
+// Both ascend.
+std::vector<std::uint32_t> with_more(const std::vector<std::uint32_t>& links, std::span<const std::uint32_t> edited,
+                                     const std::vector<std::uint32_t>& more) {
+  std::vector<std::uint32_t> kept, all;
+  for (const std::uint32_t link : links)
+    if (edited[link] != LinkEdit::kNone) kept.push_back(edited[link]);
+  std::merge(kept.begin(), kept.end(), more.begin(), more.end(), std::back_inserter(all));
+  return all;
+}
+
+std::shared_ptr<const LinkDependents> with_entries(const LinkDependents& before, std::size_t nodes,
+                                                   std::span<const std::uint32_t> edited, LinkEntries&& entries) {
+  return std::make_shared<const LinkDependents>(LinkDependents{.reading = before.reading.with(nodes, edited, std::move(entries.reading)),
+                                                               .at = before.at.with(nodes, edited, std::move(entries.at)),
+                                                               .timed = with_more(before.timed, edited, entries.timed),
+                                                               .broken = with_more(before.broken, edited, entries.broken)});
+}
+
+void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
   Pairs reading, writing;
   std::size_t analysis = 0;
   for (std::size_t begin = 0, end = 0; begin < plan.sets.size(); begin = end) {
@@ -77,10 +102,42 @@ NumberLists NumberLists::made(std::size_t keys, std::vector<std::pair<std::uint3
   return lists;
 }
 
-std::size_t Dependents::port_index(const PortRef& ref) const { return first_port[first_type[ref.node] + ref.type] + ref.port; }
+std::span<const std::uint32_t> LinkLists::operator[](const PortRef& port) const {
+  if (port.node + 1 >= starts_.size()) return {};
+  const auto begin = ports_.begin() + starts_[port.node], end = ports_.begin() + starts_[port.node + 1];
+  const auto [first, last] = std::equal_range(begin, end, key_of(port));
+  return std::span(links_).subspan(static_cast<std::size_t>(first - ports_.begin()), static_cast<std::size_t>(last - first));
+}
 
-Dependents dependents_of(const Plan& plan) {
-  Dependents index;
+LinkLists LinkLists::with(std::size_t nodes, std::span<const std::uint32_t> edited, std::vector<Entry> more) const {
+  if (!std::is_sorted(more.begin(), more.end())) std::sort(more.begin(), more.end());
+  more.erase(std::unique(more.begin(), more.end()), more.end());
+  LinkLists lists;
+  lists.starts_.reserve(nodes + 1);
+  lists.ports_.reserve(ports_.size() + more.size());
+  lists.links_.reserve(ports_.size() + more.size());
+  const auto put = [&](std::uint32_t port, std::uint32_t link) {
+    lists.ports_.push_back(port);
+    lists.links_.push_back(link);
+  };
+  auto fresh = more.begin();
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    for (std::size_t i = n + 1 < starts_.size() ? starts_[n] : ports_.size(); n + 1 < starts_.size() && i < starts_[n + 1]; ++i) {
+      const std::uint32_t link = edited[links_[i]];
+      if (link == LinkEdit::kNone) continue;
+      for (; fresh != more.end() && fresh->port.node == n && std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
+           ++fresh)
+        put(key_of(fresh->port), fresh->link);
+      put(ports_[i], link);
+    }
+    for (; fresh != more.end() && fresh->port.node == n; ++fresh) put(key_of(fresh->port), fresh->link);
+    lists.starts_.push_back(static_cast<std::uint32_t>(lists.ports_.size()));
+  }
+  return lists;
+}
+
+std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
+  SetDependents index;
   std::uint32_t ports = 0;
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
     index.first_type.push_back(static_cast<std::uint32_t>(index.first_port.size()));
@@ -92,9 +149,26 @@ Dependents dependents_of(const Plan& plan) {
     }
     if (is_timed) index.timed_nodes.push_back(n);
   }
-  add_links(plan, index, ports);
   add_groups(plan, index, ports);
-  return index;
+  LinkEntries entries;
+  for (std::uint32_t l = 0; l < plan.links.size(); ++l) entries.add(plan.links[l], l);
+  return std::make_shared<const Dependents>(Dependents{std::make_shared<const SetDependents>(std::move(index)),
+                                                       with_entries({}, plan.nodes.size(), {}, std::move(entries))});
+}
+
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits) {
+  if (edits.empty()) return before.dependents;
+  std::vector<std::uint32_t> edited = places_after(before.links.size(), edits);
+  LinkEntries entries;
+  bool differs = false;
+  for (const LinkEdit& edit : edits) {
+    if (!edit.is_added()) edited[edit.before] = LinkEdit::kNone;
+    if (!edit.is_removed()) entries.add(plan.links[edit.now], edit.now);
+    differs |= edit.is_added() || edit.is_removed() || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
+  }
+  const auto& links = before.dependents->links;
+  return std::make_shared<const Dependents>(Dependents{
+      before.dependents->sets, differs ? with_entries(*links, plan.nodes.size(), edited, std::move(entries)) : links});
 }
 
 }  // namespace bl

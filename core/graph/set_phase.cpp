@@ -73,7 +73,7 @@ SetCase gathered(const StateDraft& draft, const SetGroup& group, SetMemo& memo, 
 
 // By group: is anything that it reads different from when it was asked last, or has somebody else written to what it writes?
 std::vector<bool> due_groups(const TickWork& work) {
-  const Dependents& dependents = *work.frozen.plan->dependents;
+  const SetDependents& dependents = *work.frozen.plan->dependents->sets;
   std::vector<bool> is_due(dependents.groups.size(), work.frozen.due.is_everything);
   for (std::size_t g = 0; g < is_due.size(); ++g) is_due[g] = is_due[g] || dependents.groups[g].is_always_due;
   const auto add = [&](const NumberLists& groups, const std::vector<PortRef>& ports) {
@@ -301,7 +301,7 @@ void keep_shapes(StateDraft& next, const SetGroup& group) {
 void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
   StateDraft& next = work.next;
   const Plan& plan = *next.state.plan;
-  const std::vector<SetGroup>& groups = plan.dependents->groups;
+  const std::vector<SetGroup>& groups = plan.dependents->sets->groups;
   const std::vector<bool> is_due = due_groups(work);
   // All of them are gathered before any of them writes, so that there is no order among them.
   std::vector<std::optional<SetCase>> cases(groups.size());
@@ -342,7 +342,7 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
   const StateDraft before(state);
   StateDraft draft(state);
-  for (const SetGroup& group : state.plan->dependents->groups) {
+  for (const SetGroup& group : state.plan->dependents->sets->groups) {
     const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
       return std::any_of(set.writes.begin(), set.writes.end(),
@@ -367,7 +367,7 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
 State with_sums_of_now(const State& state) {
   const StateDraft before(state);
   StateDraft seen(state);
-  for (const SetGroup& group : state.plan->dependents->groups) {
+  for (const SetGroup& group : state.plan->dependents->sets->groups) {
     const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool only_reads =
         std::all_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) { return set.writes.empty(); });

@@ -109,6 +109,8 @@ BenchTables bench_rays(const SolverBench& bench);
 BenchTables bench_traffic(const SolverBench& bench);
 /// Whole ticks, against ticks that evaluate everything.
 BenchTables bench_tick(const SolverBench& bench);
+/// Plans and states after one edit, against compiling the whole scene.
+BenchTables bench_plan(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 
