@@ -38,22 +38,24 @@ bool has_same_entries(const LinkPlan& a, const LinkPlan& b) {
          a.reads == b.reads && a.targets == b.targets;
 }
 
-// Both ascend.
-std::vector<std::uint32_t> with_more(const std::vector<std::uint32_t>& links, std::span<const std::uint32_t> edited,
-                                     const std::vector<std::uint32_t>& more) {
+// Without `less`, renumbered, with `more`; all ascend.
+std::vector<std::uint32_t> edited_list(const std::vector<std::uint32_t>& links, const std::vector<std::uint32_t>& less,
+                                       std::span<const std::uint32_t> places, const std::vector<std::uint32_t>& more) {
   std::vector<std::uint32_t> kept, all;
-  for (const std::uint32_t link : links)
-    if (edited[link] != LinkEdit::kNone) kept.push_back(edited[link]);
+  std::set_difference(links.begin(), links.end(), less.begin(), less.end(), std::back_inserter(kept));
+  if (!places.empty())
+    for (std::uint32_t& link : kept) link = places[link];
   std::merge(kept.begin(), kept.end(), more.begin(), more.end(), std::back_inserter(all));
   return all;
 }
 
-std::shared_ptr<const LinkDependents> with_entries(const LinkDependents& before, std::size_t nodes,
-                                                   std::span<const std::uint32_t> edited, LinkEntries&& entries) {
-  return std::make_shared<const LinkDependents>(LinkDependents{.reading = before.reading.with(nodes, edited, std::move(entries.reading)),
-                                                               .at = before.at.with(nodes, edited, std::move(entries.at)),
-                                                               .timed = with_more(before.timed, edited, entries.timed),
-                                                               .broken = with_more(before.broken, edited, entries.broken)});
+std::shared_ptr<const LinkDependents> edited(const LinkDependents& before, std::size_t nodes, LinkEntries&& less,
+                                             std::span<const std::uint32_t> places, LinkEntries&& more) {
+  return std::make_shared<const LinkDependents>(
+      LinkDependents{.reading = before.reading.edited(nodes, std::move(less.reading), places, std::move(more.reading)),
+                     .at = before.at.edited(nodes, std::move(less.at), places, std::move(more.at)),
+                     .timed = edited_list(before.timed, less.timed, places, more.timed),
+                     .broken = edited_list(before.broken, less.broken, places, more.broken)});
 }
 
 void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
@@ -88,17 +90,19 @@ void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
 
 }  // namespace
 
-NumberLists NumberLists::made(std::size_t keys, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+NumberLists NumberLists::made(std::size_t keys, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
   NumberLists lists;
   lists.starts_.assign(keys + 1, 0);
-  lists.numbers_.reserve(pairs.size());
-  for (const auto& [key, number] : pairs) {
-    ++lists.starts_[key + 1];
-    lists.numbers_.push_back(number);
-  }
+  std::vector<std::uint32_t> last(keys, ~std::uint32_t{0});
+  const auto is_repeated = [&](std::uint32_t key, std::uint32_t number) { return std::exchange(last[key], number) == number; };
+  for (const auto& [key, number] : pairs)
+    if (!is_repeated(key, number)) ++lists.starts_[key + 1];
   for (std::size_t key = 0; key < keys; ++key) lists.starts_[key + 1] += lists.starts_[key];
+  lists.numbers_.resize(lists.starts_.back());
+  std::vector<std::uint32_t> next(lists.starts_.begin(), lists.starts_.end() - 1);
+  last.assign(keys, ~std::uint32_t{0});
+  for (const auto& [key, number] : pairs)
+    if (!is_repeated(key, number)) lists.numbers_[next[key]++] = number;
   return lists;
 }
 
@@ -109,22 +113,48 @@ std::span<const std::uint32_t> LinkLists::operator[](const PortRef& port) const 
   return std::span(links_).subspan(static_cast<std::size_t>(first - ports_.begin()), static_cast<std::size_t>(last - first));
 }
 
-LinkLists LinkLists::with(std::size_t nodes, std::span<const std::uint32_t> edited, std::vector<Entry> more) const {
-  if (!std::is_sorted(more.begin(), more.end())) std::sort(more.begin(), more.end());
-  more.erase(std::unique(more.begin(), more.end()), more.end());
+void LinkLists::append(const LinkLists& from, std::uint32_t first, std::uint32_t last, std::span<const std::uint32_t> places) {
+  if (first >= last) return;
+  // Nodes that have no lists yet have none.
+  const auto start = [&](std::uint32_t node) { return from.starts_[std::min<std::size_t>(node, from.starts_.size() - 1)]; };
+  const auto begin = static_cast<std::ptrdiff_t>(start(first)), end = static_cast<std::ptrdiff_t>(start(last));
+  const std::size_t before = links_.size();
+  ports_.insert(ports_.end(), from.ports_.begin() + begin, from.ports_.begin() + end);
+  links_.insert(links_.end(), from.links_.begin() + begin, from.links_.begin() + end);
+  if (!places.empty())
+    for (std::size_t i = before; i < links_.size(); ++i) links_[i] = places[links_[i]];
+  for (std::uint32_t n = first; n < last; ++n)
+    starts_.push_back(static_cast<std::uint32_t>(before) + start(n + 1) - static_cast<std::uint32_t>(begin));
+}
+
+LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places,
+                            std::vector<Entry> more) const {
+  for (std::vector<Entry>* entries : {&less, &more}) {
+    if (!std::is_sorted(entries->begin(), entries->end())) std::sort(entries->begin(), entries->end());
+    entries->erase(std::unique(entries->begin(), entries->end()), entries->end());
+  }
   LinkLists lists;
   lists.starts_.reserve(nodes + 1);
   lists.ports_.reserve(ports_.size() + more.size());
   lists.links_.reserve(ports_.size() + more.size());
-  const auto put = [&](std::uint32_t port, std::uint32_t link) {
-    lists.ports_.push_back(port);
-    lists.links_.push_back(link);
-  };
-  auto fresh = more.begin();
-  for (std::uint32_t n = 0; n < nodes; ++n) {
+  std::uint32_t done = 0;
+  auto gone = less.begin(), fresh = more.begin();
+  while (gone != less.end() || fresh != more.end()) {
+    // Nodes up to the next one at which a list differs stay as they are.
+    std::uint32_t n = static_cast<std::uint32_t>(nodes);
+    if (gone != less.end()) n = gone->port.node;
+    if (fresh != more.end()) n = std::min(n, fresh->port.node);
+    lists.append(*this, done, n, places);
+    const auto put = [&](std::uint32_t port, std::uint32_t link) {
+      lists.ports_.push_back(port);
+      lists.links_.push_back(link);
+    };
     for (std::size_t i = n + 1 < starts_.size() ? starts_[n] : ports_.size(); n + 1 < starts_.size() && i < starts_[n + 1]; ++i) {
-      const std::uint32_t link = edited[links_[i]];
-      if (link == LinkEdit::kNone) continue;
+      if (gone != less.end() && gone->port.node == n && key_of(gone->port) == ports_[i] && gone->link == links_[i]) {
+        ++gone;
+        continue;
+      }
+      const std::uint32_t link = places.empty() ? links_[i] : places[links_[i]];
       for (; fresh != more.end() && fresh->port.node == n && std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
            ++fresh)
         put(key_of(fresh->port), fresh->link);
@@ -132,7 +162,9 @@ LinkLists LinkLists::with(std::size_t nodes, std::span<const std::uint32_t> edit
     }
     for (; fresh != more.end() && fresh->port.node == n; ++fresh) put(key_of(fresh->port), fresh->link);
     lists.starts_.push_back(static_cast<std::uint32_t>(lists.ports_.size()));
+    done = n + 1;
   }
+  lists.append(*this, done, static_cast<std::uint32_t>(nodes), places);
   return lists;
 }
 
@@ -153,22 +185,26 @@ std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
   LinkEntries entries;
   for (std::uint32_t l = 0; l < plan.links.size(); ++l) entries.add(plan.links[l], l);
   return std::make_shared<const Dependents>(Dependents{std::make_shared<const SetDependents>(std::move(index)),
-                                                       with_entries({}, plan.nodes.size(), {}, std::move(entries))});
+                                                       edited({}, plan.nodes.size(), {}, {}, std::move(entries))});
 }
 
 std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits) {
   if (edits.empty()) return before.dependents;
-  std::vector<std::uint32_t> edited = places_after(before.links.size(), edits);
-  LinkEntries entries;
-  bool differs = false;
+  LinkEntries less, more;
+  bool differs = false, is_renumbered = false;
   for (const LinkEdit& edit : edits) {
-    if (!edit.is_added()) edited[edit.before] = LinkEdit::kNone;
-    if (!edit.is_removed()) entries.add(plan.links[edit.now], edit.now);
-    differs |= edit.is_added() || edit.is_removed() || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
+    if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
+    if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+    const bool stays = !edit.is_added() && !edit.is_removed();
+    differs |= !stays || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
+    is_renumbered |= !stays;
   }
-  const auto& links = before.dependents->links;
-  return std::make_shared<const Dependents>(Dependents{
-      before.dependents->sets, differs ? with_entries(*links, plan.nodes.size(), edited, std::move(entries)) : links});
+  std::shared_ptr<const LinkDependents> links = before.dependents->links;
+  if (differs) {
+    const auto places = is_renumbered ? places_after(before.links.size(), edits) : std::vector<std::uint32_t>();
+    links = edited(*links, plan.nodes.size(), std::move(less), places, std::move(more));
+  }
+  return std::make_shared<const Dependents>(Dependents{before.dependents->sets, std::move(links)});
 }
 
 }  // namespace bl

@@ -20,8 +20,8 @@ class NumberLists {
   std::span<const std::uint32_t> operator[](std::size_t key) const {
     return std::span(numbers_).subspan(starts_[key], starts_[key + 1] - starts_[key]);
   }
-  /// Pairs of a key below `keys` and a number, in any order; each list ascends and holds a number once.
-  static NumberLists made(std::size_t keys, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs);
+  /// Pairs of a key below `keys` and a number, in ascending numbers; each list ascends and holds a number once.
+  static NumberLists made(std::size_t keys, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 
  private:
   std::vector<std::uint32_t> starts_{0}, numbers_;
@@ -38,12 +38,15 @@ class LinkLists {
 
   /// Ascending, each link once.
   std::span<const std::uint32_t> operator[](const PortRef& port) const;
-  /// Those that `edited` leaves, and others, in any order. `edited`: by link, its number now, or LinkEdit::kNone for links that are
-  /// entered anew.
-  LinkLists with(std::size_t nodes, std::span<const std::uint32_t> edited, std::vector<Entry> more) const;
+  /// Without the entries `less`, then with links renumbered, then with the entries `more`. `places`: by link, its number then; empty:
+  /// they keep their numbers. `less` and `more` in any order.
+  LinkLists edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places, std::vector<Entry> more) const;
 
  private:
-  std::vector<std::uint32_t> starts_{0};       // by node
+  // Appends the lists of the nodes [first, last) of another one as they are, but for new numbers.
+  void append(const LinkLists& from, std::uint32_t first, std::uint32_t last, std::span<const std::uint32_t> places);
+
+  std::vector<std::uint32_t> starts_{0};      // by node
   std::vector<std::uint32_t> ports_, links_;  // typification and port in one number; ascending in each node, then by link
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,16 +20,18 @@ struct LinkEdit {
 
 /// By index before: the index now, or LinkEdit::kNone. `edits` ascend.
 inline std::vector<std::uint32_t> places_after(std::size_t count, std::span<const LinkEdit> edits) {
-  std::vector<std::uint32_t> places;
-  places.reserve(count);
-  std::uint32_t now = 0;
+  std::vector<std::uint32_t> places(count);
+  std::uint32_t before = 0, now = 0;
+  const auto pass = [&](std::uint32_t stretch) {
+    std::iota(places.begin() + before, places.begin() + before + stretch, now);
+    before += stretch, now += stretch;
+  };
   for (const LinkEdit& edit : edits) {
-    const std::size_t stretch = edit.is_added() ? edit.now - now : edit.before - places.size();
-    for (std::size_t k = 0; k < stretch; ++k) places.push_back(now++);
-    if (!edit.is_added()) places.push_back(edit.now);
+    pass(edit.is_added() ? edit.now - now : edit.before - before);
+    if (!edit.is_added()) places[before++] = edit.now;
     if (!edit.is_removed()) ++now;
   }
-  while (places.size() < count) places.push_back(now++);
+  pass(static_cast<std::uint32_t>(count) - before);
   return places;
 }
 

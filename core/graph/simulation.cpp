@@ -86,6 +86,16 @@ Result<void> Simulation::restore_state(const SavedState& saved) {
   return {};
 }
 
+Result<void> Simulation::unpack(const PackedState& packed) {
+  auto state = restore(packed.saved(), packed.plan());
+  if (!state) return state.error();
+  recall_meshes(*state, pool_, memos_);
+  state->analyses = packed.analyses();
+  state->hash = hash_of(*state);
+  take(std::make_shared<State>(std::move(*state)));
+  return {};
+}
+
 void Simulation::return_to(std::shared_ptr<const State> earlier) {
   if (earlier->plan == state_->plan) take(std::move(earlier));
   else take(std::make_shared<State>(carry(*earlier, state_->plan, {})));

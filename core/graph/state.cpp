@@ -247,6 +247,13 @@ void carry_links(const State& old, const Amended& amended, StateDraft& draft) {
   due.links = std::move(again);
 }
 
+// What stands before `first` ascends already.
+void merge_from(std::size_t first, std::vector<PortRef>& ports) {
+  const auto middle = ports.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(middle, ports.end());
+  std::inplace_merge(ports.begin(), middle, ports.end());
+}
+
 }  // namespace
 
 State carry_amended(const State& old, const Amended& amended, const Placed& placed) {
@@ -259,6 +266,7 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
   for (const auto& [node, path] : placed)
     if (const std::uint32_t n = state.plan->node_index(node); n < state.plan->nodes.size()) touched.push_back(n);
   std::sort(touched.begin(), touched.end());
+  const std::size_t changed = state.due.changed.size(), replied = state.due.replied.size();
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const std::uint32_t n : touched) {
     const NodeState& before = old.nodes[n];
@@ -274,7 +282,8 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }
-  for (auto* ports : {&state.due.changed, &state.due.replied}) std::sort(ports->begin(), ports->end());
+  merge_from(changed, state.due.changed);
+  merge_from(replied, state.due.replied);
   std::sort(state.due.nodes.begin(), state.due.nodes.end());
   state.due.nodes.erase(std::unique(state.due.nodes.begin(), state.due.nodes.end()), state.due.nodes.end());
   State carried = std::move(draft).publish();
