@@ -82,8 +82,8 @@ void LiveSession::Shared::rewind(std::unique_lock<std::mutex>& lock) {
   is_ticking = true;
   lock.unlock();
   try {
-    if (auto done = past.recompute(tick, simulation); done) earlier = simulation.state();
-    else trouble = "the rewind failed (" + done.error().text() + "); the clock is stopped";
+    if (const auto reached = past.recompute(tick, simulation)) earlier = simulation.state();
+    else trouble = "the rewind failed (" + reached.error().text() + "); the clock is stopped";
   } catch (const std::exception& exception) {
     trouble = std::string("the rewind failed (") + exception.what() + "); the clock is stopped";
   }

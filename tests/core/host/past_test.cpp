@@ -60,8 +60,8 @@ TEST_P(PastLaws, EveryTickIsReachedWithItsBits) {
 INSTANTIATE_TEST_SUITE_P(Scenes, PastLaws,
                          testing::Values("scenes/start/quarter.json", "scenes/studies/sixty_volumes.json",
                                          "scenes/studies/braess.json", "scenes/studies/scripted_terraces.json",
-                                         "scenes/nodes/sun_study.json", "scenes/nodes/low_pass_filter.json"),
-                         [](const auto& info) { return "S" + std::to_string(info.index); });
+                                         "scenes/nodes/sun_study.json", "scenes/nodes/sensor.json"),
+                         [](const auto& test) { return "S" + std::to_string(test.index); });
 
 TEST(Past, WhatIsGivenUpIsForgottenAndWhatFollowsStandsForItself) {
   Past past;
