@@ -77,7 +77,8 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"study", 3},
                                                {"tick", 24},
                                                {"plan", 9},
-                                               {"past", 1}}));
+                                               {"past", 1},
+                                               {"load", 1}}));
   EXPECT_EQ(hashes.size(), 20u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;

@@ -113,6 +113,8 @@ BenchTables bench_tick(const SolverBench& bench);
 BenchTables bench_plan(const SolverBench& bench);
 /// Memory of ten thousand ticks that a rewind can reach, and the time of a rewind.
 BenchTables bench_past(const SolverBench& bench);
+/// Reading a scene file, the first state, the first tick.
+BenchTables bench_load(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 
