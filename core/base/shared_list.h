@@ -1,6 +1,7 @@
 // A list that costs next to nothing to copy: copies share what they have in common, and a change copies only what it touches.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstddef>
@@ -99,6 +100,12 @@ template <class T, class Digest>
 class SharedList<T, Digest>::Draft {
  public:
   explicit Draft(SharedList base) : base_(std::move(base)), size_(base_.size()), open_(base_.leaf_count()) {}
+  /// With more items than `base`, which are still to be put, or with fewer.
+  Draft(SharedList base, std::size_t size)
+      : base_(std::move(base)), size_(size), open_((size + kLeaf - 1) / kLeaf) {
+    // The last leaf ends elsewhere.
+    if (size != base_.size() && size % kLeaf != 0) open(size - 1);
+  }
   /// Of items that nobody has seen yet.
   explicit Draft(std::vector<T>&& items) : size_(items.size()), open_((items.size() + kLeaf - 1) / kLeaf) {
     for (std::size_t i = 0; i < size_; ++i) put(i, std::move(items[i]));
@@ -133,6 +140,13 @@ class SharedList<T, Digest>::Draft {
       leaf.items[i % kLeaf] = std::move(copy);
     }
     return *own;
+  }
+  /// An item of a list, shared with it.
+  void share(std::size_t i, std::shared_ptr<const T> item) {
+    open(i);
+    OpenLeaf& leaf = *open_[i / kLeaf];
+    leaf.own[i % kLeaf] = nullptr;
+    leaf.items[i % kLeaf] = std::move(item);
   }
   void put(std::size_t i, T item) {
     open(i);
@@ -174,7 +188,7 @@ class SharedList<T, Digest>::Draft {
     auto& leaf = open_[i / kLeaf];
     if (leaf) return;
     leaf = std::make_unique<OpenLeaf>();
-    for (std::size_t k = 0, first = i / kLeaf * kLeaf; k < kLeaf && first + k < base_.size(); ++k)
+    for (std::size_t k = 0, first = i / kLeaf * kLeaf; k < kLeaf && first + k < std::min(size_, base_.size()); ++k)
       leaf->items[k] = base_.item(first + k);
   }
 

@@ -144,21 +144,27 @@ class SharedMap {
   void clear() { *this = SharedMap(); }
 
   bool operator==(const SharedMap& other) const {
-    return size_ == other.size_ && each_difference(other, [](const value_type&, const value_type&) { return false; });
+    return size_ == other.size_ && each_difference(other, [](const value_type*, const value_type*) { return false; });
   }
-  /// Calls see(before, after) for each two records at the same rank in two maps of one size that differ in name or content, as
-  /// long as it returns true. Costs what the maps do not share.
+  /// Calls see(before, after) for each name whose records differ, in ascending names, as long as it returns true; nullptr stands for
+  /// a record that is not there. Costs what the maps do not share.
   template <class See>
   bool each_difference(const SharedMap& after, const See& see) const {
     if (leaves_ == after.leaves_) return true;
     Iterator a = begin(), b = after.begin();
-    while (a != end() && b != after.end()) {
-      if (a.at_ == 0 && b.at_ == 0 && (*leaves_)[a.leaf_] == (*after.leaves_)[b.leaf_]) {
+    const Iterator a_end = end(), b_end = after.end();
+    while (a != a_end || b != b_end) {
+      if (a != a_end && b != b_end && a.at_ == 0 && b.at_ == 0 && (*leaves_)[a.leaf_] == (*after.leaves_)[b.leaf_]) {
         ++a.leaf_, ++b.leaf_;
         continue;
       }
-      if (&*a != &*b && !(*a == *b) && !see(*a, *b)) return false;
-      ++a, ++b;
+      const bool is_old = b == b_end || (a != a_end && a->first < b->first);
+      const bool is_new = a == a_end || (b != b_end && b->first < a->first);
+      const value_type *before = is_new ? nullptr : &*a, *now = is_old ? nullptr : &*b;
+      const bool is_same = before == now || (!is_old && !is_new && before->second == now->second);
+      if (!is_same && !see(before, now)) return false;
+      if (!is_new) ++a;
+      if (!is_old) ++b;
     }
     return true;
   }

@@ -2,6 +2,9 @@
 #include "core/graph/amend.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "core/graph/link_compiler.h"
 
 namespace bl {
 
@@ -69,37 +72,87 @@ bool find_changes(const NodePlan& plan, std::uint32_t index, const NodeRecord& b
   return true;
 }
 
-}  // namespace
-
-std::optional<Amended> amend(const Plan& plan, const Scene& scene) {
-  const Scene& before = plan.scene;
-  if (before.nodes.size() != scene.nodes.size() || before.settings != scene.settings || before.links != scene.links ||
-      !(before.scripts == scene.scripts))
-    return std::nullopt;
-  std::vector<Change> changes;
-  const bool are_plain = before.nodes.each_difference(scene.nodes, [&](const auto& old, const auto& now) {
-    const std::uint32_t index = plan.node_index(now.first);
-    return old.first == now.first && find_changes(plan.nodes[index], index, old.second, now.second, changes);
-  });
-  if (!are_plain) return std::nullopt;
-  auto amended = std::make_shared<Plan>(plan);
-  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
-  amended->scene.nodes = scene.nodes;
-  amended->scene.view = scene.view;
+// The nodes of the plan with the values of the changes.
+void amend_nodes(const std::vector<Change>& changes, Amended& amended, Plan& plan) {
   SharedItems<NodePlan>::Draft drafts(plan.nodes);
   for (const Change& change : changes) {
     TypePlan& type = drafts.edit(change.node).types[change.type];
     for (std::size_t p = 0; p < type.definition->ports.size(); ++p) {
       const PortDefinition& port = type.definition->ports[p];
-      type.set_values[p] = set_value(scene.settings, *change.values, port);
+      type.set_values[p] = set_value(plan.scene.settings, *change.values, port);
       type.is_set[p] = is_said(*change.values, port, type.set_values[p]);
     }
+    if (amended.nodes.empty() || amended.nodes.back() != change.node) amended.nodes.push_back(change.node);
   }
-  amended->nodes = published<NodePlan>(std::move(drafts));
-  std::vector<std::uint32_t> nodes;
-  for (const Change& change : changes)
-    if (nodes.empty() || nodes.back() != change.node) nodes.push_back(change.node);
-  return Amended{std::move(amended), std::move(nodes)};
+  plan.nodes = published<NodePlan>(std::move(drafts));
+}
+
+// A link that differs between two scenes; nullptr where there is none.
+struct LinkChange {
+  const SharedMap<LinkRecord>::value_type *before = nullptr, *now = nullptr;
+};
+
+// Where the link is, or would be.
+std::uint32_t link_place(const SharedItems<LinkPlan>& links, const std::string& id) {
+  const auto at = std::lower_bound(links.begin(), links.end(), id,
+                                   [](const LinkPlan& link, const std::string& key) { return link.id < key; });
+  return static_cast<std::uint32_t>(at - links.begin());
+}
+
+// The nodes of the plan are done: the ports of the links are found among them.
+void amend_links(const Plan& before, const std::vector<LinkChange>& changes, const Registry& program, Amended& amended,
+                 Plan& plan) {
+  std::uint32_t added = 0, removed = 0;
+  for (const LinkChange& change : changes) {
+    LinkEdit& edit = amended.links.emplace_back();
+    const std::uint32_t place = link_place(before.links, (change.now != nullptr ? change.now : change.before)->first);
+    if (change.before != nullptr) edit.before = place;
+    if (change.now != nullptr) edit.now = place + added - removed;
+    if (change.before == nullptr) ++added;
+    if (change.now == nullptr) ++removed;
+  }
+  if (changes.empty()) return;
+  const LinkCompiler compiler(plan, plan.scene.scripts.types(program));
+  auto drafts = moved_links(before.links, plan.scene.links.size(), amended.links);
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    const auto& [old, now] = changes[c];
+    const LinkEdit& edit = amended.links[c];
+    if (now == nullptr) continue;
+    drafts.put(edit.now, old == nullptr ? compiler.compiled(now->first, now->second)
+                                        : compiler.amended(before.links[edit.before], old->second, now->second));
+  }
+  plan.links = published<LinkPlan>(std::move(drafts));
+}
+
+}  // namespace
+
+std::optional<Amended> amend(const Plan& plan, const Scene& scene, const Registry& registry) {
+  const Scene& before = plan.scene;
+  if (before.nodes.size() != scene.nodes.size() || before.settings != scene.settings || !(before.scripts == scene.scripts))
+    return std::nullopt;
+  std::vector<Change> nodes;
+  const bool are_plain = before.nodes.each_difference(scene.nodes, [&](const auto* old, const auto* now) {
+    if (old == nullptr || now == nullptr) return false;
+    const std::uint32_t index = plan.node_index(now->first);
+    return find_changes(plan.nodes[index], index, old->second, now->second, nodes);
+  });
+  if (!are_plain) return std::nullopt;
+  std::vector<LinkChange> links;
+  before.links.each_difference(scene.links, [&](const auto* old, const auto* now) {
+    links.push_back({old, now});
+    return true;
+  });
+  Amended amended;
+  auto made = std::make_shared<Plan>(plan);
+  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
+  made->scene.nodes = scene.nodes;
+  made->scene.links = scene.links;
+  made->scene.view = scene.view;
+  amend_nodes(nodes, amended, *made);
+  amend_links(plan, links, registry, amended, *made);
+  made->dependents = amended_dependents(plan, *made, amended.links);
+  amended.plan = std::move(made);
+  return amended;
 }
 
 }  // namespace bl

@@ -2,6 +2,8 @@
 #include "core/graph/dependents.h"
 
 #include <algorithm>
+#include <numeric>
+#include <iterator>
 
 #include "core/graph/phases.h"
 
@@ -11,27 +13,80 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-void add_links(const Plan& plan, Dependents& index, std::size_t ports) {
-  Pairs reading, at;
-  for (std::uint32_t l = 0; l < plan.links.size(); ++l) {
-    const LinkPlan& link = plan.links[l];
-    if (!link.is_enabled) continue;
+// What is to be entered of links.
+struct LinkEntries {
+  std::vector<LinkLists::Entry> reading, at;
+  std::vector<std::uint32_t> timed, broken;
+
+  void add(const LinkPlan& link, std::uint32_t l) {
+    for (const PortRef& ref : link.targets) at.push_back({{ref.node, 0, 0}, l});
+    if (!link.is_enabled) return;
     if (link.error) {
-      index.broken_links.push_back(l);
-      continue;
+      broken.push_back(l);
+      return;
     }
     for (const auto& refs : link.reads)
       for (const PortRef& ref : refs)
-        if (ref.type != PortRef::kNodeId) reading.emplace_back(index.port_index(ref), l);
-    if (link.definition->reads_time) index.timed_links.push_back(l);
+        if (ref.type != PortRef::kNodeId) reading.push_back({ref, l});
+    if (link.definition->reads_time) timed.push_back(l);
   }
-  for (std::uint32_t l = 0; l < plan.links.size(); ++l)
-    for (const PortRef& ref : plan.links[l].targets) at.emplace_back(ref.node, l);
-  index.links_reading = NumberLists::made(ports, std::move(reading));
-  index.links_at = NumberLists::made(plan.nodes.size(), std::move(at));
+};
+
+std::uint32_t key_of(const PortRef& port) { return std::uint32_t{port.type} << 16 | port.port; }
+
+bool has_same_entries(const LinkPlan& a, const LinkPlan& b) {
+  return a.is_enabled == b.is_enabled && a.definition == b.definition && a.error.has_value() == b.error.has_value() &&
+         a.reads == b.reads && a.targets == b.targets;
 }
 
-void add_groups(const Plan& plan, Dependents& index, std::size_t ports) {
+// Without `less`, renumbered, with `more`; all ascend.
+std::vector<std::uint32_t> edited_list(const std::vector<std::uint32_t>& links, const std::vector<std::uint32_t>& less,
+                                       std::span<const std::uint32_t> places, const std::vector<std::uint32_t>& more) {
+  std::vector<std::uint32_t> kept, all;
+  std::set_difference(links.begin(), links.end(), less.begin(), less.end(), std::back_inserter(kept));
+  if (!places.empty())
+    for (std::uint32_t& link : kept) link = places[link];
+  std::merge(kept.begin(), kept.end(), more.begin(), more.end(), std::back_inserter(all));
+  return all;
+}
+
+std::shared_ptr<const LinkDependents> edited(const LinkDependents& before, std::size_t nodes, LinkEntries&& less,
+                                             std::span<const std::uint32_t> places, LinkEntries&& more) {
+  return std::make_shared<const LinkDependents>(
+      LinkDependents{.reading = before.reading.edited(nodes, std::move(less.reading), places, std::move(more.reading)),
+                     .at = before.at.edited(nodes, std::move(less.at), places, std::move(more.at)),
+                     .timed = edited_list(before.timed, less.timed, places, more.timed),
+                     .broken = edited_list(before.broken, less.broken, places, more.broken)});
+}
+
+// Groups that write to one port come together, step by step, under the first of them all.
+void find_rivals(SetDependents& index) {
+  std::vector<std::size_t> first(index.groups.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const auto first_of = [&](std::size_t group) {
+    while (first[group] != group) group = first[group];
+    return group;
+  };
+  for (std::size_t port = 0; port < index.groups_writing.keys(); ++port) {
+    const auto writers = index.groups_writing[port];
+    for (std::size_t k = 1; k < writers.size(); ++k) {
+      const std::size_t a = first_of(writers[0]), b = first_of(writers[k]);
+      first[std::max(a, b)] = std::min(a, b);
+      index.groups[writers[0]].rivals = index.groups[writers[k]].rivals = 0;
+    }
+  }
+  std::vector<bool> has_analysis(index.groups.size());
+  for (std::size_t g = 0; g < index.groups.size(); ++g) {
+    if (index.groups[g].rivals == SetGroup::kNone) continue;
+    index.groups[g].rivals = first_of(g);
+    if (index.groups[g].analysis != SetGroup::kNone) has_analysis[first_of(g)] = true;
+  }
+  // What an analysis writes when it is done, the others write over in the tick after.
+  for (SetGroup& group : index.groups)
+    if (group.rivals != SetGroup::kNone && has_analysis[group.rivals]) group.is_always_due = true;
+}
+
+void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
   Pairs reading, writing;
   std::size_t analysis = 0;
   for (std::size_t begin = 0, end = 0; begin < plan.sets.size(); begin = end) {
@@ -56,31 +111,91 @@ void add_groups(const Plan& plan, Dependents& index, std::size_t ports) {
   }
   index.groups_reading = NumberLists::made(ports, std::move(reading));
   index.groups_writing = NumberLists::made(ports, std::move(writing));
-  for (std::size_t port = 0; port < ports; ++port)
-    if (const auto writers = index.groups_writing[port]; writers.size() > 1)
-      for (const std::uint32_t group : writers) index.groups[group].is_always_due = true;
+  find_rivals(index);
 }
 
 }  // namespace
 
-NumberLists NumberLists::made(std::size_t keys, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+NumberLists NumberLists::made(std::size_t keys, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
   NumberLists lists;
   lists.starts_.assign(keys + 1, 0);
-  lists.numbers_.reserve(pairs.size());
-  for (const auto& [key, number] : pairs) {
-    ++lists.starts_[key + 1];
-    lists.numbers_.push_back(number);
-  }
+  std::vector<std::uint32_t> last(keys, ~std::uint32_t{0});
+  const auto is_repeated = [&](std::uint32_t key, std::uint32_t number) { return std::exchange(last[key], number) == number; };
+  for (const auto& [key, number] : pairs)
+    if (!is_repeated(key, number)) ++lists.starts_[key + 1];
   for (std::size_t key = 0; key < keys; ++key) lists.starts_[key + 1] += lists.starts_[key];
+  lists.numbers_.resize(lists.starts_.back());
+  std::vector<std::uint32_t> next(lists.starts_.begin(), lists.starts_.end() - 1);
+  last.assign(keys, ~std::uint32_t{0});
+  for (const auto& [key, number] : pairs)
+    if (!is_repeated(key, number)) lists.numbers_[next[key]++] = number;
   return lists;
 }
 
-std::size_t Dependents::port_index(const PortRef& ref) const { return first_port[first_type[ref.node] + ref.type] + ref.port; }
+std::span<const std::uint32_t> LinkLists::operator[](const PortRef& port) const {
+  if (port.node + 1 >= starts_.size()) return {};
+  const auto begin = ports_.begin() + starts_[port.node], end = ports_.begin() + starts_[port.node + 1];
+  const auto [first, last] = std::equal_range(begin, end, key_of(port));
+  return std::span(links_).subspan(static_cast<std::size_t>(first - ports_.begin()), static_cast<std::size_t>(last - first));
+}
 
-Dependents dependents_of(const Plan& plan) {
-  Dependents index;
+void LinkLists::append(const LinkLists& from, std::uint32_t first, std::uint32_t last, std::span<const std::uint32_t> places) {
+  if (first >= last) return;
+  // Nodes that have no lists yet have none.
+  const auto start = [&](std::uint32_t node) { return from.starts_[std::min<std::size_t>(node, from.starts_.size() - 1)]; };
+  const auto begin = static_cast<std::ptrdiff_t>(start(first)), end = static_cast<std::ptrdiff_t>(start(last));
+  const std::size_t before = links_.size();
+  ports_.insert(ports_.end(), from.ports_.begin() + begin, from.ports_.begin() + end);
+  links_.insert(links_.end(), from.links_.begin() + begin, from.links_.begin() + end);
+  if (!places.empty())
+    for (std::size_t i = before; i < links_.size(); ++i) links_[i] = places[links_[i]];
+  for (std::uint32_t n = first; n < last; ++n)
+    starts_.push_back(static_cast<std::uint32_t>(before) + start(n + 1) - static_cast<std::uint32_t>(begin));
+}
+
+LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places,
+                            std::vector<Entry> more) const {
+  for (std::vector<Entry>* entries : {&less, &more}) {
+    if (!std::is_sorted(entries->begin(), entries->end())) std::sort(entries->begin(), entries->end());
+    entries->erase(std::unique(entries->begin(), entries->end()), entries->end());
+  }
+  LinkLists lists;
+  lists.starts_.reserve(nodes + 1);
+  lists.ports_.reserve(ports_.size() + more.size());
+  lists.links_.reserve(ports_.size() + more.size());
+  std::uint32_t done = 0;
+  auto gone = less.begin(), fresh = more.begin();
+  while (gone != less.end() || fresh != more.end()) {
+    // Nodes up to the next one at which a list differs stay as they are.
+    std::uint32_t n = static_cast<std::uint32_t>(nodes);
+    if (gone != less.end()) n = gone->port.node;
+    if (fresh != more.end()) n = std::min(n, fresh->port.node);
+    lists.append(*this, done, n, places);
+    const auto put = [&](std::uint32_t port, std::uint32_t link) {
+      lists.ports_.push_back(port);
+      lists.links_.push_back(link);
+    };
+    for (std::size_t i = n + 1 < starts_.size() ? starts_[n] : ports_.size(); n + 1 < starts_.size() && i < starts_[n + 1]; ++i) {
+      if (gone != less.end() && gone->port.node == n && key_of(gone->port) == ports_[i] && gone->link == links_[i]) {
+        ++gone;
+        continue;
+      }
+      const std::uint32_t link = places.empty() ? links_[i] : places[links_[i]];
+      for (; fresh != more.end() && fresh->port.node == n && std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
+           ++fresh)
+        put(key_of(fresh->port), fresh->link);
+      put(ports_[i], link);
+    }
+    for (; fresh != more.end() && fresh->port.node == n; ++fresh) put(key_of(fresh->port), fresh->link);
+    lists.starts_.push_back(static_cast<std::uint32_t>(lists.ports_.size()));
+    done = n + 1;
+  }
+  lists.append(*this, done, static_cast<std::uint32_t>(nodes), places);
+  return lists;
+}
+
+std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
+  SetDependents index;
   std::uint32_t ports = 0;
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
     index.first_type.push_back(static_cast<std::uint32_t>(index.first_port.size()));
@@ -92,9 +207,30 @@ Dependents dependents_of(const Plan& plan) {
     }
     if (is_timed) index.timed_nodes.push_back(n);
   }
-  add_links(plan, index, ports);
   add_groups(plan, index, ports);
-  return index;
+  LinkEntries entries;
+  for (std::uint32_t l = 0; l < plan.links.size(); ++l) entries.add(plan.links[l], l);
+  return std::make_shared<const Dependents>(Dependents{std::make_shared<const SetDependents>(std::move(index)),
+                                                       edited({}, plan.nodes.size(), {}, {}, std::move(entries))});
+}
+
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits) {
+  if (edits.empty()) return before.dependents;
+  LinkEntries less, more;
+  bool differs = false, is_renumbered = false;
+  for (const LinkEdit& edit : edits) {
+    if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
+    if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+    const bool stays = !edit.is_added() && !edit.is_removed();
+    differs |= !stays || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
+    is_renumbered |= !stays;
+  }
+  std::shared_ptr<const LinkDependents> links = before.dependents->links;
+  if (differs) {
+    const auto places = is_renumbered ? places_after(before.links.size(), edits) : std::vector<std::uint32_t>();
+    links = edited(*links, plan.nodes.size(), std::move(less), places, std::move(more));
+  }
+  return std::make_shared<const Dependents>(Dependents{before.dependents->sets, std::move(links)});
 }
 
 }  // namespace bl

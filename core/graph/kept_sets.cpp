@@ -39,8 +39,8 @@ std::span<SetValues> KeptSets::read(const StateDraft& draft, const SetGroup& gro
   const auto plans = sets_of(*draft.state.plan, group);
   // Until all is written: an exception on the way leaves replies that nobody has got.
   const bool was_complete = std::exchange(is_complete_, false);
-  if (is_anew || !was_complete || structure_ != draft.state.plan->dependents) {
-    structure_ = draft.state.plan->dependents;
+  if (is_anew || !was_complete || structure_ != draft.state.plan->dependents->sets) {
+    structure_ = draft.state.plan->dependents->sets;
     sets_.clear();
     seen_.clear();
     for (const SetPlan& plan : plans) {

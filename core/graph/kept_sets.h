@@ -29,7 +29,7 @@ class KeptSets {
     bool may_differ = false;                ///< from what was read: it was written to afterwards
   };
 
-  std::shared_ptr<const Dependents> structure_;  ///< of the plans that have these sets
+  std::shared_ptr<const SetDependents> structure_;  ///< of the plans that have these sets
   std::vector<SetValues> sets_;
   std::vector<std::vector<Seen>> seen_;  ///< by set and member
   bool is_complete_ = false;

@@ -347,13 +347,13 @@ std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& d
 
 // Those that read what has changed, that read the time, or that have to be asked again.
 std::vector<DueLink> due_links(const State& frozen) {
-  const Dependents& dependents = *frozen.plan->dependents;
+  const LinkDependents& dependents = *frozen.plan->dependents->links;
   std::vector<bool> is_whole(frozen.links.size(), frozen.due.is_everything);
-  for (const auto* more : {&frozen.due.links, &dependents.timed_links})
+  for (const auto* more : {&frozen.due.links, &dependents.timed})
     for (const std::uint32_t link : *more) is_whole[link] = true;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changes;  // link and node
   for (const PortRef& ref : frozen.due.changed)
-    for (const std::uint32_t link : dependents.links_reading[dependents.port_index(ref)])
+    for (const std::uint32_t link : dependents.reading[ref])
       if (!is_whole[link]) changes.emplace_back(link, ref.node);
   std::sort(changes.begin(), changes.end());
   changes.erase(std::unique(changes.begin(), changes.end()), changes.end());

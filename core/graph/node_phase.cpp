@@ -74,7 +74,7 @@ std::vector<std::uint32_t> due_nodes(const TickWork& work, const RestLimits& res
     std::iota(nodes.begin(), nodes.end(), 0u);
     return nodes;
   }
-  for (const auto* some : {&work.spoken_to, &frozen.due.nodes, &frozen.plan->dependents->timed_nodes})
+  for (const auto* some : {&work.spoken_to, &frozen.due.nodes, &frozen.plan->dependents->sets->timed_nodes})
     nodes.insert(nodes.end(), some->begin(), some->end());
   if (rest.is_on != frozen.due.was_at_rest)
     for (std::size_t l = 0; l < work.next.links.size(); ++l)

@@ -14,14 +14,6 @@
 
 namespace bl {
 
-/// One port of one typification of one node. `type == kNodeId` stands for the node's own id, which links may read.
-struct PortRef {
-  std::uint32_t node = 0;
-  std::uint16_t type = 0, port = 0;
-  static constexpr std::uint16_t kNodeId = 0xffff;
-  auto operator<=>(const PortRef&) const = default;
-};
-
 struct TypePlan {
   const TypificationDefinition* definition = nullptr;
   std::vector<Value> set_values;  ///< all ports in order; defaults where nobody has set a value
@@ -67,11 +59,11 @@ struct Plan {
   Scene scene;  ///< the compiled scene; definitions and ids refer to it, and it keeps its scripts alive
   Settings settings;
   SharedItems<NodePlan> nodes;                   ///< ascending id
-  SharedVector<LinkPlan> links;                  ///< ascending id
+  SharedItems<LinkPlan> links;                   ///< ascending id
   SharedVector<SetPlan> sets;                    ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;            ///< ascending node id, then typification
-  std::shared_ptr<const Dependents> dependents;  ///< shared with the plans that are amended from this one
-  /// Shared with the plans that are amended from this one: no index of theirs is another.
+  std::shared_ptr<const Dependents> dependents;  ///< shared with plans that are amended from this one and have the same links
+  /// Shared with the plans that are amended from this one: their nodes, typifications and ports have the same indices.
   std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 
   /// Index of a node, or nodes.size().

@@ -125,10 +125,10 @@ void resolve_texts(const Value& set, bool is_locked, Voices proposals, Value& va
 
 // Links that may have spoken to the node, ascending: what a link that cannot run said last may stand, too.
 std::vector<std::uint32_t> links_to(const Plan& plan, std::uint32_t n) {
-  const auto able = plan.dependents->links_at[n];
+  const LinkDependents& dependents = *plan.dependents->links;
+  const auto able = dependents.at[{n, 0, 0}];
   std::vector<std::uint32_t> links;
-  std::set_union(able.begin(), able.end(), plan.dependents->broken_links.begin(), plan.dependents->broken_links.end(),
-                 std::back_inserter(links));
+  std::set_union(able.begin(), able.end(), dependents.broken.begin(), dependents.broken.end(), std::back_inserter(links));
   return links;
 }
 

@@ -67,13 +67,13 @@ SetCase gathered(const StateDraft& draft, const SetGroup& group) {
 SetCase gathered(const StateDraft& draft, const SetGroup& group, SetMemo& memo, bool is_anew) {
   SetCase one = begun(draft, group);
   one.memo = &memo;
-  one.sets = memo.sets.read(draft, group, is_anew || group.is_always_due);
+  one.sets = memo.sets.read(draft, group, is_anew || group.rivals != SetGroup::kNone);
   return one;
 }
 
 // By group: is anything that it reads different from when it was asked last, or has somebody else written to what it writes?
 std::vector<bool> due_groups(const TickWork& work) {
-  const Dependents& dependents = *work.frozen.plan->dependents;
+  const SetDependents& dependents = *work.frozen.plan->dependents->sets;
   std::vector<bool> is_due(dependents.groups.size(), work.frozen.due.is_everything);
   for (std::size_t g = 0; g < is_due.size(); ++g) is_due[g] = is_due[g] || dependents.groups[g].is_always_due;
   const auto add = [&](const NumberLists& groups, const std::vector<PortRef>& ports) {
@@ -83,6 +83,11 @@ std::vector<bool> due_groups(const TickWork& work) {
   add(dependents.groups_reading, work.frozen.due.replied);
   add(dependents.groups_reading, work.moved);
   add(dependents.groups_writing, work.moved);
+  std::vector<bool> is_contested(is_due.size());
+  for (std::size_t g = 0; g < is_due.size(); ++g)
+    if (is_due[g] && dependents.groups[g].rivals != SetGroup::kNone) is_contested[dependents.groups[g].rivals] = true;
+  for (std::size_t g = 0; g < is_due.size(); ++g)
+    if (dependents.groups[g].rivals != SetGroup::kNone) is_due[g] = is_due[g] || is_contested[dependents.groups[g].rivals];
   return is_due;
 }
 
@@ -252,7 +257,7 @@ void write_reply(StateDraft& next, Reply& reply) {
   next.state.due.replied.push_back(reply.target);
 }
 
-bool has_rivals(const Dependents& dependents, const std::vector<Reply>& replies) {
+bool has_rivals(const SetDependents& dependents, const std::vector<Reply>& replies) {
   std::vector<bool> is_written(dependents.groups_writing.keys());
   for (const Reply& reply : replies) {
     const std::size_t port = dependents.port_index(reply.target);
@@ -265,7 +270,7 @@ bool has_rivals(const Dependents& dependents, const std::vector<Reply>& replies)
 // Where two write to one port the first one has it, and the other one says so.
 void write_replies(StateDraft& next, std::vector<Reply>& replies) {
   const Plan& plan = *next.state.plan;
-  if (!has_rivals(*plan.dependents, replies)) {
+  if (!has_rivals(*plan.dependents->sets, replies)) {
     for (Reply& reply : replies) write_reply(next, reply);
     return;
   }
@@ -319,7 +324,7 @@ void keep_shapes(StateDraft& next, const SetGroup& group) {
 void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
   StateDraft& next = work.next;
   const Plan& plan = *next.state.plan;
-  const std::vector<SetGroup>& groups = plan.dependents->groups;
+  const std::vector<SetGroup>& groups = plan.dependents->sets->groups;
   const std::vector<bool> is_due = due_groups(work);
   // All of them are gathered before any of them writes, so that there is no order among them.
   std::vector<std::optional<SetCase>> cases(groups.size());
@@ -360,7 +365,7 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
   const StateDraft before(state);
   StateDraft draft(state);
-  for (const SetGroup& group : state.plan->dependents->groups) {
+  for (const SetGroup& group : state.plan->dependents->sets->groups) {
     const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
       return std::any_of(set.writes.begin(), set.writes.end(),
@@ -385,7 +390,7 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
 State with_sums_of_now(const State& state) {
   const StateDraft before(state);
   StateDraft seen(state);
-  for (const SetGroup& group : state.plan->dependents->groups) {
+  for (const SetGroup& group : state.plan->dependents->sets->groups) {
     const TypificationDefinition& definition = definition_of(*state.plan, group);
     const bool only_reads =
         std::all_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) { return set.writes.empty(); });

@@ -39,8 +39,9 @@ bool is_unchanged_list(const List& a, const List& b) {
 // Does anything follow from the number of the tick?
 bool reads_time(const Plan& plan) {
   const Dependents& dependents = *plan.dependents;
-  return !dependents.timed_links.empty() || !dependents.timed_nodes.empty() ||
-         std::any_of(dependents.groups.begin(), dependents.groups.end(),
+  const std::vector<SetGroup>& groups = dependents.sets->groups;
+  return !dependents.links->timed.empty() || !dependents.sets->timed_nodes.empty() ||
+         std::any_of(groups.begin(), groups.end(),
                      [&](const SetGroup& group) { return plan.nodes[group.node].types[group.type].definition->reads_time; });
 }
 
@@ -66,8 +67,8 @@ Simulation::Simulation(const Registry& registry, int threads, double (*now)()) :
 std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
                                                     const std::set<std::pair<std::string, std::string>>& placed) const {
   if (!state_) return std::make_shared<State>(initial_state(compile(scene, *registry_)));
-  if (auto amended = amend(*state_->plan, scene))
-    return std::make_shared<State>(carry_amended(*state_, std::move(amended->plan), amended->nodes, placed));
+  if (const auto amended = amend(*state_->plan, scene, *registry_))
+    return std::make_shared<State>(carry_amended(*state_, *amended, placed));
   return std::make_shared<State>(carry(*state_, compile(scene, *registry_), placed));
 }
 
@@ -81,6 +82,16 @@ Result<void> Simulation::restore_state(const SavedState& saved) {
   auto state = restore(saved, state_->plan);
   if (!state) return state.error();
   recall_meshes(*state, pool_, memos_);
+  take(std::make_shared<State>(std::move(*state)));
+  return {};
+}
+
+Result<void> Simulation::unpack(const PackedState& packed) {
+  auto state = restore(packed.saved(), packed.plan());
+  if (!state) return state.error();
+  recall_meshes(*state, pool_, memos_);
+  state->analyses = packed.analyses();
+  state->hash = hash_of(*state);
   take(std::make_shared<State>(std::move(*state)));
   return {};
 }

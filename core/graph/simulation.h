@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/graph/packed_state.h"
 #include "core/graph/phases.h"
 #include "core/graph/state.h"
 
@@ -30,6 +31,8 @@ class Simulation {
   void set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed = {});
   /// Continues from a saved state of the current scene.
   Result<void> restore_state(const SavedState& saved);
+  /// Continues from a state that was put away, with its plan.
+  Result<void> unpack(const PackedState& packed);
   /// Continues from an earlier state of this scene, as far as it still fits the scene.
   void return_to(std::shared_ptr<const State> earlier);
   /// Restores `earlier` with its plan, as it was before set_scene(), if no tick has run since.

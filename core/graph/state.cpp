@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/graph/amend.h"
+
 namespace bl {
 
 namespace {
@@ -127,6 +129,12 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
   fresh.is_evaluated = old.is_evaluated && before.set_values == after.set_values;
 }
 
+// Would a link go on from what it says now, under the plan of another one?
+bool is_same_kind(const LinkPlan& before, const LinkPlan& now) {
+  // By id: a script that was edited is another definition of the same kind.
+  return before.definition != nullptr && now.definition != nullptr && before.definition->id == now.definition->id;
+}
+
 void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState& fresh) {
   fresh.error = old.links[from].error;
   fresh.remark = old.links[from].remark;
@@ -198,9 +206,7 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const Placed& pl
     const LinkPlan& link = state.plan->links[l];
     while (o < old.plan->links.size() && old.plan->links[o].id < link.id) ++o;
     if (o == old.plan->links.size() || old.plan->links[o].id != link.id) continue;
-    const LinkDefinition *before = old.plan->links[o].definition, *now = link.definition;
-    // By id: a script that was edited is another definition of the same kind.
-    if (before != nullptr && now != nullptr && before->id == now->id) carry_link(old, o, *state.plan, draft.links.edit(l));
+    if (is_same_kind(old.plan->links[o], link)) carry_link(old, o, *state.plan, draft.links.edit(l));
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a)
     for (std::size_t o = 0; o < old.analyses.size(); ++o)
@@ -210,16 +216,57 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const Placed& pl
   return carried;
 }
 
-State carry_amended(const State& old, std::shared_ptr<const Plan> plan, const std::vector<std::uint32_t>& nodes,
-                    const Placed& placed) {
+namespace {
+
+void carry_links(const State& old, const Amended& amended, StateDraft& draft) {
+  if (amended.links.empty()) return;
+  DueWork& due = draft.state.due;
+  const auto silence = [&](const LinkState& link) {
+    for (const Voice& voice : link.voices) due.nodes.push_back(voice.target.node);
+  };
+  const auto places = places_after(old.links.size(), amended.links);
+  std::vector<std::uint32_t> again;
+  for (const std::uint32_t link : due.links)
+    if (places[link] != LinkEdit::kNone) again.push_back(places[link]);
+  draft.links = moved_links(old.links, amended.plan->links.size(), amended.links);
+  for (const LinkEdit& edit : amended.links) {
+    if (!edit.is_removed()) again.push_back(edit.now);
+    if (edit.is_added()) {
+      draft.links.put(edit.now, {});
+      continue;
+    }
+    const LinkPlan& before = old.plan->links[edit.before];
+    const bool goes_on = !edit.is_removed() && is_same_kind(before, amended.plan->links[edit.now]);
+    // A link that speaks on is asked, and who hears something else finds out; whether it counts is the hearer's business.
+    if (!goes_on || before.is_muted != amended.plan->links[edit.now].is_muted) silence(old.links[edit.before]);
+    if (goes_on) (void)draft.links.edit(edit.now);
+    else if (!edit.is_removed()) draft.links.put(edit.now, {});
+  }
+  std::sort(again.begin(), again.end());
+  again.erase(std::unique(again.begin(), again.end()), again.end());
+  due.links = std::move(again);
+}
+
+// What stands before `first` ascends already.
+void merge_from(std::size_t first, std::vector<PortRef>& ports) {
+  const auto middle = ports.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(middle, ports.end());
+  std::inplace_merge(ports.begin(), middle, ports.end());
+}
+
+}  // namespace
+
+State carry_amended(const State& old, const Amended& amended, const Placed& placed) {
   StateDraft draft(old);
   State& state = draft.state;
-  state.plan = std::move(plan);
-  if (!placed.empty() || !nodes.empty()) state.calm = 0;
-  std::vector<std::uint32_t> touched = nodes;
+  state.plan = amended.plan;
+  if (!placed.empty() || !amended.nodes.empty() || !amended.links.empty()) state.calm = 0;
+  carry_links(old, amended, draft);
+  std::vector<std::uint32_t> touched = amended.nodes;
   for (const auto& [node, path] : placed)
     if (const std::uint32_t n = state.plan->node_index(node); n < state.plan->nodes.size()) touched.push_back(n);
   std::sort(touched.begin(), touched.end());
+  const std::size_t changed = state.due.changed.size(), replied = state.due.replied.size();
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const std::uint32_t n : touched) {
     const NodeState& before = old.nodes[n];
@@ -235,8 +282,10 @@ State carry_amended(const State& old, std::shared_ptr<const Plan> plan, const st
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }
-  for (auto* ports : {&state.due.changed, &state.due.replied}) std::sort(ports->begin(), ports->end());
+  merge_from(changed, state.due.changed);
+  merge_from(replied, state.due.replied);
   std::sort(state.due.nodes.begin(), state.due.nodes.end());
+  state.due.nodes.erase(std::unique(state.due.nodes.begin(), state.due.nodes.end()), state.due.nodes.end());
   State carried = std::move(draft).publish();
   carried.hash = hash_of(carried);
   return carried;

@@ -163,7 +163,7 @@ std::optional<std::int64_t> LiveSession::unserved_tick() const {
   const std::lock_guard lock(shared_->mutex);
   const Shared& shared = *shared_;
   const bool is_wanted = shared.is_playing || shared.steps_due > 0;
-  if (shared.is_ticking || !is_wanted || !shared.is_held_up()) return std::nullopt;
+  if (shared.is_ticking || shared.rewinds_to || !is_wanted || !shared.is_held_up()) return std::nullopt;
   return shared.simulation.state()->tick;
 }
 
@@ -186,17 +186,20 @@ void LiveSession::rewind(std::int64_t ticks) {
   std::unique_lock lock(shared_->mutex);
   Shared& shared = *shared_;
   shared.end_rest();
-  shared.wait_between_ticks(lock);
+  // Who goes back further while a state is computed does not wait for that one.
+  if (!shared.rewinds_to) shared.wait_between_ticks(lock);
   (void)gestures_.say_due(shared.next_tick, kFarAhead);  // what fits no more is not shown any longer, either
-  const auto state = ticks > 0 ? shared.take_past(ticks) : nullptr;
-  if (state == nullptr) return;
-  (void)ledger_.rewind(options_.author, shared.next_tick, state->tick);  // it is before the next tick
-  shared.simulation.return_to(state);
-  shared.preview = nullptr;
-  shared.served = -1;
-  shared.shown.reset();
-  shared.next_tick = state->tick;
-  shared.publish();
+  const auto tick = shared.tick_before(ticks);
+  if (!tick) return;
+  (void)ledger_.rewind(options_.author, shared.next_tick, *tick);  // it is before the next tick
+  shared.next_tick = *tick;
+  if (auto state = shared.rewinds_to ? nullptr : shared.past.whole(*tick)) {
+    shared.go_on_from(std::move(state));
+    shared.publish();
+  } else {
+    shared.rewinds_to = *tick;
+    shared.wake.notify_all();
+  }
 }
 
 std::shared_ptr<const State> LiveSession::coming_state() {
@@ -214,7 +217,7 @@ void LiveSession::settle() {
   shared_->wake.notify_all();
   shared_->done.wait(lock, [this] {
     // Ticks that wait to be served are not waited for: who serves them may be who asks.
-    return (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) && !shared_->is_news();
+    return !shared_->rewinds_to && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) && !shared_->is_news();
   });
   shared_->wait_between_ticks(lock);
 }

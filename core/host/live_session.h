@@ -103,8 +103,9 @@ class LiveSession {
   /// The tick before the waiting one, if that one is due; else nothing.
   std::optional<std::int64_t> unserved_tick() const;
   void serve(std::int64_t tick);
-  /// Goes back to a tick that is still kept, or to the oldest kept one; the scene stays the same. The rewind is an entry of the
-  /// log.
+  /// Goes back to a tick that can still be reached, or to the oldest one; the scene stays the same. The rewind is an entry of the
+  /// log, and what is said from now on belongs to that tick. The states of the last ticks are there at once; others the ticking
+  /// thread computes again.
   void rewind(std::int64_t ticks);
   /// The state with which the next tick will begin; it belongs to the same moment as the logged scene. Logs the values of
   /// gestures first, and waits for the end of a running tick, also where the clock is late.

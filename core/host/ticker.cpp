@@ -10,8 +10,6 @@ namespace bl::host {
 
 namespace {
 
-// States kept for rewinding: their meshes and tables are shared between them as long as nothing changes.
-constexpr std::size_t kKeptStates = 400;
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
 
@@ -27,7 +25,7 @@ void LiveSession::Shared::publish() {
   moment->wanted_rate = wanted_rate;
   moment->tick_seconds = tick_seconds;
   moment->rate = is_playing ? rate : 0;
-  moment->oldest = past.empty() ? simulation.state()->tick : past.front()->tick;
+  moment->oldest = past.empty() ? simulation.state()->tick : past.oldest();
   moment->times = simulation.times();
   moment->failure = failure;
   published = std::move(moment);
@@ -55,19 +53,54 @@ void LiveSession::Shared::gather_changes() {
 // Returns with the mutex held; until it is given up, no tick begins.
 void LiveSession::Shared::wait_between_ticks(std::unique_lock<std::mutex>& lock) {
   ++holds;
-  done.wait(lock, [this] { return !is_ticking; });
+  done.wait(lock, [this] { return !is_ticking && !rewinds_to; });
   --holds;
   wake.notify_all();
 }
 
-// The newest kept state that is so many ticks old, or the oldest; those after it are given up. None where there is none.
-std::shared_ptr<const State> LiveSession::Shared::take_past(std::int64_t ticks) {
-  const std::int64_t now = simulation.state()->tick;
-  if (past.empty() || past.front()->tick >= now) return nullptr;
-  while (past.size() > 1 && past.back()->tick > std::min(now - ticks, now - 1)) past.pop_back();
-  const std::shared_ptr<const State> found = past.back();
-  past.pop_back();
-  return found;
+std::optional<std::int64_t> LiveSession::Shared::tick_before(std::int64_t ticks) const {
+  if (ticks <= 0 || past.empty() || past.oldest() >= next_tick) return std::nullopt;
+  return past.reachable(std::min(next_tick - ticks, next_tick - 1));
+}
+
+// The present state goes on from there under the present plan.
+void LiveSession::Shared::go_on_from(std::shared_ptr<const State> earlier) {
+  past.forget_from(earlier->tick);
+  simulation.return_to(std::move(earlier));
+  preview = nullptr;
+  served = -1;
+  shown.reset();
+  next_tick = simulation.state()->tick;
+}
+
+// A rewind to a tick whose state has to be computed again; the lock is given up meanwhile.
+void LiveSession::Shared::rewind(std::unique_lock<std::mutex>& lock) {
+  const std::int64_t tick = *rewinds_to;
+  const std::shared_ptr<const State> present = simulation.state();
+  std::shared_ptr<const State> earlier;
+  std::string trouble;
+  is_ticking = true;
+  lock.unlock();
+  try {
+    if (const auto reached = past.recompute(tick, simulation)) earlier = simulation.state();
+    else trouble = "the rewind failed (" + reached.error().text() + "); the clock is stopped";
+  } catch (const std::exception& exception) {
+    trouble = std::string("the rewind failed (") + exception.what() + "); the clock is stopped";
+  }
+  simulation.put_back(present);
+  lock.lock();
+  is_ticking = false;
+  // Somebody may want to go back further by now.
+  const bool is_last = rewinds_to == tick;
+  if (is_last) rewinds_to.reset();
+  if (earlier && is_last) go_on_from(std::move(earlier));
+  if (!trouble.empty()) {
+    rewinds_to.reset();
+    failure = std::move(trouble);
+    is_playing = false;
+    steps_due = 0;
+  }
+  if (!rewinds_to) publish();
 }
 
 // What no tick has seen is to be seen all the same: as the next tick will begin with it. The simulation itself waits for that
@@ -105,11 +138,13 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   const double begin = clock.now();
   try {
     // What is taken from the ledger stays pending until the simulation has really taken it on.
-    if (pending) simulation.set_scene(*pending, pending_placed);
+    if (pending) {
+      simulation.set_scene(*pending, pending_placed);
+      past.set_scene(simulation.state()->tick, *pending, std::move(pending_placed));
+    }
     pending.reset();
     pending_placed.clear();
-    past.push_back(simulation.state());
-    if (past.size() > kKeptStates) past.pop_front();
+    past.add(simulation.state());
     simulation.step();
   } catch (const std::bad_alloc&) {
     trouble = "memory ran out in a tick; the last good state is kept, and the clock is stopped";
@@ -141,6 +176,11 @@ void LiveSession::Shared::run() {
   double due = clock.now();
   bool has_rested = false;
   while (!is_ending) {
+    if (rewinds_to) {
+      rewind(lock);
+      done.notify_all();
+      continue;
+    }
     if (holds > 0) {
       done.notify_all();
       wake.wait(lock);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "core/host/live_session.h"
+#include "core/host/past.h"
 
 namespace bl::host {
 
@@ -37,6 +37,7 @@ struct LiveSession::Shared {
   int steps_due = 0;
   int holds = 0;  // the holder waits for the pause between two ticks; no tick begins meanwhile
   bool is_playing = false, is_ending = false, is_ticking = false;
+  std::optional<std::int64_t> rewinds_to;  // a tick whose state the ticking thread is to compute again, before anything else
   bool do_ticks_wait = false;  // for somebody who serves them
   std::int64_t served = -1;    // the last tick that was
   double wanted_rate = 20;
@@ -57,7 +58,7 @@ struct LiveSession::Shared {
   std::optional<Scene> pending;  // what people have said that the simulation has not taken yet
   std::set<std::pair<std::string, std::string>> pending_placed;
   // Of the ticking thread alone.
-  std::deque<std::shared_ptr<const State>> past;
+  Past past;
   double tick_seconds = 0, rate = 0, last_tick;
   std::thread thread;
   std::map<std::size_t, std::function<void(const std::shared_ptr<const Moment>&)>> listeners;
@@ -72,7 +73,10 @@ struct LiveSession::Shared {
     wake.notify_all();
   }
   void end_rest();
-  std::shared_ptr<const State> take_past(std::int64_t ticks);
+  // The tick that a rewind by so many leads to; nothing where there is none.
+  std::optional<std::int64_t> tick_before(std::int64_t ticks) const;
+  void go_on_from(std::shared_ptr<const State> earlier);
+  void rewind(std::unique_lock<std::mutex>& lock);
   bool is_held_up() const { return do_ticks_wait && served != simulation.state()->tick; }
   Seen said() const { return {ledger.last_seq(), gestures.revision()}; }
   // A clock that stands shows all that people do; one that runs shows what its ticks do not know yet.

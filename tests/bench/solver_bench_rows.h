@@ -109,6 +109,12 @@ BenchTables bench_rays(const SolverBench& bench);
 BenchTables bench_traffic(const SolverBench& bench);
 /// Whole ticks, against ticks that evaluate everything.
 BenchTables bench_tick(const SolverBench& bench);
+/// Plans and states after one edit, against compiling the whole scene.
+BenchTables bench_plan(const SolverBench& bench);
+/// Memory of ten thousand ticks that a rewind can reach, and the time of a rewind.
+BenchTables bench_past(const SolverBench& bench);
+/// Reading a scene file, the first state, the first tick.
+BenchTables bench_load(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

@@ -19,32 +19,6 @@ constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
 constexpr double kTickFills[] = {0.7, 0.95, 1};
 constexpr double kDragStep = 0.2;  // [m]
 
-// Random volumes that are kept inside of their box and held to a sum, and of which every twentieth keeps its distance from the
-// others of its kind: three links to sets.
-Result<Scene> linked_scene(int count, double fill) {
-  auto scene = random_scene(count, full_registry(), fill);
-  if (!scene) return scene.error();
-  int number = 0;
-  for (const auto& [id, node] : SharedMap(scene->nodes))
-    if (node.types.contains("smart_volume") && number++ % 20 == 0)
-      scene->nodes.edit(id).types[std::string(kBaseNode)]["tags"] = Shared<std::vector<std::string>>({"public"});
-  scene->nodes["sum"].types = {
-      {"node", {}},
-      {"statistics", {{"port", std::string("smart_volume.volume")}, {"nodes", Shared<Selection>({{}, "smart_volume", {}})}}}};
-  const auto join = [&](const char* id, const char* kind, const Selection& from, const Selection& to, PortValues parameters) {
-    LinkRecord& link = scene->links[id];
-    link.kind = kind;
-    link.from = from;
-    link.to = to;
-    link.parameters = std::move(parameters);
-  };
-  const Selection volumes{{}, "smart_volume", {}}, tagged{{}, {}, "public"};
-  join("inside", "inside_boundary", {{"box"}, {}, {}}, volumes, {{"margin", 1.0}});
-  join("cap", "set_cap", {{"sum"}, {}, {}}, volumes, {{"cap", 1e12}});
-  join("apart", "keep_distance", tagged, tagged, {{"minimum", 12.0}, {"maximum", 1e6}});
-  return scene;
-}
-
 // One session as people have it, and one of the same scene that evaluates everything.
 struct Rivals {
   std::unique_ptr<Session> session, everything;

@@ -34,7 +34,7 @@ TEST_P(IdleLaws, PassingIdleTicksIsTheSameAsTakingThem) {
   for (int tick = 0; tick < kMostToRest && !twins.at_once.is_idle(); ++tick) twins.step();
   if (!twins.at_once.is_idle()) {
     const Dependents& dependents = *twins.at_once.state()->plan->dependents;
-    EXPECT_FALSE(dependents.timed_nodes.empty() && dependents.timed_links.empty()) << "nothing in it reads the time";
+    EXPECT_FALSE(dependents.sets->timed_nodes.empty() && dependents.links->timed.empty()) << "nothing in it reads the time";
     return;
   }
   twins.at_once.pass(kPassed);

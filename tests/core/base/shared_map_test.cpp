@@ -80,14 +80,24 @@ TEST(SharedMap, DifferencesAreThoseRecordsThatDiffer) {
   after.edit("n200") = 2;
   after.edit("n201") = 201;  // to the same content
   std::vector<std::string> seen;
-  EXPECT_TRUE(map.each_difference(after, [&](const auto& old, const auto& now) {
-    EXPECT_EQ(old.first, now.first);
-    seen.push_back(now.first);
+  const auto see = [&](const auto* old, const auto* now) {
+    seen.push_back((old == nullptr ? "+" : now == nullptr ? "-" : "") + (now == nullptr ? old : now)->first);
     return true;
-  }));
+  };
+  EXPECT_TRUE(map.each_difference(after, see));
   EXPECT_EQ(seen, (std::vector<std::string>{"n17", "n200"}));
   EXPECT_NE(map, after);
-  EXPECT_FALSE(map.each_difference(after, [](const auto&, const auto&) { return false; }));
+  EXPECT_FALSE(map.each_difference(after, [](const auto*, const auto*) { return false; }));
+  // Records come and go, at the ends too; leaves are split on the way.
+  for (int n = 0; n < 60; ++n) after["n150_" + std::to_string(1000 + n)] = n;
+  after.erase("n0");
+  after["z"] = 1;
+  seen.clear();
+  EXPECT_TRUE(map.each_difference(after, see));
+  ASSERT_EQ(seen.size(), 64u);
+  EXPECT_EQ(seen.front(), "-n0");
+  EXPECT_EQ(seen[1], "+n150_1000");
+  EXPECT_EQ(seen.back(), "+z");
   // One added and one removed: other names at the same ranks.
   after = map;
   after.erase("n100");

@@ -75,7 +75,7 @@ TEST(Amend, GivesWhatCompilingGivesForAnyValueOfAnyScene) {
         put(changed, node->first, type, port, random.below(4) == 0 ? port.default_value : random_value(port, random));
         const std::set<std::pair<std::string, std::string>> placed{{node->first, type.id + "." + port.id}};
         const auto plan = compile(changed, full_registry());
-        const auto quick = amend(*simulation.state()->plan, changed);
+        const auto quick = amend(*simulation.state()->plan, changed, full_registry());
         ++(quick ? amended : compiled);
         if (quick) expect_same(*quick->plan, *plan, where + " " + node->first + "." + type.id + "." + port.id);
         const State expected = carry(*simulation.state(), plan, placed);
@@ -100,7 +100,7 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   const auto with = [&](const std::string& node, const std::string& type, const std::string& port, const Value& value) {
     Scene scene = plan.scene;
     scene.nodes.edit(node).types.at(type)[port] = value;
-    return amend(plan, scene).has_value();
+    return amend(plan, scene, full_registry()).has_value();
   };
   EXPECT_TRUE(with("a", "sensor", "reading", 4.5));
   EXPECT_TRUE(with("a", "sensor", "connection", std::string("gone")));
@@ -112,8 +112,8 @@ TEST(Amend, WhatIndicesAreMadeOfIsCompiled) {
   renamed.nodes.edit("a").name = "Gauge";
   locked.nodes.edit("b").locked.insert("control.value");
   settings.settings["calm_ticks"] = std::int64_t{9};
-  for (const Scene& scene : {more, renamed, locked, settings}) EXPECT_FALSE(amend(plan, scene).has_value());
-  EXPECT_TRUE(amend(plan, plan.scene).has_value());
+  for (const Scene& scene : {more, renamed, locked, settings}) EXPECT_FALSE(amend(plan, scene, full_registry()).has_value());
+  EXPECT_TRUE(amend(plan, plan.scene, full_registry()).has_value());
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+// A state between two packed ones comes about as it did: from the one before, with the scenes that were set meanwhile.
+#include "core/host/past.h"
+
+#include <algorithm>
+
+namespace bl::host {
+
+void Past::set_scene(std::int64_t tick, const Scene& scene, Placed placed) {
+  changes_.push_back({tick, scene, std::move(placed)});
+  // No tick reads it, and it is the only part that scenes do not share.
+  changes_.back().scene.view.clear();
+}
+
+void Past::add(std::shared_ptr<const State> state) {
+  const std::int64_t tick = state->tick;
+  if (!begins_anew_ && stretches_.back().last == tick) {
+    // The tick has failed and begins again.
+    whole_.back().state = std::move(state);
+    return;
+  }
+  const bool goes_on = !begins_anew_ && stretches_.back().last + 1 == tick;
+  begins_anew_ = false;
+  if (goes_on) stretches_.back().last = tick;
+  else stretches_.push_back({tick, tick});
+  const bool is_key = !goes_on || tick - last_key_ >= kPackedEvery;
+  if (is_key) last_key_ = tick;
+  whole_.push_back({std::move(state), is_key});
+  while (whole_.size() > kWholeStates) {
+    if (whole_.front().is_packed_later) pack(std::move(whole_.front().state));
+    whole_.pop_front();
+  }
+}
+
+void Past::pack(std::shared_ptr<const State> state) {
+  packed_.emplace_back(*state, last_packed_.get(), packed_.empty() ? nullptr : &packed_.back());
+  last_packed_ = std::move(state);
+  bytes_ += packed_.back().bytes();
+  while (packed_.size() > kMostPacked || (packed_.size() > 1 && bytes_ > kMostBytes)) give_up_oldest();
+}
+
+void Past::give_up_oldest() {
+  // What the next one shares with it stays, and is little.
+  bytes_ -= packed_.front().bytes();
+  packed_.pop_front();
+  const std::int64_t first = packed_.front().tick();
+  while (stretches_.front().last < first) stretches_.pop_front();
+  stretches_.front().first = std::max(stretches_.front().first, first);
+  while (!changes_.empty() && changes_.front().tick <= first) changes_.pop_front();
+}
+
+std::int64_t Past::reachable(std::int64_t tick) const {
+  for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend(); ++stretch)
+    if (stretch->first <= tick) return std::min(tick, stretch->last);
+  return oldest();
+}
+
+std::shared_ptr<const State> Past::whole(std::int64_t tick) const {
+  const auto found = std::find_if(whole_.rbegin(), whole_.rend(), [&](const Whole& one) { return one.state->tick == tick; });
+  return found == whole_.rend() ? nullptr : found->state;
+}
+
+Result<void> Past::recompute(std::int64_t tick, Simulation& simulation) const {
+  if (auto state = whole(tick)) {
+    simulation.put_back(std::move(state));
+    return {};
+  }
+  // The last one before it: a packed state knows no tensions and no remarks, which the ticks after it say again.
+  auto from = std::lower_bound(packed_.begin(), packed_.end(), tick,
+                               [](const PackedState& packed, std::int64_t wanted) { return packed.tick() < wanted; });
+  const auto stretch = std::find_if(stretches_.begin(), stretches_.end(),
+                                    [&](const Stretch& s) { return s.first <= tick && tick <= s.last; });
+  if (stretch == stretches_.end()) return Error{ErrorCode::not_found, "rewind", "tick " + std::to_string(tick) + " is not kept"};
+  if (stretch->first < tick) --from;
+  if (auto done = simulation.unpack(*from); !done) return done;
+  auto change = std::upper_bound(changes_.begin(), changes_.end(), from->tick(),
+                                 [](std::int64_t key, const SceneChange& one) { return key < one.tick; });
+  while (true) {
+    for (; change != changes_.end() && change->tick == simulation.state()->tick; ++change)
+      simulation.set_scene(change->scene, change->placed);
+    if (simulation.state()->tick >= tick) return {};
+    simulation.step();
+  }
+}
+
+void Past::forget_from(std::int64_t tick) {
+  while (!whole_.empty() && whole_.back().state->tick >= tick) whole_.pop_back();
+  while (!packed_.empty() && packed_.back().tick() >= tick) {
+    bytes_ -= packed_.back().bytes();
+    packed_.pop_back();
+    last_packed_ = nullptr;
+  }
+  while (!changes_.empty() && changes_.back().tick >= tick) changes_.pop_back();
+  while (!stretches_.empty() && stretches_.back().first >= tick) stretches_.pop_back();
+  if (!stretches_.empty()) stretches_.back().last = std::min(stretches_.back().last, tick - 1);
+  begins_anew_ = true;
+}
+
+}  // namespace bl::host

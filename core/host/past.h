@@ -1,0 +1,73 @@
+// The ticks of a session that a rewind can reach: the last states whole, older ones packed now and then, those between computed again.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/graph/packed_state.h"
+#include "core/graph/simulation.h"
+
+namespace bl::host {
+
+class Past {
+ public:
+  using Placed = std::set<std::pair<std::string, std::string>>;
+
+  /// How many of the last states are kept whole.
+  static constexpr std::size_t kWholeStates = 40;
+  /// Of older states each one that comes so many ticks after the one before is kept, packed.
+  static constexpr std::int64_t kPackedEvery = 20;
+  /// Beyond these the oldest are given up: ten minutes at twenty ticks a second, and what packed states may take.
+  static constexpr std::size_t kMostPacked = 600, kMostBytes = std::size_t{400} << 20;
+
+  /// Before a tick: the scene that is set now, in the state with this tick.
+  void set_scene(std::int64_t tick, const Scene& scene, Placed placed);
+  /// Before a tick, after set_scene(): the state with which it begins.
+  void add(std::shared_ptr<const State> state);
+
+  bool empty() const { return stretches_.empty(); }
+  /// The first tick that can be reached; there must be one.
+  std::int64_t oldest() const { return stretches_.front().first; }
+  /// The last tick up to `tick` that a state was added for, or the oldest one.
+  std::int64_t reachable(std::int64_t tick) const;
+  /// The state with which this tick began, where it is at hand.
+  std::shared_ptr<const State> whole(std::int64_t tick) const;
+  /// Brings the simulation to the state with which this tick began.
+  Result<void> recompute(std::int64_t tick, Simulation& simulation) const;
+  /// Gives up this tick and those after it.
+  void forget_from(std::int64_t tick);
+
+ private:
+  struct Whole {
+    std::shared_ptr<const State> state;
+    bool is_packed_later = false;
+  };
+  struct SceneChange {
+    std::int64_t tick = 0;
+    Scene scene;
+    Placed placed;
+  };
+  /// Ticks without a gap.
+  struct Stretch {
+    std::int64_t first = 0, last = 0;
+  };
+
+  void pack(std::shared_ptr<const State> state);
+  void give_up_oldest();
+
+  std::deque<Stretch> stretches_;
+  std::deque<Whole> whole_;
+  std::deque<PackedState> packed_;
+  std::deque<SceneChange> changes_;
+  std::shared_ptr<const State> last_packed_;  // the state that the last of `packed_` was made from
+  std::int64_t last_key_ = 0;                 // the last tick whose state is packed, or will be
+  bool begins_anew_ = true;                   // the next state does not follow from the ticks before it
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace bl::host

@@ -1,0 +1,133 @@
+// Laws of what a rewind reaches: every tick, with the bits that it had, whatever people did meanwhile.
+#include "core/host/past.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/host/host.h"
+#include "tests/core/host/replays.h"
+#include "tests/support/hand_clock.h"
+#include "tests/support/random_commands.h"
+#include "tests/support/world.h"
+
+namespace bl::host {
+namespace {
+
+constexpr std::int64_t kTicks = 150;
+
+// Runs a scene as the ticking thread does, with commands now and then; by tick, the hash of the state with which it began.
+std::map<std::int64_t, std::uint64_t> run(const Scene& scene, Past& past, Simulation& simulation) {
+  Ledger ledger(full_registry(), scene);
+  simulation.set_scene(scene);
+  std::map<std::int64_t, std::uint64_t> hashes;
+  for (std::int64_t tick = 0; tick < kTicks; ++tick) {
+    Random random(7, static_cast<std::uint64_t>(tick));
+    if (random.below(4) == 0)
+      (void)ledger.submit(random_command(ledger.scene(), random, static_cast<int>(tick)), Author{"test"}, tick);
+    const auto changes = ledger.take_changes();
+    if (changes.is_logic_changed) {
+      simulation.set_scene(ledger.scene(), changes.placed);
+      past.set_scene(tick, ledger.scene(), changes.placed);
+    }
+    past.add(simulation.state());
+    hashes[tick] = simulation.state()->hash;
+    simulation.step();
+  }
+  return hashes;
+}
+
+class PastLaws : public testing::TestWithParam<const char*> {};
+
+TEST_P(PastLaws, EveryTickIsReachedWithItsBits) {
+  Past past;
+  Simulation simulation(full_registry(), 1), again(full_registry(), 1);
+  const auto hashes = run(read_scene(project_file(GetParam()), full_registry()).scene, past, simulation);
+  EXPECT_EQ(past.oldest(), 0);
+  Random random(11);
+  for (int sample = 0; sample < 40; ++sample) {
+    const auto tick = sample < 3 ? sample * Past::kPackedEvery : static_cast<std::int64_t>(random.below(kTicks));
+    const auto done = past.recompute(tick, again);
+    ASSERT_TRUE(done.ok()) << done.error().text();
+    EXPECT_EQ(again.state()->tick, tick);
+    EXPECT_EQ(again.state()->hash, hashes.at(tick)) << tick;
+    EXPECT_EQ(past.whole(tick) != nullptr, tick >= kTicks - static_cast<std::int64_t>(Past::kWholeStates)) << tick;
+  }
+  EXPECT_FALSE(past.recompute(kTicks, again).ok());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PastLaws,
+                         testing::Values("scenes/start/quarter.json", "scenes/studies/sixty_volumes.json",
+                                         "scenes/studies/braess.json", "scenes/studies/scripted_terraces.json",
+                                         "scenes/nodes/sun_study.json", "scenes/nodes/sensor.json"),
+                         [](const auto& test) { return "S" + std::to_string(test.index); });
+
+TEST(Past, WhatIsGivenUpIsForgottenAndWhatFollowsStandsForItself) {
+  Past past;
+  Simulation simulation(full_registry(), 1);
+  const Scene scene = read_scene(project_file("scenes/start/quarter.json"), full_registry()).scene;
+  run(scene, past, simulation);
+  past.forget_from(75);
+  EXPECT_EQ(past.reachable(1000), 74);
+  // Another course from there on, which does not follow from the ticks before it.
+  Simulation other(full_registry(), 1);
+  other.set_scene(scene);
+  while (other.state()->tick < 75) other.step();
+  std::map<std::int64_t, std::uint64_t> hashes;
+  for (; other.state()->tick < 140; other.step()) {
+    past.add(other.state());
+    hashes[other.state()->tick] = other.state()->hash;
+  }
+  for (const std::int64_t tick : {75, 76, 96, 99, 139}) {
+    ASSERT_TRUE(past.recompute(tick, simulation).ok());
+    EXPECT_EQ(simulation.state()->hash, hashes.at(tick)) << tick;
+  }
+  // A rest leaves a gap, from behind which one comes back to the tick before it.
+  other.pass(1000);
+  past.add(other.state());
+  EXPECT_EQ(past.reachable(700), 139);
+  EXPECT_EQ(past.reachable(5000), 1140);
+}
+
+TEST(Past, ARewindFartherThanWholeStatesIsComputedBesideTheHolder) {
+  test::HandClock clock;
+  auto started = Host::start(full_registry(), read_scene(project_file("scenes/start/quarter.json"), full_registry()).scene, nullptr,
+                             {.author = "anna", .origin = "test", .clock = &clock});
+  Host& host = **started;
+  LiveSession& session = host.session();
+  const auto tick = [&](int count) {
+    session.step(count);
+    session.settle();
+  };
+  const auto move = [&](const std::string& x) {
+    const std::string id = session.scene().nodes.begin()->first;
+    ASSERT_TRUE(host.submit({command<SetPort>({id, {"node.position"}, {"[" + x + ", 1, 2]"}})}).ok());
+  };
+  tick(90);
+  move("30");
+  tick(60);
+  move("40");
+  session.rewind(80);
+  move("50");  // belongs to the tick to which the rewind leads
+  EXPECT_EQ(session.log().back().tick, 70);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, 70);
+  tick(5);
+  test::expect_replays(host);
+  // Two in a row, of which the second goes on from where the first leads to.
+  tick(60);
+  session.rewind(70);
+  session.rewind(30);
+  EXPECT_EQ(session.log().back().rewinds_to, 35);
+  EXPECT_EQ(session.coming_state()->tick, 35);
+  tick(3);
+  test::expect_replays(host);
+  session.rewind(1000);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, 0);
+  test::expect_replays(host);
+}
+
+}  // namespace
+}  // namespace bl::host
