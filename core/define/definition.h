@@ -1,6 +1,7 @@
 // Declarations as plain data: ports, typifications, link kinds and commands.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -222,6 +223,13 @@ struct LinkWrites {
   std::vector<std::vector<std::optional<Value>>> values;
 };
 
+/// The distances [m] between the two positions of a pair at which a link says nothing. There are none where `least` is above
+/// `most`.
+struct SilentBand {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  bool in_plan = false;  ///< heights do not count
+};
+
 /// A link kind. It is evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
 struct LinkDefinition : TypeDefinition {
   LinkFamily family = LinkFamily::other;
@@ -231,6 +239,9 @@ struct LinkDefinition : TypeDefinition {
   std::string same_units_unless;                                ///< a boolean parameter that disables that rule
   /// Its pairs share what they may use up in one tick, so that one can fail for what others took: all are evaluated together.
   bool has_common_budget = false;
+  /// Where pairs are silent, by the parameters; empty: any pair may speak. Such pairs of large sets are not looked at.
+  std::function<SilentBand(const void* parameters)> silent_band;
+  std::array<std::size_t, 2> silent_reads{};  ///< where it is declared: the reads of the two positions, by end
   /// The parameters as a struct for the evaluation; made once per change of the link.
   std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
   std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;

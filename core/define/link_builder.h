@@ -1,6 +1,8 @@
 // Declares a link kind: parameters, what it reads at its ends, what it proposes, and one pure evaluate().
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -81,6 +83,23 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   LinkBuilder& same_units(std::string parameter, std::string other, std::string unless = "") {
     definition_->same_units.emplace_back(std::move(parameter), std::move(other));
     definition_->same_units_unless = std::move(unless);
+    return *this;
+  }
+
+  /// Two nodes whose positions are so far from each other have nothing to say: evaluate() returns proposals without a value, and
+  /// neither fails nor remarks anything. The kind reads `node.position` at both ends, before it declares this, and no computed
+  /// port, no whole end.
+  LinkBuilder& silent_at(SilentBand (*band)(const In&)) {
+    for (const End end : {End::from, End::to}) {
+      const auto is_place = [end](const LinkRead& read) {
+        return read.end == end && read.path.typification == "node" && read.path.port == "position";
+      };
+      const auto read = std::find_if(definition_->reads.begin(), definition_->reads.end(), is_place);
+      assert(read != definition_->reads.end());
+      if (read == definition_->reads.end()) return *this;
+      definition_->silent_reads[static_cast<std::size_t>(end)] = static_cast<std::size_t>(read - definition_->reads.begin());
+    }
+    definition_->silent_band = [band](const void* parameters) { return band(*static_cast<const In*>(parameters)); };
     return *this;
   }
 

@@ -80,11 +80,18 @@ struct AnalysisState {
   std::optional<std::uint64_t> seen;
 };
 
+/// A point before it changed.
+struct PointBefore {
+  PortRef port;
+  Point3 at;
+};
+
 /// What the next tick has to look at because it may come out differently than in this one. It is no part of the result: with
 /// everything due, the next state is the same.
 struct DueWork {
   bool is_everything = true;
   std::vector<PortRef> changed;      ///< ports that differ from the state before: links that read them run. Ascending.
+  std::vector<PointBefore> were;     ///< the points among them, as the links have read them last. Ascending.
   std::vector<PortRef> replied;      ///< ports that sets wrote, after the sets had read: those that read them run. Ascending.
   std::vector<std::uint32_t> nodes;  ///< whose ports are still on their way, or were set by people. Ascending.
   std::vector<std::uint32_t> links;  ///< that have to be asked again whatever they read. Ascending.
