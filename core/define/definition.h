@@ -130,6 +130,8 @@ struct ReadDefinition {
   std::optional<Unit> unit;  ///< empty: any unit
   bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
+  /// Of a whole end, where all others are as they were assigned last: the values at these places.
+  std::function<void(void*, std::span<const Value* const>, std::span<const std::uint32_t>)> assign_some;
 };
 
 /// Whole numbers and truth values can be read as numbers, and choices as texts.
@@ -215,9 +217,17 @@ struct LinkWrite : WriteDefinition {
   End end = End::to;
 };
 
+/// What an evaluation keeps of the reads of whole ends until the next one, so that it takes over only what differs.
+struct LoadedEnds {
+  Memo memo;
+  bool is_complete = false;                           ///< it holds all reads as they were in the last evaluation
+  std::array<std::vector<std::uint32_t>, 2> changed;  ///< by end: places of nodes that may read otherwise since
+};
+
 /// The values for a link evaluation: one pointer per declared read, or one for each node of a whole end.
 struct LinkReads {
   std::vector<std::vector<const Value*>> values;
+  LoadedEnds* loaded = nullptr;  ///< nullptr: nothing is kept
 };
 struct LinkWrites {
   std::vector<std::vector<std::optional<Value>>> values;

@@ -112,6 +112,19 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   }
 
  private:
+  static void load(const std::vector<LinkRead>& reads, const LinkReads& in, Ends& ends) {
+    // Until all is loaded: what throws on the way leaves a gap.
+    const bool is_kept = in.loaded != nullptr && std::exchange(in.loaded->is_complete, false);
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+      if (is_kept && reads[r].is_whole)
+        reads[r].assign_some(&ends, in.values[r], in.loaded->changed[static_cast<std::size_t>(reads[r].end)]);
+      else reads[r].assign(&ends, in.values[r]);
+    }
+    if (in.loaded == nullptr) return;
+    for (auto& places : in.loaded->changed) places.clear();
+    in.loaded->is_complete = true;
+  }
+
   void bind_evaluation() {
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition_->ports);
     const auto reads = std::make_shared<const std::vector<LinkRead>>(definition_->reads);
@@ -123,8 +136,9 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     };
     definition_->evaluate = [reads, proposes](const void* parameters, const LinkReads& in, LinkWrites& out,
                                               const Tick& tick) -> Result<void> {
-      Ends ends;
-      for (std::size_t r = 0; r < reads->size(); ++r) (*reads)[r].assign(&ends, in.values[r]);
+      Ends own;
+      Ends& ends = in.loaded != nullptr ? in.loaded->memo.template of<Ends>() : own;
+      load(*reads, in, ends);
       Result<Out> result = T::evaluate(*static_cast<const In*>(parameters), ends, tick);
       if (!result) return result.error();
       for (std::size_t w = 0; w < proposes->size(); ++w) (*proposes)[w].extract(&result.value(), out.values[w]);

@@ -10,8 +10,21 @@ namespace bl {
 
 namespace {
 
-// `reach`: of a link whose silent pairs need not be looked at; else nullptr.
-LinkState evaluated(const State& frozen, std::size_t index, LinkReach* reach, std::size_t& pairs) {
+// What was kept of a link, where it is of use; else nullptr.
+struct Kept {
+  LinkReach* reach = nullptr;  // whose silent pairs need not be looked at
+  LinkReads* whole = nullptr;
+};
+
+Kept kept_of(const State& frozen, std::size_t index, LinkMemos* memos) {
+  const LinkPlan& plan = frozen.plan->links[index];
+  if (memos == nullptr || !plan.is_enabled || plan.error) return {};
+  LinkMemo& memo = memos->links[index];
+  return {memo.reach.follow(frozen, plan) ? &memo.reach : nullptr,
+          memo.whole.follow(frozen, plan) ? &memo.whole.reads() : nullptr};
+}
+
+LinkState evaluated(const State& frozen, std::size_t index, const Kept& kept, std::size_t& pairs) {
   const LinkPlan& plan = frozen.plan->links[index];
   LinkState next;
   if (!plan.is_enabled) return next;
@@ -22,10 +35,10 @@ LinkState evaluated(const State& frozen, std::size_t index, LinkReach* reach, st
       if (is_lasting(frozen, voice)) next.voices.push_back(held_voice(voice, plan));
     return next;
   }
-  LinkRun run(frozen, plan);
+  LinkRun run(frozen, plan, kept.whole);
   Memo memo;
   const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
-  if (reach != nullptr) reach->visit_all(plan, [&](std::uint32_t f, std::uint32_t t) { run.run_pair(f, t, tick); });
+  if (kept.reach != nullptr) kept.reach->visit_all(plan, [&](std::uint32_t f, std::uint32_t t) { run.run_pair(f, t, tick); });
   else run.run(tick);
   pairs += run.pairs();
   next.voices = run.voices(last);
@@ -95,8 +108,7 @@ std::optional<DuePairs> near_pairs(const State& frozen, const LinkPlan& plan, Li
   for (const std::uint32_t node : *concerned)
     for (std::size_t w = 0; w < plan.writes.size(); ++w) {
       const auto& nodes = plan.nodes[static_cast<std::size_t>(plan.definition->proposes[w].end)];
-      if (const auto at = std::lower_bound(nodes.begin(), nodes.end(), node); at != nodes.end() && *at == node)
-        due.targets.push_back(plan.writes[w][static_cast<std::size_t>(at - nodes.begin())]);
+      if (const auto at = place_in(nodes, node)) due.targets.push_back(plan.writes[w][*at]);
     }
   return due;
 }
@@ -178,20 +190,15 @@ void add_differences(const std::vector<Voice>& before, const std::vector<Voice>&
 }  // namespace
 
 void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos) {
-  if (memos != nullptr && memos->structure != work.frozen.plan->dependents) {
-    memos->structure = work.frozen.plan->dependents;
-    memos->reaches.assign(work.frozen.links.size(), {});
-  }
+  if (memos != nullptr) memos->follow(*work.frozen.plan);
   const std::vector<DueLink> due = due_links(work.frozen);
   std::vector<LinkState> fresh(due.size());
   std::vector<std::size_t> pairs(due.size(), 0);
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      LinkReach* reach = memos != nullptr ? &memos->reaches[due[i].link] : nullptr;
-      const LinkPlan& plan = work.frozen.plan->links[due[i].link];
-      if (reach != nullptr && (!plan.is_enabled || plan.error || !reach->follow(work.frozen, plan))) reach = nullptr;
-      auto in_part = evaluated_in_part(work.frozen, due[i], reach, pairs[i]);
-      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, reach, pairs[i]);
+      const Kept kept = kept_of(work.frozen, due[i].link, memos);
+      auto in_part = evaluated_in_part(work.frozen, due[i], kept.reach, pairs[i]);
+      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, kept, pairs[i]);
     }
   });
   work.counts.links += due.size();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/graph/link_run.h"
+
 namespace bl {
 
 namespace {
@@ -30,12 +32,6 @@ bool can_be_silent(const State& frozen, const LinkPlan& plan) {
     for (const PortRef& ref : refs)
       if (ref.type != PortRef::kNodeId && frozen.plan->port(ref).is_computed) return false;
   return plan.nodes[0].size() * plan.nodes[1].size() >= kFewPairs;
-}
-
-std::optional<std::uint32_t> find(const std::vector<std::uint32_t>& nodes, std::uint32_t node) {
-  const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
-  if (at == nodes.end() || *at != node) return std::nullopt;
-  return static_cast<std::uint32_t>(at - nodes.begin());
 }
 
 }  // namespace
@@ -80,22 +76,17 @@ void LinkReach::read_all(const State& frozen, const LinkPlan& plan) {
 void LinkReach::read_changes(const State& frozen, const LinkPlan& plan) {
   // Whoever leaves widens the bounds of a grid for good: now and then they are found anew.
   if (moves_ > plan.nodes[0].size() + plan.nodes[1].size()) return read_all(frozen, plan);
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    if (n % NodeStates::kLeaf == 0 && nodes_.shares_leaf(frozen.nodes, n / NodeStates::kLeaf)) {
-      n += NodeStates::kLeaf - 1;
-      continue;
-    }
-    if (nodes_.item(n) == frozen.nodes.item(n)) continue;
+  each_difference(nodes_, frozen.nodes, [&](std::uint32_t n) {
     for (const End end : {End::from, End::to}) {
       if (is_symmetric_ && end == End::to) break;
-      const auto at = find(nodes_of(plan, end), n);
+      const auto at = place_in(nodes_of(plan, end), n);
       if (!at) continue;
       const auto& now = std::get<Point3>(frozen.value(place_of(plan, end, *at)));
       if (now == grid(end)[*at]) continue;
       grid(end).move(*at, now);
       ++moves_;
     }
-  }
+  });
   nodes_ = frozen.nodes;
 }
 
@@ -129,7 +120,7 @@ std::optional<std::vector<std::uint32_t>> LinkReach::concerned(const State& froz
   std::size_t tidy_from = 4 * many;
   for (const std::uint32_t node : changed)
     for (const End end : {End::from, End::to}) {
-      const auto at = find(nodes_of(plan, end), node);
+      const auto at = place_in(nodes_of(plan, end), node);
       if (!at) continue;
       const End other = end == End::from ? End::to : End::from;
       add_partners(other, grid(end)[*at]);
@@ -152,7 +143,7 @@ std::vector<LinkReach::Pair> LinkReach::pairs_of(const LinkPlan& plan, std::span
   std::vector<Pair> pairs;
   for (const std::uint32_t node : nodes)
     for (const End end : {End::from, End::to}) {
-      const auto at = find(nodes_of(plan, end), node);
+      const auto at = place_in(nodes_of(plan, end), node);
       if (!at) continue;
       find_partners(end == End::from ? End::to : End::from, grid(end)[*at]);
       for (const std::uint32_t partner : found_) {

@@ -59,10 +59,4 @@ class LinkReach {
   std::vector<std::uint32_t> found_;
 };
 
-/// Those of all links. No state, either.
-struct LinkMemos {
-  std::shared_ptr<const Dependents> structure;  ///< of the plans that have these links
-  std::vector<LinkReach> reaches;               ///< by link
-};
-
 }  // namespace bl

@@ -12,15 +12,29 @@ Voice held_voice(const Voice& voice, const LinkPlan& plan) {
   return held;
 }
 
-LinkRun::LinkRun(const State& frozen, const LinkPlan& plan) : LinkRun(frozen, plan, {}) {
+std::optional<std::uint32_t> place_in(const std::vector<std::uint32_t>& nodes, std::uint32_t node) {
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+  if (at == nodes.end() || *at != node) return std::nullopt;
+  return static_cast<std::uint32_t>(at - nodes.begin());
+}
+
+const Value& value_read(const State& frozen, const LinkRead& read, PortRef ref) {
+  static const Value locked = true, open = false;
+  if (!read.is_lock) return frozen.value(ref);
+  return frozen.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? locked : open;
+}
+
+LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, LinkReads* whole)
+    : LinkRun(frozen, plan, std::vector<std::uint32_t>{}) {
+  if (whole != nullptr) reads_ = whole;
   collected_.resize(plan.targets.size());
   has_failed_.resize(plan.targets.size());
 }
 
 LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, std::vector<std::uint32_t> targets)
-    : frozen_(frozen), plan_(plan), definition_(*plan.definition), targets_(std::move(targets)) {
+    : frozen_(frozen), plan_(plan), definition_(*plan.definition), reads_(&own_reads_), targets_(std::move(targets)) {
   is_pairwise_ = !definition_.is_whole(End::from) && !definition_.is_whole(End::to);
-  for (const LinkRead& read : definition_.reads) reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
+  for (const LinkRead& read : definition_.reads) own_reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
   for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
   collected_.resize(targets_.size());
   has_failed_.resize(targets_.size());
@@ -59,8 +73,9 @@ LinkRemarks LinkRun::remarks() const {
 std::vector<Voice> LinkRun::voices(const std::vector<Voice>& last) {
   std::vector<Voice> voices;
   for (std::size_t i = 0; i < collected_.size(); ++i) {
-    const PortRef target = plan_.targets[targets_.empty() ? i : targets_[i]];
-    const PortDefinition& port = frozen_.plan->port(target);
+    const std::size_t index = targets_.empty() ? i : targets_[i];
+    const PortRef target = plan_.targets[index];
+    const PortDefinition& port = *plan_.target_ports[index];
     bool is_missing = collected_[i].count == 0 && has_failed_[i];
     if (collected_[i].count > 0) {
       // Means of numbers that are finite may be none, and zeros may get a sign.
@@ -121,19 +136,13 @@ bool LinkRun::is_out_of_date(PortRef ref) const {
   return ref.type != PortRef::kNodeId && frozen_.nodes[ref.node].types[ref.type].error && frozen_.plan->port(ref).is_computed;
 }
 
-const Value& LinkRun::lock_at(PortRef ref) const {
-  static const Value locked = true, open = false;
-  return frozen_.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? locked : open;
-}
-
 Result<void> LinkRun::read(std::size_t f, std::size_t t) {
   for (std::size_t r = 0; r < definition_.reads.size(); ++r) {
     const LinkRead& read = definition_.reads[r];
+    if (read.is_whole && reads_ != &own_reads_) continue;
     const std::size_t first = read.is_whole ? 0 : (read.end == End::from ? f : t);
-    for (std::size_t i = 0; i < reads_.values[r].size(); ++i) {
-      const PortRef ref = plan_.reads[r][first + i];
-      reads_.values[r][i] = read.is_lock ? &lock_at(ref) : &frozen_.value(ref);
-    }
+    auto& values = reads_->values[r];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = &value_read(frozen_, read, plan_.reads[r][first + i]);
     if (!read.is_whole && is_out_of_date(plan_.reads[r][first]))
       return Error{ErrorCode::missing, "",
                    "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
@@ -146,7 +155,7 @@ Result<void> LinkRun::read(std::size_t f, std::size_t t) {
 Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
   if (auto done = read(f, t); !done) return done;
   for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
-  if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
+  if (auto done = definition_.evaluate(plan_.parameters.get(), *reads_, writes_, tick); !done) return done;
   for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
     const LinkWrite& write = definition_.proposes[w];
     const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
@@ -163,7 +172,7 @@ Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
       if (const auto& value = writes_.values[w][i]) {
         const std::uint32_t target = plan_.writes[w][first + i];
         if (const std::size_t slot = slot_of(target); slot != kNone)
-          collected_[slot].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
+          collected_[slot].add(*value, plan_.target_ports[target]->rule);
       }
   }
   return {};

@@ -13,10 +13,16 @@ namespace bl {
 /// What a link goes on to want, as loud as people want it now.
 Voice held_voice(const Voice& voice, const LinkPlan& plan);
 
+/// Where a node stands among the nodes of an end, which ascend; nothing where it is none of them.
+std::optional<std::uint32_t> place_in(const std::vector<std::uint32_t>& nodes, std::uint32_t node);
+
+/// What a link reads there: the value, or whether people have locked it.
+const Value& value_read(const State& frozen, const LinkRead& read, PortRef ref);
+
 class LinkRun {
  public:
-  /// Of pairs that speak to any target.
-  LinkRun(const State& frozen, const LinkPlan& plan);
+  /// Of pairs that speak to any target. `whole`: what is kept of whole ends, or nullptr.
+  LinkRun(const State& frozen, const LinkPlan& plan, LinkReads* whole);
   /// Of pairs of which only what they say to some targets counts: `targets` are their indices, ascending, at least one.
   LinkRun(const State& frozen, const LinkPlan& plan, std::vector<std::uint32_t> targets);
 
@@ -50,7 +56,6 @@ class LinkRun {
   void fail(std::size_t f, std::size_t t);
   // A figure that does not follow any more must not be answered to tick by tick.
   bool is_out_of_date(PortRef ref) const;
-  const Value& lock_at(PortRef ref) const;
   Result<void> evaluate(std::size_t f, std::size_t t, const Tick& tick);
   Result<void> read(std::size_t f, std::size_t t);
 
@@ -58,7 +63,8 @@ class LinkRun {
   const LinkPlan& plan_;
   const LinkDefinition& definition_;
   bool is_pairwise_ = false;
-  LinkReads reads_;
+  LinkReads own_reads_;
+  LinkReads* reads_;  // those of whole ends are there already where they are kept
   LinkWrites writes_;
   std::vector<std::uint32_t> targets_;  // the only ones, by index, ascending; empty: all
   std::vector<Collected> collected_;    // by target

@@ -8,7 +8,7 @@
 
 #include "core/define/definition.h"
 #include "core/graph/kept_sets.h"
-#include "core/graph/link_reach.h"
+#include "core/graph/link_memos.h"
 #include "core/graph/state.h"
 
 namespace bl {

@@ -234,6 +234,7 @@ class Compiler {
     }
     std::sort(link.targets.begin(), link.targets.end());
     link.targets.erase(std::unique(link.targets.begin(), link.targets.end()), link.targets.end());
+    for (const PortRef& ref : link.targets) link.target_ports.push_back(&plan_->port(ref));
     for (const auto& refs : write_refs) {
       auto& indices = link.writes.emplace_back();
       for (const PortRef& ref : refs)

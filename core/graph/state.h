@@ -68,6 +68,15 @@ struct LinkDigest {
 using NodeStates = SharedList<NodeState, NodeDigest>;
 using LinkStates = SharedList<LinkState, LinkDigest>;
 
+/// Calls visit(n) for each node that two lists of the same nodes do not share, in ascending order.
+template <class Visit>
+void each_difference(const NodeStates& before, const NodeStates& after, const Visit& visit) {
+  for (std::uint32_t n = 0; n < after.size(); ++n) {
+    if (n % NodeStates::kLeaf == 0 && before.shares_leaf(after, n / NodeStates::kLeaf)) n += NodeStates::kLeaf - 1;
+    else if (before.item(n) != after.item(n)) visit(n);
+  }
+}
+
 /// How far an analysis beside the loop has come.
 struct AnalysisState {
   std::int64_t as_of = -1;            ///< the last tick whose data the outputs belong to; -1: no result yet

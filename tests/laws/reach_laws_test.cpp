@@ -104,6 +104,7 @@ void meddle(World& world, std::uint64_t seed, int tick) {
     // Above the largest distance: every pair fails.
     case 2: return submit(command<SetLinkParameter>({"l1", "minimum", JsonValue::of(Json(100.0))}));
     case 3: return submit(command<SetLinkStrength>({"l2", random.uniform()}));
+    case 11: return submit(command<SetLinkParameter>({"l2", "maximum", JsonValue::of(Json(1e200))}));
     case 4: return submit(command<RemoveNode>({node}));
     case 5: return (void)world.session().undo(Author{"test"});
     case 6: return submit(command<EnableLink>({"l0", random.below(2) == 0}));
