@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 #include "core/graph/link_run.h"
 
@@ -18,7 +16,7 @@ constexpr std::size_t kFewPairs = 64;
 // What lies as near to the bounds of silence as this is asked: kinds may measure with other roundings.
 constexpr double kMargin = 1e-9;
 
-PortRef place_of(const LinkPlan& plan, End end, std::size_t node) {
+PortRef position_read(const LinkPlan& plan, End end, std::size_t node) {
   return plan.reads[plan.definition->silent_reads[static_cast<std::size_t>(end)]][node];
 }
 
@@ -49,9 +47,8 @@ void LinkReach::begin(const State& frozen, const LinkPlan& plan) {
   least_ = band.least * (1 + kMargin) + kMargin;
   most_ = band.most * (1 - kMargin) - kMargin;
   least_squared_ = least_ * least_;
-  // Squares of large distances are more than any number, and say no more than that.
-  most_squared_ = std::isinf(most_) ? most_ : std::min(most_ * most_, std::numeric_limits<double>::max());
-  is_useful_ = least_ <= most_ && std::isfinite(least_squared_);
+  most_squared_ = most_ * most_;
+  is_useful_ = least_ <= most_;
   is_symmetric_ = plan.nodes[0] == plan.nodes[1];
   in_plan_ = band.in_plan;
   if (is_useful_) read_all(frozen, plan);
@@ -65,7 +62,7 @@ void LinkReach::read_all(const State& frozen, const LinkPlan& plan) {
     if (is_symmetric_ && end == End::to) break;
     std::vector<Point3> places;
     places.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) places.push_back(std::get<Point3>(frozen.value(place_of(plan, end, i))));
+    for (std::size_t i = 0; i < count; ++i) places.push_back(std::get<Point3>(frozen.value(position_read(plan, end, i))));
     grids_[static_cast<std::size_t>(end)] = PointGrid(std::move(places), least_, in_plan_);
   }
   marks_.assign(most_nodes / 64 + 1, 0);
@@ -81,7 +78,7 @@ void LinkReach::read_changes(const State& frozen, const LinkPlan& plan) {
       if (is_symmetric_ && end == End::to) break;
       const auto at = place_in(nodes_of(plan, end), n);
       if (!at) continue;
-      const auto& now = std::get<Point3>(frozen.value(place_of(plan, end, *at)));
+      const auto& now = std::get<Point3>(frozen.value(position_read(plan, end, *at)));
       if (now == grid(end)[*at]) continue;
       grid(end).move(*at, now);
       ++moves_;
@@ -124,7 +121,7 @@ std::optional<std::vector<std::uint32_t>> LinkReach::concerned(const State& froz
       if (!at) continue;
       const End other = end == End::from ? End::to : End::from;
       add_partners(other, grid(end)[*at]);
-      const PortRef place = place_of(plan, end, *at);
+      const PortRef place = position_read(plan, end, *at);
       const auto was = std::lower_bound(frozen.due.were.begin(), frozen.due.were.end(), place,
                                         [](const PointBefore& before, const PortRef& ref) { return before.port < ref; });
       if (was != frozen.due.were.end() && was->port == place) add_partners(other, was->at);
