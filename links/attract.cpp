@@ -39,6 +39,7 @@ struct Attract {
         .doc("When on, the distance is measured in plan and the heights of both nodes stay as they are.");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
     l.proposes(&Out::from, End::from, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
+    l.silent_at([](const In& in) { return SilentBand{.most = in.rest, .in_plan = in.in_plan}; });
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {

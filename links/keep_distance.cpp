@@ -51,6 +51,7 @@ struct KeepDistance {
     l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
     l.proposes(&Out::from, End::from, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
+    l.silent_at([](const In& in) { return SilentBand{.least = in.minimum, .most = in.maximum, .in_plan = in.in_plan}; });
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {

@@ -172,6 +172,10 @@ void bind_read(ReadDefinition& read, All<M> Owner::*member) {
     all.clear();
     for (const Value* value : values) all.push_back(Binding<M>::from_value(*value));
   };
+  read.assign_some = [member](void* owner, std::span<const Value* const> values, std::span<const std::uint32_t> places) {
+    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    for (const std::uint32_t place : places) all[place] = Binding<M>::from_value(*values[place]);
+  };
 }
 
 /// A write of one node's value from `member`, or of a whole end's from an All (missing entries propose nothing).

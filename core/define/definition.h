@@ -1,6 +1,7 @@
 // Declarations as plain data: ports, typifications, link kinds and commands.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -129,6 +130,8 @@ struct ReadDefinition {
   std::optional<Unit> unit;  ///< empty: any unit
   bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
+  /// Of a whole end, where all others are as they were assigned last: the values at these places.
+  std::function<void(void*, std::span<const Value* const>, std::span<const std::uint32_t>)> assign_some;
 };
 
 /// Whole numbers and truth values can be read as numbers, and choices as texts.
@@ -214,12 +217,27 @@ struct LinkWrite : WriteDefinition {
   End end = End::to;
 };
 
+/// What an evaluation keeps of the reads of whole ends until the next one, so that it takes over only what differs.
+struct LoadedEnds {
+  Memo memo;
+  bool is_complete = false;                           ///< it holds all reads as they were in the last evaluation
+  std::array<std::vector<std::uint32_t>, 2> changed;  ///< by end: places of nodes that may read otherwise since
+};
+
 /// The values for a link evaluation: one pointer per declared read, or one for each node of a whole end.
 struct LinkReads {
   std::vector<std::vector<const Value*>> values;
+  LoadedEnds* loaded = nullptr;  ///< nullptr: nothing is kept
 };
 struct LinkWrites {
   std::vector<std::vector<std::optional<Value>>> values;
+};
+
+/// The distances [m] between the two positions of a pair at which a link says nothing. There are none where `least` is above
+/// `most`.
+struct SilentBand {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  bool in_plan = false;  ///< heights do not count
 };
 
 /// A link kind. It is evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
@@ -231,6 +249,9 @@ struct LinkDefinition : TypeDefinition {
   std::string same_units_unless;                                ///< a boolean parameter that disables that rule
   /// Its pairs share what they may use up in one tick, so that one can fail for what others took: all are evaluated together.
   bool has_common_budget = false;
+  /// Where pairs are silent, by the parameters; empty: any pair may speak. Such pairs of large sets are not looked at.
+  std::function<SilentBand(const void* parameters)> silent_band;
+  std::array<std::size_t, 2> silent_reads{};  ///< where it is declared: the reads of the two positions, by end
   /// The parameters as a struct for the evaluation; made once per change of the link.
   std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
   std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;

@@ -1,6 +1,8 @@
 // Declares a link kind: parameters, what it reads at its ends, what it proposes, and one pure evaluate().
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -84,6 +86,23 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     return *this;
   }
 
+  /// Two nodes whose positions are so far from each other have nothing to say: evaluate() returns proposals without a value, and
+  /// neither fails nor remarks anything. The kind reads `node.position` at both ends, before it declares this, and no computed
+  /// port, no whole end.
+  LinkBuilder& silent_at(SilentBand (*band)(const In&)) {
+    for (const End end : {End::from, End::to}) {
+      const auto is_place = [end](const LinkRead& read) {
+        return read.end == end && read.path.typification == "node" && read.path.port == "position";
+      };
+      const auto read = std::find_if(definition_->reads.begin(), definition_->reads.end(), is_place);
+      assert(read != definition_->reads.end());
+      if (read == definition_->reads.end()) return *this;
+      definition_->silent_reads[static_cast<std::size_t>(end)] = static_cast<std::size_t>(read - definition_->reads.begin());
+    }
+    definition_->silent_band = [band](const void* parameters) { return band(*static_cast<const In*>(parameters)); };
+    return *this;
+  }
+
   static LinkDefinition build() {
     LinkDefinition definition;
     LinkBuilder builder(definition);
@@ -93,6 +112,19 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   }
 
  private:
+  static void load(const std::vector<LinkRead>& reads, const LinkReads& in, Ends& ends) {
+    // Until all is loaded: what throws on the way leaves a gap.
+    const bool is_kept = in.loaded != nullptr && std::exchange(in.loaded->is_complete, false);
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+      if (is_kept && reads[r].is_whole)
+        reads[r].assign_some(&ends, in.values[r], in.loaded->changed[static_cast<std::size_t>(reads[r].end)]);
+      else reads[r].assign(&ends, in.values[r]);
+    }
+    if (in.loaded == nullptr) return;
+    for (auto& places : in.loaded->changed) places.clear();
+    in.loaded->is_complete = true;
+  }
+
   void bind_evaluation() {
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition_->ports);
     const auto reads = std::make_shared<const std::vector<LinkRead>>(definition_->reads);
@@ -104,8 +136,9 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     };
     definition_->evaluate = [reads, proposes](const void* parameters, const LinkReads& in, LinkWrites& out,
                                               const Tick& tick) -> Result<void> {
-      Ends ends;
-      for (std::size_t r = 0; r < reads->size(); ++r) (*reads)[r].assign(&ends, in.values[r]);
+      Ends own;
+      Ends& ends = in.loaded != nullptr ? in.loaded->memo.template of<Ends>() : own;
+      load(*reads, in, ends);
       Result<Out> result = T::evaluate(*static_cast<const In*>(parameters), ends, tick);
       if (!result) return result.error();
       for (std::size_t w = 0; w < proposes->size(); ++w) (*proposes)[w].extract(&result.value(), out.values[w]);

@@ -222,6 +222,7 @@ Result<void> LinkCompiler::resolve_ports(LinkPlan& link, std::span<const Value> 
   }
   if (!std::is_sorted(link.targets.begin(), link.targets.end())) std::sort(link.targets.begin(), link.targets.end());
   link.targets.erase(std::unique(link.targets.begin(), link.targets.end()), link.targets.end());
+  for (const PortRef& ref : link.targets) link.target_ports.push_back(&plan_.port(ref));
   for (const auto& refs : write_refs) {
     auto& indices = link.writes.emplace_back();
     // The nodes of an end ascend, and so do their ports.

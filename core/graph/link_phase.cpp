@@ -1,261 +1,30 @@
 // Phase 3: links read the frozen state and make proposals.
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <iterator>
 #include <numeric>
 
+#include "core/graph/link_run.h"
 #include "core/graph/phases.h"
 
 namespace bl {
 
 namespace {
 
-// Proposals of all pairs of one link on one target, taken together in the order of the pairs. A link speaks with one voice: the
-// mean of the pairs that move anything, so that a node pulled by sixty partners is moved no farther than by one, and
-// links to sets settle whatever the size of the set. A pair counts as far as it moves anything: if it counted whole from its
-// first millimetre on, the voice of the others would jump to half whenever a second pair comes in, and nodes would saw for ever.
-struct Collected {
-  int count = 0, moving = 0;
-  double number = 0;
-  Vector3 vector;
-  double magnitude = 0, squares = 0;
-  std::vector<std::string> texts;
-
-  void add(const Value& value, CombineRule rule) {
-    ++count;
-    if (const auto* list = std::get_if<Shared<std::vector<std::string>>>(&value)) {
-      texts.insert(texts.end(), (*list)->begin(), (*list)->end());
-      return;
-    }
-    if (const auto* v = std::get_if<Vector3>(&value)) {
-      vector += *v;
-      magnitude += norm(*v);
-      squares += squared_norm(*v);
-      if (*v != Vector3{}) ++moving;
-      return;
-    }
-    const double x = as_number(value);
-    magnitude += std::abs(x);
-    squares += x * x;
-    if (x != 0) ++moving;
-    if (rule == CombineRule::min) number = count == 1 ? x : std::min(number, x);
-    else if (rule == CombineRule::max) number = count == 1 ? x : std::max(number, x);
-    else number += x;
-  }
-
-  Voice voice(PortRef target, const PortDefinition& port, double strength) const {
-    if (port.rule == CombineRule::collect) {
-      std::vector<std::string> all = texts;
-      // Mostly they come in order, because pairs do.
-      if (std::adjacent_find(all.begin(), all.end(), std::greater_equal<>()) != all.end()) {
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-      }
-      return {target, Shared(std::move(all)), 0, strength};
-    }
-    const double share = port.rule == CombineRule::blend ? 1.0 / count : port.rule == CombineRule::sum ? share_of_sum() : 1.0;
-    if (port.kind == ValueKind::point) return {target, vector * share, magnitude * share, strength};
-    return {target, number * share, magnitude * share, strength};
-  }
-
-  // One over the number of pairs that move anything, each counted by how much it moves: (sum m)² / sum m² of n equal ones is n,
-  // and one that hardly moves hardly counts. The sum times this share is never more than the largest move.
-  double share_of_sum() const {
-    if (moving <= 1) return 1;
-    const double share = squares / (magnitude * magnitude);
-    return share > 0 && share <= 1 ? share : 1.0 / moving;  // squares of extreme numbers overflow
-  }
+// What was kept of a link, where it is of use; else nullptr.
+struct Kept {
+  LinkReach* reach = nullptr;  // whose silent pairs need not be looked at
+  LinkReads* whole = nullptr;
 };
 
-// What a link goes on to want, as loud as people want it now.
-Voice held_voice(const Voice& voice, const LinkPlan& plan) {
-  Voice held = voice;
-  held.strength = plan.strength;
-  return held;
+Kept kept_of(const State& frozen, std::size_t index, LinkMemos* memos) {
+  const LinkPlan& plan = frozen.plan->links[index];
+  if (memos == nullptr || !plan.is_enabled || plan.error) return {};
+  LinkMemo& memo = memos->links[index];
+  return {memo.reach.follow(frozen, plan) ? &memo.reach : nullptr,
+          memo.whole.follow(frozen, plan) ? &memo.whole.reads() : nullptr};
 }
 
-class LinkRun {
- public:
-  LinkRun(const State& frozen, const LinkPlan& plan) : LinkRun(frozen, plan, {}) {
-    collected_.resize(plan.targets.size());
-    has_failed_.resize(plan.targets.size());
-  }
-  // Of pairs that speak to some targets only: `targets` are their indices, ascending.
-  LinkRun(const State& frozen, const LinkPlan& plan, std::vector<std::uint32_t> targets)
-      : frozen_(frozen), plan_(plan), definition_(*plan.definition), targets_(std::move(targets)) {
-    for (const LinkRead& read : definition_.reads) reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
-    for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
-    collected_.resize(targets_.size());
-    has_failed_.resize(targets_.size());
-  }
-
-  // Every pair once; an end that is read whole takes part in one evaluation for all of its nodes. A pair that fails does not stop
-  // the others, unless the link as a whole has used up what it may.
-  void run(const Tick& tick) {
-    const std::size_t from_count = definition_.is_whole(End::from) ? 1 : count(End::from);
-    const std::size_t to_count = definition_.is_whole(End::to) ? 1 : count(End::to);
-    const bool is_pairwise = !definition_.is_whole(End::from) && !definition_.is_whole(End::to);
-    for (std::size_t f = 0; f < from_count; ++f)
-      for (std::size_t t = 0; t < to_count; ++t) {
-        if (is_pairwise && plan_.nodes[0][f] == plan_.nodes[1][t] && (from_count > 1 || to_count > 1)) continue;
-        if (is_pairwise && plan_.is_symmetric && f > t) continue;
-        run_pair(f, t, tick);
-      }
-  }
-
-  void run_pair(std::size_t f, std::size_t t, const Tick& tick) {
-    if (is_stopped_) return fail(f, t);
-    ++pairs_;
-    LinkRemarks remarks;
-    Tick one = tick;
-    one.remarks = &remarks;
-    if (auto done = evaluate(f, t, one); !done) note(f, t, done.error());
-    hear(remarks);
-  }
-
-  std::size_t pairs() const { return pairs_; }
-
-  // What the first pair that failed says, and how many others there are; nothing where all is well.
-  std::optional<Error> error() const {
-    std::optional<Error> error = first_error_;
-    if (failures_ > 1 && !is_stopped_) error->message += " (and " + std::to_string(failures_ - 1) + " more of its pairs fail)";
-    return error;
-  }
-
-  // The gravest that a pair has remarked; of several that are as grave the first, and how many others there are.
-  LinkRemarks remarks() const {
-    LinkRemarks remarks = remarks_;
-    if (remarked_ > 1) remarks.said->message += " (and " + std::to_string(remarked_ - 1) + " more of its pairs)";
-    return remarks;
-  }
-
-  // Ascending, as the targets are. A wanted value of the last good tick stays in force where all that has failed; a push must not
-  // go on for ever.
-  std::vector<Voice> voices(const std::vector<Voice>& last) {
-    std::vector<Voice> voices;
-    for (std::size_t i = 0; i < collected_.size(); ++i) {
-      const PortRef target = plan_.targets[targets_.empty() ? i : targets_[i]];
-      const PortDefinition& port = frozen_.plan->port(target);
-      bool is_missing = collected_[i].count == 0 && has_failed_[i];
-      if (collected_[i].count > 0) {
-        // Means of numbers that are finite may be none, and zeros may get a sign.
-        Voice voice = collected_[i].voice(target, port, plan_.strength);
-        is_missing = !make_storable(voice.value);
-        if (is_missing) note_overflow(target);
-        else voices.push_back(std::move(voice));
-      }
-      if (is_missing && port.rule != CombineRule::sum) {
-        const auto held = std::lower_bound(last.begin(), last.end(), target,
-                                           [](const Voice& voice, const PortRef& ref) { return voice.target < ref; });
-        if (held != last.end() && held->target == target) voices.push_back(held_voice(*held, plan_));
-      }
-    }
-    return voices;
-  }
-
- private:
-  std::size_t count(End end) const { return plan_.nodes[static_cast<int>(end)].size(); }
-  // The place of a target among those that are spoken to.
-  std::size_t slot_of(std::uint32_t target) const {
-    return targets_.empty()
-               ? target
-               : static_cast<std::size_t>(std::lower_bound(targets_.begin(), targets_.end(), target) - targets_.begin());
-  }
-
-  void note(std::size_t f, std::size_t t, const Error& error) {
-    if (!first_error_) first_error_ = error;
-    ++failures_;
-    is_stopped_ = error.code == ErrorCode::cancelled;
-    fail(f, t);
-  }
-
-  void note_overflow(PortRef target) {
-    if (!first_error_)
-      first_error_ =
-          Error{ErrorCode::not_finite, "",
-                "what its pairs propose for `" + frozen_.plan->nodes[target.node].id + "` adds up to more than any number"};
-  }
-
-  void hear(const LinkRemarks& remarks) {
-    if (!remarks.said || (remarks_.said && remarks.kind < remarks_.kind)) return;
-    if (remarks_.said && remarks.kind == remarks_.kind) {
-      ++remarked_;
-      return;
-    }
-    remarks_ = remarks;
-    remarked_ = 1;
-  }
-
-  void fail(std::size_t f, std::size_t t) {
-    for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
-      const LinkWrite& write = definition_.proposes[w];
-      const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
-      for (std::size_t i = 0; i < writes_.values[w].size(); ++i) has_failed_[slot_of(plan_.writes[w][first + i])] = true;
-    }
-  }
-
-  // A figure that does not follow any more must not be answered to tick by tick.
-  bool is_out_of_date(PortRef ref) const {
-    return ref.type != PortRef::kNodeId && frozen_.nodes[ref.node].types[ref.type].error && frozen_.plan->port(ref).is_computed;
-  }
-
-  const Value& lock_at(PortRef ref) const {
-    static const Value locked = true, open = false;
-    return frozen_.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? locked : open;
-  }
-
-  Result<void> evaluate(std::size_t f, std::size_t t, const Tick& tick) {
-    for (std::size_t r = 0; r < definition_.reads.size(); ++r) {
-      const LinkRead& read = definition_.reads[r];
-      const std::size_t first = read.is_whole ? 0 : (read.end == End::from ? f : t);
-      for (std::size_t i = 0; i < reads_.values[r].size(); ++i) {
-        const PortRef ref = plan_.reads[r][first + i];
-        reads_.values[r][i] = read.is_lock ? &lock_at(ref) : &frozen_.value(ref);
-      }
-      if (!read.is_whole && is_out_of_date(plan_.reads[r][first]))
-        return Error{ErrorCode::missing, "",
-                     "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
-                         frozen_.plan->path_text(plan_.reads[r][first]) +
-                         "` is out of date. What was proposed last stays in force"};
-    }
-    for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
-    if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
-    for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
-      const LinkWrite& write = definition_.proposes[w];
-      const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
-      for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
-        if (auto& value = writes_.values[w][i]; value && !make_storable(*value))
-          return Error{ErrorCode::not_finite, "",
-                       "proposed a value that is not a finite number for `" +
-                           frozen_.plan->nodes[plan_.targets[plan_.writes[w][first + i]].node].id + "`"};
-    }
-    for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
-      const LinkWrite& write = definition_.proposes[w];
-      const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
-      for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
-        if (const auto& value = writes_.values[w][i]) {
-          const std::uint32_t target = plan_.writes[w][first + i];
-          collected_[slot_of(target)].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
-        }
-    }
-    return {};
-  }
-
-  const State& frozen_;
-  const LinkPlan& plan_;
-  const LinkDefinition& definition_;
-  LinkReads reads_;
-  LinkWrites writes_;
-  std::vector<std::uint32_t> targets_;  // the only ones, by index, ascending; empty: all
-  std::vector<Collected> collected_;    // by target
-  std::vector<bool> has_failed_;        // by target: a pair that would have spoken to it
-  std::optional<Error> first_error_;
-  LinkRemarks remarks_;
-  std::size_t failures_ = 0, remarked_ = 0, pairs_ = 0;
-  bool is_stopped_ = false;
-};
-
-LinkState evaluated(const State& frozen, std::size_t index, std::size_t& pairs) {
+LinkState evaluated(const State& frozen, std::size_t index, const Kept& kept, std::size_t& pairs) {
   const LinkPlan& plan = frozen.plan->links[index];
   LinkState next;
   if (!plan.is_enabled) return next;
@@ -266,9 +35,11 @@ LinkState evaluated(const State& frozen, std::size_t index, std::size_t& pairs) 
       if (is_lasting(frozen, voice)) next.voices.push_back(held_voice(voice, plan));
     return next;
   }
-  LinkRun run(frozen, plan);
+  LinkRun run(frozen, plan, kept.whole);
   Memo memo;
-  run.run(Tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo});
+  const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
+  if (kept.reach != nullptr) kept.reach->visit_all(plan, [&](std::uint32_t f, std::uint32_t t) { run.run_pair(f, t, tick); });
+  else run.run(tick);
   pairs += run.pairs();
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
@@ -306,42 +77,79 @@ std::optional<End> end_of_single_pairs(const LinkPlan& plan) {
   return is_alone && speaks_there ? std::optional(many) : std::nullopt;
 }
 
+// What has to be asked of a link some of whose nodes have changed: no pair besides these says anything new, and all of them that
+// say anything to the targets are among them.
+struct DuePairs {
+  std::vector<LinkReach::Pair> pairs;  // in the order in which all pairs would come
+  std::vector<std::uint32_t> targets;  // indices, ascending
+};
+
+// Those of a link between one node and many; nothing where all have to be asked.
+std::optional<DuePairs> single_pairs(const LinkPlan& plan, End many, const std::vector<std::uint32_t>& changed) {
+  const std::uint32_t alone = plan.nodes[many == End::to ? 0 : 1].front();
+  const std::vector<std::uint32_t>& nodes = plan.nodes[static_cast<int>(many)];
+  DuePairs due;
+  for (const std::uint32_t node : changed) {
+    if (node == alone) return std::nullopt;
+    const auto place = static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    due.pairs.push_back(many == End::to ? LinkReach::Pair{0, place} : LinkReach::Pair{place, 0});
+    for (const auto& writes : plan.writes) due.targets.push_back(writes[place]);
+  }
+  if (2 * due.pairs.size() > nodes.size()) return std::nullopt;
+  return due;
+}
+
+// Those of a link between sets that knows who may matter to whom; nothing where all have to be asked.
+std::optional<DuePairs> near_pairs(const State& frozen, const LinkPlan& plan, LinkReach& reach,
+                                   const std::vector<std::uint32_t>& changed) {
+  const auto concerned = reach.concerned(frozen, plan, changed);
+  if (!concerned) return std::nullopt;
+  DuePairs due{reach.pairs_of(plan, *concerned), {}};
+  for (const std::uint32_t node : *concerned)
+    for (std::size_t w = 0; w < plan.writes.size(); ++w) {
+      const auto& nodes = plan.nodes[static_cast<std::size_t>(plan.definition->proposes[w].end)];
+      if (const auto at = place_in(nodes, node)) due.targets.push_back(plan.writes[w][*at]);
+    }
+  return due;
+}
+
+// The voices of some targets, given by their indices, anew among those that stay.
+std::vector<Voice> renewed(const LinkPlan& plan, const std::vector<Voice>& last, const std::vector<std::uint32_t>& targets,
+                           std::vector<Voice>&& fresh) {
+  std::vector<Voice> voices;
+  voices.reserve(last.size() + fresh.size());
+  auto target = targets.begin();
+  auto next = fresh.begin();
+  for (const Voice& voice : last) {
+    while (target != targets.end() && plan.targets[*target] < voice.target) ++target;
+    while (next != fresh.end() && next->target < voice.target) voices.push_back(std::move(*next++));
+    if (target == targets.end() || plan.targets[*target] != voice.target) voices.push_back(voice);
+  }
+  voices.insert(voices.end(), std::make_move_iterator(next), std::make_move_iterator(fresh.end()));
+  return voices;
+}
+
 // What the link says after changes of these nodes, or nothing where all of its pairs have to be asked.
-std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& due, std::size_t& asked) {
+std::optional<LinkState> evaluated_in_part(const State& frozen, const DueLink& due, LinkReach* reach, std::size_t& asked) {
   const LinkPlan& plan = frozen.plan->links[due.link];
   const LinkState& last = frozen.links[due.link];
   if (due.is_whole || plan.error || last.error || last.remark || last.work) return std::nullopt;
   const auto many = end_of_single_pairs(plan);
-  if (!many) return std::nullopt;
-  const std::uint32_t alone = plan.nodes[*many == End::to ? 0 : 1].front();
-  const std::vector<std::uint32_t>& nodes = plan.nodes[static_cast<int>(*many)];
-  std::vector<std::size_t> pairs;
-  std::vector<std::uint32_t> targets;
-  for (const std::uint32_t node : due.nodes) {
-    if (node == alone) return std::nullopt;
-    pairs.push_back(static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()));
-    for (const auto& writes : plan.writes) targets.push_back(writes[pairs.back()]);
-  }
-  if (2 * pairs.size() > nodes.size()) return std::nullopt;
+  if (!many && reach == nullptr) return std::nullopt;
+  auto some = many ? single_pairs(plan, *many, due.nodes) : near_pairs(frozen, plan, *reach, due.nodes);
+  if (!some) return std::nullopt;
+  std::vector<std::uint32_t>& targets = some->targets;
   std::sort(targets.begin(), targets.end());
   targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
   LinkRun run(frozen, plan, targets);
   Memo memo;
   const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
-  for (const std::size_t pair : pairs) run.run_pair(*many == End::to ? 0 : pair, *many == End::to ? pair : 0, tick);
+  for (const auto& [f, t] : some->pairs) run.run_pair(f, t, tick);
   asked += run.pairs();
-  const std::vector<Voice> fresh = run.voices(last.voices);
+  std::vector<Voice> fresh = run.voices(last.voices);
   if (run.error() || run.remarks().said) return std::nullopt;
   LinkState next;
-  for (const Voice& voice : last.voices) {
-    const auto at = std::lower_bound(plan.targets.begin(), plan.targets.end(), voice.target);
-    const auto target = static_cast<std::uint32_t>(at - plan.targets.begin());
-    if (!std::binary_search(targets.begin(), targets.end(), target)) next.voices.push_back(voice);
-  }
-  const auto kept = static_cast<std::ptrdiff_t>(next.voices.size());
-  next.voices.insert(next.voices.end(), fresh.begin(), fresh.end());
-  std::inplace_merge(next.voices.begin(), next.voices.begin() + kept, next.voices.end(),
-                     [](const Voice& a, const Voice& b) { return a.target < b.target; });
+  next.voices = renewed(plan, last.voices, targets, std::move(fresh));
   return next;
 }
 
@@ -381,14 +189,16 @@ void add_differences(const std::vector<Voice>& before, const std::vector<Voice>&
 
 }  // namespace
 
-void evaluate_links(TickWork& work, ThreadPool& pool) {
+void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos) {
+  if (memos != nullptr) memos->follow(*work.frozen.plan);
   const std::vector<DueLink> due = due_links(work.frozen);
   std::vector<LinkState> fresh(due.size());
   std::vector<std::size_t> pairs(due.size(), 0);
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      auto in_part = evaluated_in_part(work.frozen, due[i], pairs[i]);
-      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, pairs[i]);
+      const Kept kept = kept_of(work.frozen, due[i].link, memos);
+      auto in_part = evaluated_in_part(work.frozen, due[i], kept.reach, pairs[i]);
+      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, kept, pairs[i]);
     }
   });
   work.counts.links += due.size();

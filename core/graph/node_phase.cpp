@@ -232,6 +232,8 @@ State commit(TickWork&& work) {
                        next.largest_move <= move_limit && next.largest_change <= change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   for (const std::uint32_t n : own_nodes) add_changes(n, frozen.nodes[n], next.nodes[n], next.plan->nodes[n], next.due.changed);
+  for (const PortRef& ref : next.due.changed)
+    if (const auto* point = std::get_if<Point3>(&frozen.value(ref))) next.due.were.push_back({ref, *point});
   std::sort(next.due.replied.begin(), next.due.replied.end());
   std::sort(next.due.links.begin(), next.due.links.end());
   next.hash = hash_of(next);

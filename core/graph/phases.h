@@ -8,6 +8,7 @@
 
 #include "core/define/definition.h"
 #include "core/graph/kept_sets.h"
+#include "core/graph/link_memos.h"
 #include "core/graph/state.h"
 
 namespace bl {
@@ -39,8 +40,9 @@ struct TickWork {
   TickCounts counts;
 };
 
-/// Phase 3: every link that is due reads the frozen state and fills its own slot. Parallel over links.
-void evaluate_links(TickWork& work, ThreadPool& pool);
+/// Phase 3: every link that is due reads the frozen state and fills its own slot. Parallel over links. Without memos, pairs that
+/// are silent are asked as well.
+void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos);
 /// Phase 4: per port, proposals combine in ascending link id; then step limit, hard range, locks last. Phase 5: typifications
 /// without sets, where an input changed. Both are parallel over the nodes that are due.
 void evaluate_nodes(TickWork& work, ThreadPool& pool);

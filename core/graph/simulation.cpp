@@ -122,7 +122,7 @@ bool Simulation::step() {
   }
   TickWork work(evaluates_everything_ ? everything_due : *state_);
   ++work.next.state.tick;
-  evaluate_links(work, pool_);
+  evaluate_links(work, pool_, evaluates_everything_ ? nullptr : &link_memos_);
   lap(times_.links);
   // A phase that was stopped has left gaps, which the next one must not meet.
   if (is_stop_wished()) return false;

@@ -73,6 +73,7 @@ class Simulation {
   TickCounts counts_;
   bool evaluates_everything_ = false, is_idle_ = false;
   SetMemos memos_;
+  LinkMemos link_memos_;
   AnalysisRunner runner_;
 };
 

@@ -273,8 +273,10 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
     NodeState after = carried_node(old.plan->nodes[n], before, state.plan->nodes[n], placed);
     for (std::uint16_t t = 0; t < after.types.size(); ++t)
       for (std::uint16_t p = 0; p < after.types[t].values.size(); ++p)
-        if (!(before.types[t].values[p] == after.types[t].values[p]))
+        if (const Value& old_value = before.types[t].values[p]; !(old_value == after.types[t].values[p])) {
           for (auto* ports : {&state.due.changed, &state.due.replied}) ports->push_back({n, t, p});
+          if (const auto* point = std::get_if<Point3>(&old_value)) state.due.were.push_back({{n, t, p}, *point});
+        }
     // A set whose settings say something else is asked, even where links have brought its ports to that already.
     for (std::uint16_t t = 0; t < after.types.size(); ++t)
       if (before.types[t].is_evaluated && !after.types[t].is_evaluated)
@@ -286,6 +288,9 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
   merge_from(replied, state.due.replied);
   std::sort(state.due.nodes.begin(), state.due.nodes.end());
   state.due.nodes.erase(std::unique(state.due.nodes.begin(), state.due.nodes.end()), state.due.nodes.end());
+  // Of a point that has changed several times, links know the first place.
+  std::stable_sort(state.due.were.begin(), state.due.were.end(),
+                   [](const PointBefore& a, const PointBefore& b) { return a.port < b.port; });
   State carried = std::move(draft).publish();
   carried.hash = hash_of(carried);
   return carried;

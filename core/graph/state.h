@@ -71,6 +71,15 @@ struct LinkDigest {
 using NodeStates = SharedList<NodeState, NodeDigest>;
 using LinkStates = SharedList<LinkState, LinkDigest>;
 
+/// Calls visit(n) for each node that two lists of the same nodes do not share, in ascending order.
+template <class Visit>
+void each_difference(const NodeStates& before, const NodeStates& after, const Visit& visit) {
+  for (std::uint32_t n = 0; n < after.size(); ++n) {
+    if (n % NodeStates::kLeaf == 0 && before.shares_leaf(after, n / NodeStates::kLeaf)) n += NodeStates::kLeaf - 1;
+    else if (before.item(n) != after.item(n)) visit(n);
+  }
+}
+
 /// How far an analysis beside the loop has come.
 struct AnalysisState {
   std::int64_t as_of = -1;            ///< the last tick whose data the outputs belong to; -1: no result yet
@@ -83,11 +92,18 @@ struct AnalysisState {
   std::optional<std::uint64_t> seen;
 };
 
+/// A point before it changed.
+struct PointBefore {
+  PortRef port;
+  Point3 at;
+};
+
 /// What the next tick has to look at because it may come out differently than in this one. It is no part of the result: with
 /// everything due, the next state is the same.
 struct DueWork {
   bool is_everything = true;
   std::vector<PortRef> changed;      ///< ports that differ from the state before: links that read them run. Ascending.
+  std::vector<PointBefore> were;     ///< the points among them, as the links have read them last. Ascending.
   std::vector<PortRef> replied;      ///< ports that sets wrote, after the sets had read: those that read them run. Ascending.
   std::vector<std::uint32_t> nodes;  ///< whose ports are still on their way, or were set by people. Ascending.
   std::vector<std::uint32_t> links;  ///< that have to be asked again whatever they read. Ascending.
