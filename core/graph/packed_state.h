@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,7 +19,7 @@ class TextPool {
   const std::string& text(std::uint32_t number) const { return *texts_[number]; }
 
  private:
-  std::unordered_map<std::string, std::uint32_t> numbers_;  // looked up only, never walked
+  std::map<std::string, std::uint32_t> numbers_;
   std::vector<const std::string*> texts_;
 };
 
