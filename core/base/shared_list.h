@@ -101,8 +101,7 @@ class SharedList<T, Digest>::Draft {
  public:
   explicit Draft(SharedList base) : base_(std::move(base)), size_(base_.size()), open_(base_.leaf_count()) {}
   /// With more items than `base`, which are still to be put, or with fewer.
-  Draft(SharedList base, std::size_t size)
-      : base_(std::move(base)), size_(size), open_((size + kLeaf - 1) / kLeaf) {
+  Draft(SharedList base, std::size_t size) : base_(std::move(base)), size_(size), open_((size + kLeaf - 1) / kLeaf) {
     // The last leaf ends elsewhere.
     if (size != base_.size() && size % kLeaf != 0) open(size - 1);
   }

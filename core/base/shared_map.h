@@ -146,8 +146,8 @@ class SharedMap {
   bool operator==(const SharedMap& other) const {
     return size_ == other.size_ && each_difference(other, [](const value_type*, const value_type*) { return false; });
   }
-  /// Calls see(before, after) for each name whose records differ, in ascending names, as long as it returns true; nullptr stands for
-  /// a record that is not there. Costs what the maps do not share.
+  /// Calls see(before, after) for each name whose records differ, in ascending names, as long as it returns true; nullptr stands
+  /// for a record that is not there. Costs what the maps do not share.
   template <class See>
   bool each_difference(const SharedMap& after, const See& see) const {
     if (leaves_ == after.leaves_) return true;

@@ -181,7 +181,8 @@ LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::spa
         continue;
       }
       const std::uint32_t link = places.empty() ? links_[i] : places[links_[i]];
-      for (; fresh != more.end() && fresh->port.node == n && std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
+      for (; fresh != more.end() && fresh->port.node == n &&
+             std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
            ++fresh)
         put(key_of(fresh->port), fresh->link);
       put(ports_[i], link);

@@ -39,9 +39,10 @@ class LinkLists {
 
   /// Ascending, each link once.
   std::span<const std::uint32_t> operator[](const PortRef& port) const;
-  /// Without the entries `less`, then with links renumbered, then with the entries `more`. `places`: by link, its number then; empty:
-  /// they keep their numbers. `less` and `more` in any order.
-  LinkLists edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places, std::vector<Entry> more) const;
+  /// Without the entries `less`, then with links renumbered, then with the entries `more`. `places`: by link, its number then;
+  /// empty: they keep their numbers. `less` and `more` in any order.
+  LinkLists edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places,
+                   std::vector<Entry> more) const;
 
  private:
   // Appends the lists of the nodes [first, last) of another one as they are, but for new numbers.
@@ -77,9 +78,9 @@ struct SetDependents {
 
 /// What follows from its links.
 struct LinkDependents {
-  LinkLists reading;                 ///< by port
-  LinkLists at;                      ///< by node, as port {node, 0, 0}: links that may propose something to it
-  std::vector<std::uint32_t> timed;  ///< that read the time
+  LinkLists reading;                  ///< by port
+  LinkLists at;                       ///< by node, as port {node, 0, 0}: links that may propose something to it
+  std::vector<std::uint32_t> timed;   ///< that read the time
   std::vector<std::uint32_t> broken;  ///< that cannot run: what they said last may stand, whatever their targets are now
 };
 

@@ -130,8 +130,7 @@ Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link,
 }
 
 Error LinkCompiler::lack_of(const LinkDefinition& definition, std::uint32_t node, const PortPath& path, End end) const {
-  if (path.typification.empty())
-    return Error{ErrorCode::missing, "", "choose the port that `" + definition.id + "` works on"};
+  if (path.typification.empty()) return Error{ErrorCode::missing, "", "choose the port that `" + definition.id + "` works on"};
   return Error{ErrorCode::conflict, std::string(name_of(end)),
                "the node `" + plan_.nodes[node].id + "` has no `" + path.typification + "." + path.port + "`, which `" +
                    definition.id + "` needs" + nearest_port(path)};
@@ -184,12 +183,12 @@ Result<void> LinkCompiler::check_same_units(const LinkPlan& link, std::span<cons
     for (const std::size_t f : firsts_of(froms))
       for (const std::size_t t : first_tos)
         if (!same_dimension(froms[f], tos[t]))
-          return Error{ErrorCode::wrong_unit, "",
-                       "`" + plan_.nodes[link.nodes[0][f]].id + "." + from.typification + "." + from.port + "` is in " +
-                           std::string(info(froms[f]).name) + "s, `" + plan_.nodes[link.nodes[1][t]].id + "." +
-                           to.typification + "." + to.port + "` in " + std::string(info(tos[t]).name) + "s" +
-                           (definition.same_units_unless.empty() ? ""
-                                                                 : "; give ranges with `" + definition.same_units_unless + "`")};
+          return Error{
+              ErrorCode::wrong_unit, "",
+              "`" + plan_.nodes[link.nodes[0][f]].id + "." + from.typification + "." + from.port + "` is in " +
+                  std::string(info(froms[f]).name) + "s, `" + plan_.nodes[link.nodes[1][t]].id + "." + to.typification + "." +
+                  to.port + "` in " + std::string(info(tos[t]).name) + "s" +
+                  (definition.same_units_unless.empty() ? "" : "; give ranges with `" + definition.same_units_unless + "`")};
   }
   return {};
 }

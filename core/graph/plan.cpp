@@ -127,8 +127,9 @@ class Compiler {
       set.reads.resize(reads);
       set.writes.resize(writes);
       if (!selection.is_query() && !is_further(*type.definition, s))
-        set.error = Error{ErrorCode::conflict, place,
-                          "the node `" + plan_->nodes[node].id + "` has no `" + missing->typification + "." + missing->port + "`"};
+        set.error =
+            Error{ErrorCode::conflict, place,
+                  "the node `" + plan_->nodes[node].id + "` has no `" + missing->typification + "." + missing->port + "`"};
     }
     return set;
   }

@@ -217,7 +217,8 @@ void LiveSession::settle() {
   shared_->wake.notify_all();
   shared_->done.wait(lock, [this] {
     // Ticks that wait to be served are not waited for: who serves them may be who asks.
-    return !shared_->rewinds_to && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) && !shared_->is_news();
+    return !shared_->rewinds_to && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) &&
+           !shared_->is_news();
   });
   shared_->wait_between_ticks(lock);
 }

@@ -67,8 +67,8 @@ Result<void> Past::recompute(std::int64_t tick, Simulation& simulation) const {
   // The last one before it: a packed state knows no tensions and no remarks, which the ticks after it say again.
   auto from = std::lower_bound(packed_.begin(), packed_.end(), tick,
                                [](const PackedState& packed, std::int64_t wanted) { return packed.tick() < wanted; });
-  const auto stretch = std::find_if(stretches_.begin(), stretches_.end(),
-                                    [&](const Stretch& s) { return s.first <= tick && tick <= s.last; });
+  const auto stretch =
+      std::find_if(stretches_.begin(), stretches_.end(), [&](const Stretch& s) { return s.first <= tick && tick <= s.last; });
   if (stretch == stretches_.end()) return Error{ErrorCode::not_found, "rewind", "tick " + std::to_string(tick) + " is not kept"};
   if (stretch->first < tick) --from;
   if (auto done = simulation.unpack(*from); !done) return done;

@@ -1,4 +1,5 @@
-// The ticks of a session that a rewind can reach: the last states whole, older ones packed now and then, those between computed again.
+// The ticks of a session that a rewind can reach: the last states whole, older ones packed now and then, those between computed
+// again.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ class Past {
   using Placed = std::set<std::pair<std::string, std::string>>;
 
   /// How many of the last states are kept whole.
-  static constexpr std::size_t kWholeStates = 40;
+  static constexpr std::size_t kWholeStates = 20;
   /// Of older states each one that comes so many ticks after the one before is kept, packed.
   static constexpr std::int64_t kPackedEvery = 20;
   /// Beyond these the oldest are given up: ten minutes at twenty ticks a second, and what packed states may take.

@@ -38,8 +38,8 @@ struct LiveSession::Shared {
   int holds = 0;  // the holder waits for the pause between two ticks; no tick begins meanwhile
   bool is_playing = false, is_ending = false, is_ticking = false;
   std::optional<std::int64_t> rewinds_to;  // a tick whose state the ticking thread is to compute again, before anything else
-  bool do_ticks_wait = false;  // for somebody who serves them
-  std::int64_t served = -1;    // the last tick that was
+  bool do_ticks_wait = false;              // for somebody who serves them
+  std::int64_t served = -1;                // the last tick that was
   double wanted_rate = 20;
   bool may_rest = false;              // ticks that only count on need not be taken one by one
   std::optional<double> rests_since;  // the time of the last tick, where the thread sleeps and the clock counts on without it

@@ -10,8 +10,8 @@ namespace bl::cli::bench {
 /// count.
 Result<Scene> random_scene(int count, const Registry& registry, double fill = 0.5);
 
-/// The same volumes, kept inside of their box and held to a sum, of which every twentieth keeps its distance from the others of its
-/// kind: three links to sets.
+/// The same volumes, kept inside of their box and held to a sum, of which every twentieth keeps its distance from the others of
+/// its kind: three links to sets.
 Result<Scene> linked_scene(int count, double fill);
 
 }  // namespace bl::cli::bench

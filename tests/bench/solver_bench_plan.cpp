@@ -48,7 +48,10 @@ std::vector<EditCase> edit_cases(const Scene& scene) {
           {"a link added", [=](Scene& s) { s.links.emplace("another", single); }},
           {"a link removed", [=](Scene& s) { s.links.erase(link); }},
           {"a link to all added", [=](Scene& s) { s.links.emplace("inside_too", to_all); }},
-          {"a volume moved", [=](Scene& s) { s.nodes.edit(node).types["node"]["position"] = Vector3{1, 2, 3}; }},
+          {"a volume moved",
+           [=](Scene& s) {
+             s.nodes.edit(node).types["node"]["position"] = Vector3{1, 2, 3};
+           }},
           {"a volume added", [=](Scene& s) { s.nodes.emplace("another", another); }}};
 }
 

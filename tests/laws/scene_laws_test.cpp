@@ -194,5 +194,20 @@ TEST(StudyLaws, StudiesLoadSaveAndAgreeOnThreads) {
   }
 }
 
+TEST(LargeLaws, LargeScenesLoadSaveAndAgreeOnThreads) {
+  std::vector<std::size_t> sizes;
+  for (const std::string& path : large_scenes()) {
+    const std::string text = project_file(path);
+    const SceneReading reading = read_scene(text, full_registry());
+    EXPECT_TRUE(reading.problems.empty()) << path;
+    expect_canonical(reading, text, path);
+    sizes.push_back(reading.scene.nodes.size());
+    if (sizes.back() < 20000) { EXPECT_EQ(hash_after(text, 2, 2), hash_after(text, 2, 1)) << path; }
+  }
+  ASSERT_EQ(sizes.size(), 2u);
+  EXPECT_GE(sizes[0], 10000u);
+  EXPECT_GE(sizes[1], 30000u);
+}
+
 }  // namespace
 }  // namespace bl

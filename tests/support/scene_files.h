@@ -7,8 +7,11 @@
 
 namespace bl {
 
-/// Paths from the root of the project of every scene below scenes/, sorted; frozen files of old versions are among them.
+/// Paths from the root of the project of every scene below scenes/, sorted; frozen files of old versions are among them, large
+/// scenes are not.
 std::vector<std::string> shipped_scenes();
+/// Scenes of ten thousand volumes and more, for which only a few laws are affordable.
+std::vector<std::string> large_scenes();
 /// Without the large studies: what can be run hundreds of ticks in a test, sanitizers on.
 std::vector<std::string> small_scenes();
 

@@ -47,6 +47,28 @@ TEST(SharedList, HoldsWhatItWasGiven) {
   }
 }
 
+TEST(SharedList, ADraftOfAnotherSizeSharesWhatStays) {
+  const Items before = numbers(100);
+  for (const std::size_t size : {0u, 31u, 32u, 64u, 70u, 99u, 101u, 128u, 129u}) {
+    Items::Draft draft(before, size);
+    for (std::size_t i = before.size(); i < size; ++i) draft.put(i, {static_cast<int>(i), 0});
+    const Items after = published(std::move(draft));
+    ASSERT_EQ(after.size(), size);
+    ASSERT_EQ(after.leaf_count(), (size + 31) / 32);
+    int sum = 0;
+    for (std::size_t leaf = 0; leaf < after.leaf_count(); ++leaf) sum += after.digest(leaf).of_numbers;
+    EXPECT_EQ(sum, static_cast<int>(size) * (static_cast<int>(size) - 1) / 2) << size;
+    for (std::size_t i = 0; i < std::min(size, before.size()); ++i) EXPECT_EQ(after.item(i), before.item(i));
+  }
+  // Moved by one place: the items are those of the list before.
+  Items::Draft draft(before, 99);
+  for (std::size_t i = 40; i < 99; ++i) draft.share(i, before.item(i + 1));
+  const Items after = published(std::move(draft));
+  EXPECT_TRUE(after.shares_leaf(before, 0));
+  EXPECT_EQ(after.item(39), before.item(39));
+  EXPECT_EQ(after.item(98), before.item(99));
+}
+
 TEST(SharedList, AnEditCopiesWhatItTouches) {
   const Items before = numbers(100);
   Items::Draft draft(before);

@@ -92,8 +92,8 @@ TEST(Past, WhatIsGivenUpIsForgottenAndWhatFollowsStandsForItself) {
 
 TEST(Past, ARewindFartherThanWholeStatesIsComputedBesideTheHolder) {
   test::HandClock clock;
-  auto started = Host::start(full_registry(), read_scene(project_file("scenes/start/quarter.json"), full_registry()).scene, nullptr,
-                             {.author = "anna", .origin = "test", .clock = &clock});
+  auto started = Host::start(full_registry(), read_scene(project_file("scenes/start/quarter.json"), full_registry()).scene,
+                             nullptr, {.author = "anna", .origin = "test", .clock = &clock});
   Host& host = **started;
   LiveSession& session = host.session();
   const auto tick = [&](int count) {
