@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/reading/figures.h"
+
 namespace bl::reading {
 
 namespace {
@@ -129,8 +131,11 @@ std::string label_of(const TimeTable& table, TimeGrouping grouping, const TimeRo
 
 std::string kind_text(TimeGrouping grouping, const TimeRow& row) {
   if (grouping != TimeGrouping::kinds) return kind_label(row);
-  if (row.is_analysis) return "analysis";
-  return row.is_link() ? "link" : row.part == TickPart::sets ? "role over a set" : "role";
+  const std::string count = grouped(row.members) + "\xC2\xA0";
+  const bool is_one = row.members == 1;
+  if (row.is_analysis) return count + (is_one ? "analysis" : "analyses");
+  if (row.part == TickPart::sets) return count + (is_one ? "role over a set" : "roles over sets");
+  return counted(row.members, row.is_link() ? "link" : "role");
 }
 
 double tick_seconds(const TimeTable& table, TimeSpan span) { return Means(table, span).seconds(table.ticks); }

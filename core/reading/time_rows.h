@@ -35,7 +35,8 @@ struct TimeRow {
 std::vector<TimeRow> time_rows(const TimeTable& table, TimeGrouping grouping, TimeSpan span);
 
 std::string label_of(const TimeTable& table, TimeGrouping grouping, const TimeRow& row);
-/// What the row is about besides its label: of a node its role, of a link its kind, of a kind what sort of thing it is.
+/// What the row is about besides its label: of a node its role, of a link its kind, of a kind how many there are, and of what
+/// sort.
 std::string kind_text(TimeGrouping grouping, const TimeRow& row);
 
 /// Seconds of a tick and of its parts, as means.

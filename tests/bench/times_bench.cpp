@@ -65,10 +65,10 @@ void print_rows(const TimeTable& table, TimeGrouping grouping, const char* word)
   TextTable text({{word},
                   {grouping == TimeGrouping::nodes   ? "role"
                    : grouping == TimeGrouping::links ? "kind"
-                                                     : "sort"},
+                                                     : "of these"},
                   {"time a tick", true},
                   {"share %", true},
-                  {"evaluations", true},
+                  {"runs", true},
                   {"pairs", true},
                   {"each", true},
                   {"beside", true}});

@@ -2,6 +2,7 @@
 #include "ui/desktop/panels/time_list.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace bl::desktop {
 
@@ -9,7 +10,6 @@ namespace {
 
 double figure_of(const reading::TimeRow& row, TimeColumn column) {
   switch (column) {
-    case TimeColumn::members: return row.members;
     case TimeColumn::share: return row.share;
     case TimeColumn::evaluations: return row.evaluations;
     case TimeColumn::pairs: return row.pairs;
@@ -55,6 +55,8 @@ const std::vector<reading::TimeRow>& TimeList::rows() {
   };
   if (column_ == TimeColumn::name)
     sort_by([&](const reading::TimeRow& row) { return reading::label_of(*table_, grouping_, row); });
+  else if (column_ == TimeColumn::kind && grouping_ == reading::TimeGrouping::kinds)
+    sort_by([](const reading::TimeRow& row) { return std::tuple(row.part, row.is_analysis, row.members); });
   else if (column_ == TimeColumn::kind) sort_by([&](const reading::TimeRow& row) { return reading::kind_text(grouping_, row); });
   else sort_by([&](const reading::TimeRow& row) { return figure_of(row, column_); });
   return rows_;

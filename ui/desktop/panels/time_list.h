@@ -9,7 +9,7 @@
 
 namespace bl::desktop {
 
-enum class TimeColumn { name, kind, members, seconds, share, evaluations, pairs, each, beside, total };
+enum class TimeColumn { name, kind, seconds, share, evaluations, pairs, each, beside, total };
 
 class TimeList {
  public:

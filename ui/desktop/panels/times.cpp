@@ -21,10 +21,11 @@ using reading::TimeRow;
 
 constexpr float kTickWidth = 300;  // [points]: the parts of the tick at the left
 constexpr auto kSpan = reading::TimeSpan::recent;
+constexpr float kPast = 0.65f;  // opacity of figures that are those of before
 
 bool is_resting(const Workbench& editor) { return editor.moment->is_resting; }
 
-ImU32 colour_of_part(const Theme& theme, TickPart part) {
+ImU32 plain_colour_of_part(const Theme& theme, TickPart part) {
   const Colours& c = theme.colours();
   switch (part) {
     case TickPart::links: return theme.category(0);
@@ -37,6 +38,8 @@ ImU32 colour_of_part(const Theme& theme, TickPart part) {
   }
   return c.text_faint;
 }
+
+ImU32 colour_of_part(const Theme& theme, TickPart part) { return ImGui::GetColorU32(plain_colour_of_part(theme, part)); }
 
 // A count is whole where all ticks agree.
 std::string count_text(double count) {
@@ -82,9 +85,9 @@ void draw_part(Workbench& editor, const TimeTable& table, TickPart part) {
                      theme.px(2));
   const auto right = [&](const std::string& text, float edge, ImU32 colour) {
     const float wide = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0, text.c_str()).x;
-    list.AddText(small, small->FontSize, {at.x + edge - wide, y}, colour, text.c_str());
+    list.AddText(small, small->FontSize, {at.x + edge - wide, y}, ImGui::GetColorU32(colour), text.c_str());
   };
-  list.AddText(small, small->FontSize, {at.x + theme.px(18), y}, c.text, reading::label_of(part));
+  list.AddText(small, small->FontSize, {at.x + theme.px(18), y}, ImGui::GetColorU32(c.text), reading::label_of(part));
   right(reading::duration(seconds), width - theme.px(58), c.text);
   right(tick > 0 ? reading::grouped(100 * seconds / tick, 1) + "\xC2\xA0%" : "", width - theme.px(4), c.text_soft);
   if (is_hovered) card(editor, reading::label_of(part), reading::doc_of(part));
@@ -112,17 +115,16 @@ void draw_tick(Workbench& editor, const TimeTable& table) {
   ImGui::SameLine(0, theme.px(8));
   ImGui::AlignTextToFramePadding();
   small_text(editor, rests ? "a tick, before it came to rest" : "a tick, mean of the last ticks", c.text_soft, -1);
-  if (rests) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
+  if (rests) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, kPast);
   draw_stack(editor, table);
   for (std::size_t k = 0; k < kTickParts; ++k) draw_part(editor, table, static_cast<TickPart>(k));
   if (rests) ImGui::PopStyleVar();
-  // As they came, one by one: what is slow now and then does not show in a mean.
   const std::vector<double>& ticks = memory_of(editor).record->tick_ms;
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  if (ticks.size() < 2 || room.y < theme.px(34)) return;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  spark_line(theme, {at.x, at.y + theme.px(6)}, {at.x + room.x, at.y + std::min(room.y, theme.px(60)) - theme.px(2)}, ticks,
-             c.accent);
+  if (ticks.size() < 2 || ImGui::GetContentRegionAvail().y < theme.px(56)) return;
+  ImGui::Dummy({0, theme.px(4)});
+  small_text(editor, "the last " + reading::counted(ticks.size(), "tick"), c.text_soft, -1);
+  const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+  spark_line(theme, at, {at.x + room.x, at.y + std::min(room.y, theme.px(54)) - theme.px(2)}, ticks, c.accent);
 }
 
 void draw_groupings(Workbench& editor, TimeList& list) {
@@ -161,9 +163,10 @@ void point_out(Workbench& editor, const TimeList& list, const TimeRow& row) {
   const bool is_kind = list.grouping() == TimeGrouping::kinds;
   if (!is_kind) (row.is_link() ? editor.picks.hovered_link : editor.picks.hovered_node) = list.ids_of(row).front();
   std::string text = reading::duration(row.seconds) + " a tick";
-  if (row.evaluations > 0) text += ": " + count_text(row.evaluations) + " evaluations of " + reading::duration(row.each());
-  if (row.is_analysis)
-    text += "\nbeside the ticks " + reading::duration(row.beside) + " a tick, which no tick waits for before its result is due";
+  if (row.evaluations > 0)
+    text +=
+        ": " + count_text(row.evaluations) + (row.evaluations == 1 ? " run of " : " runs of ") + reading::duration(row.each());
+  if (row.is_analysis) text += "\nand " + reading::duration(row.beside) + " a tick on a thread of its own";
   const std::string facts = "since this list was opened " + reading::duration(row.total_seconds) + " in " +
                             reading::counted(table.ticks.evaluations, "tick") + "\npress to choose " +
                             (is_kind && row.members > 1 ? "all of them" : "it") + ", twice to bring it into sight";
@@ -216,7 +219,6 @@ void draw_row(Workbench& editor, TimeList& list, const TimeRow& row, int index) 
   ImGui::PushStyleColor(ImGuiCol_Text, c.text_soft);
   ImGui::TextUnformatted(fitted(reading::kind_text(grouping, row), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
-  if (grouping == TimeGrouping::kinds) number_cell(reading::grouped(row.members), c.text_soft);
   number_cell(reading::duration(row.seconds), c.text);
   share_cell(editor, row);
   number_cell(count_text(row.evaluations), c.text);
@@ -233,23 +235,40 @@ struct Column {
   TimeColumn column;
   const char* name;
   float weight;
+  const char* doc;
 };
 
 std::vector<Column> columns_of(const TimeList& list) {
   const TimeGrouping grouping = list.grouping();
+  constexpr const char* kWho = "A press on a row chooses it, two bring it into sight.";
   std::vector<Column> columns;
   if (grouping == TimeGrouping::kinds)
-    columns = {{TimeColumn::name, "Kind", 2}, {TimeColumn::kind, "Sort", 1.1f}, {TimeColumn::members, "Number", 0.7f}};
-  else if (grouping == TimeGrouping::nodes) columns = {{TimeColumn::name, "Node", 2}, {TimeColumn::kind, "Role", 1.5f}};
-  else columns = {{TimeColumn::name, "Link", 2}, {TimeColumn::kind, "Kind", 1.5f}};
-  columns.push_back({TimeColumn::seconds, "Time a tick", 1});
-  columns.push_back({TimeColumn::share, "Share", 1.6f});
-  columns.push_back({TimeColumn::evaluations, "Evaluations", 1});
-  if (grouping != TimeGrouping::nodes) columns.push_back({TimeColumn::pairs, "Pairs", 0.8f});
-  columns.push_back({TimeColumn::each, "Each", 0.9f});
-  if (list.has_beside() && grouping != TimeGrouping::links) columns.push_back({TimeColumn::beside, "Beside", 0.9f});
-  columns.push_back({TimeColumn::total, "Total", 0.9f});
+    columns = {{TimeColumn::name, "Kind", 1.9f, kWho},
+               {TimeColumn::kind, "Of these", 1.5f, "Links, roles of single nodes, or roles over sets of nodes that have run."}};
+  else if (grouping == TimeGrouping::nodes)
+    columns = {{TimeColumn::name, "Node", 1.9f, kWho},
+               {TimeColumn::kind, "Role", 1.5f, "A node has a row for each of its roles."}};
+  else columns = {{TimeColumn::name, "Link", 1.9f, kWho}, {TimeColumn::kind, "Kind", 1.5f, "The kind of the link."}};
+  columns.push_back({TimeColumn::seconds, "Time", 0.9f, "In a tick, a mean of the last ticks; of all threads together."});
+  columns.push_back({TimeColumn::share, "Share", 1.8f, "Of the tick, as the clock sees it."});
+  columns.push_back({TimeColumn::evaluations, "Runs", 0.7f, "Evaluations in a tick. What has not changed does not run."});
+  if (grouping != TimeGrouping::nodes)
+    columns.push_back({TimeColumn::pairs, "Pairs", 0.7f, "Pairs of nodes in a tick, of links to sets."});
+  columns.push_back({TimeColumn::each, "Each", 0.9f, "One run."});
+  if (list.has_beside() && grouping != TimeGrouping::links)
+    columns.push_back({TimeColumn::beside, "Beside", 0.9f, "In a tick, of analyses on a thread of their own."});
+  columns.push_back({TimeColumn::total, "Total", 0.9f, "Since this list was opened."});
   return columns;
+}
+
+void draw_heads(Workbench& editor, const std::vector<Column>& columns) {
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (const Column& column : columns) {
+    if (!ImGui::TableNextColumn()) continue;
+    ImGui::TableHeader(column.name);
+    note_place(editor, std::string("times/head/") + column.name);
+    if (ImGui::IsItemHovered()) card(editor, column.name, column.doc);
+  }
 }
 
 void draw_time_table(Workbench& editor, TimeList& list) {
@@ -266,8 +285,7 @@ void draw_time_table(Workbench& editor, TimeList& list) {
     if (column.column == TimeColumn::seconds) flags |= ImGuiTableColumnFlags_DefaultSort;
     ImGui::TableSetupColumn(column.name, flags, column.weight, static_cast<ImGuiID>(column.column));
   }
-  ImGui::TableHeadersRow();
-  note_place(editor, "times/heads");
+  draw_heads(editor, columns);
   if (ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs != nullptr && specs->SpecsDirty) {
     if (specs->SpecsCount > 0)
       list.sort(static_cast<TimeColumn>(specs->Specs[0].ColumnUserID),
@@ -309,7 +327,7 @@ void draw_times(Workbench& editor) {
   ImGui::SameLine(0, theme.px(18));
   ImGui::BeginChild("who", {0, 0});
   draw_groupings(editor, list);
-  if (is_resting(editor)) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
+  if (is_resting(editor)) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, kPast);
   draw_time_table(editor, list);
   if (is_resting(editor)) ImGui::PopStyleVar();
   ImGui::EndChild();
