@@ -78,7 +78,14 @@ void Analysis::run(const StopWish& is_unwanted) {
     AnalysisInput input = input_;
     std::optional<StopScope> scope;
     if (is_unwanted) scope.emplace(is_unwanted);
+    // A tick that works a result out itself counts that as its own time.
+    const std::shared_ptr<BesideTime> time = is_unwanted ? input.time : nullptr;
+    const double began = time ? time->now() : 0;
     result = worked_out(input);
+    if (time) {
+      time->seconds += time->now() - began;
+      ++time->runs;
+    }
   } catch (const std::bad_alloc&) {
     result = {
         {}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};

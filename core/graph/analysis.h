@@ -36,6 +36,14 @@ struct AnalysisMemo {
   Memo memo;
 };
 
+/// The time that analyses take beside the ticks: their thread adds, whoever measures takes it away.
+struct BesideTime {
+  explicit BesideTime(double (*the_clock)()) : now(the_clock) {}
+  double (*now)();
+  std::atomic<std::size_t> runs = 0;
+  std::atomic<double> seconds = 0;
+};
+
 /// The input of an analysis. Its result depends on this alone, except for the memo, which only saves work.
 struct AnalysisInput {
   std::shared_ptr<const void> plan;  ///< the registry of the definition: the scene may get another one before the end
@@ -47,6 +55,7 @@ struct AnalysisInput {
   std::vector<std::vector<std::string>> members;      ///< node ids, per set
   std::vector<std::vector<std::string>> write_paths;  ///< per set, as its declared writes
   std::shared_ptr<AnalysisMemo> memo;                 ///< may be nullptr
+  std::shared_ptr<BesideTime> time;                   ///< where somebody measures
 };
 /// The hash of the data that the result depends on, meshes included.
 std::uint64_t hash_of(const AnalysisInput& input);

@@ -196,9 +196,11 @@ void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos) {
   std::vector<std::size_t> pairs(due.size(), 0);
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      const double began = moment_of(work.times);
       const Kept kept = kept_of(work.frozen, due[i].link, memos);
       auto in_part = evaluated_in_part(work.frozen, due[i], kept.reach, pairs[i]);
       fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, kept, pairs[i]);
+      if (work.times != nullptr) work.times->add_link(due[i].link, began, pairs[i]);
     }
   });
   work.counts.links += due.size();

@@ -50,19 +50,26 @@ void accept_values(const TypificationDefinition& definition, TypeState& state, s
 
 namespace {
 
-// Asks the typifications of a node that are without sets and for which `is_due` holds, by their definition and number; how many.
+struct Answered {
+  std::size_t typifications = 0;
+  double seconds = 0;  // where somebody measures
+};
+
+// Asks the typifications of a node that are without sets and for which `is_due` holds, by their definition and number.
 template <class IsDue>
-std::size_t ask_node(const Plan& plan, std::uint32_t n, std::int64_t tick, NodeState& node, const IsDue& is_due) {
-  std::size_t asked = 0;
+Answered ask_node(const Plan& plan, std::uint32_t n, std::int64_t tick, NodeState& node, TickTimes* times, const IsDue& is_due) {
+  Answered answered;
   for (std::size_t t = 0; t < node.types.size(); ++t) {
     const TypificationDefinition& definition = *plan.nodes[n].types[t].definition;
     if (!definition.evaluate || !definition.sets.empty() || !is_due(definition, t)) continue;
+    const double began = moment_of(times);
     std::vector<Value> values = node.types[t].values;
     auto done = definition.evaluate(values, {}, Tick{.index = tick_for(definition, tick)});
     accept_values(definition, node.types[t], std::move(values), std::move(done), place_of(plan, n, t));
-    ++asked;
+    ++answered.typifications;
+    if (times != nullptr) answered.seconds += times->add_role(n, t, began, 1);
   }
-  return asked;
+  return answered;
 }
 
 // Whom links say something else to, who is on the way, who remembers; and everybody who is spoken to when rest begins or ends.
@@ -162,32 +169,38 @@ void evaluate_nodes(TickWork& work, ThreadPool& pool) {
   struct Asked {
     NodeState node;
     NodeChange change;
-    std::size_t typifications = 0;
+    Answered answered;
+    double seconds = 0;  // where somebody measures
     bool differs = false;
     bool remembers_more = false;  // the same settings may give something else in the next tick
   };
   std::vector<Asked> asked(due.size());
   pool.for_each_chunk(due.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      const double began = moment_of(work.times);
       const NodeState& before = frozen.nodes[due[i]];
       NodeState& node = asked[i].node = before;
       asked[i].change = resolve_node(frozen, due[i], rest, voices_at(work.next, due[i]), node);
-      asked[i].typifications =
-          ask_node(plan, due[i], work.next.state.tick, node, [&](const TypificationDefinition& definition, std::size_t t) {
-            return !node.types[t].is_evaluated || !is_only_now(definition) ||
-                   !same_inputs(definition, node.types[t].values, before.types[t].values);
-          });
+      const auto is_due = [&](const TypificationDefinition& definition, std::size_t t) {
+        return !node.types[t].is_evaluated || !is_only_now(definition) ||
+               !same_inputs(definition, node.types[t].values, before.types[t].values);
+      };
+      asked[i].answered = ask_node(plan, due[i], work.next.state.tick, node, work.times, is_due);
       asked[i].differs = !is_same(node, before);
       asked[i].remembers_more = asked[i].differs && remembers_more(plan.nodes[due[i]], before, node);
+      asked[i].seconds = moment_of(work.times) - began;
     }
   });
   State& next = work.next.state;
   next.due.was_at_rest = rest.is_on;
   next.largest_move = next.largest_change = 0;
   work.counts.nodes += due.size();
+  double seconds = 0, in_roles = 0;
   for (std::size_t i = 0; i < due.size(); ++i) {
     const NodeChange& change = asked[i].change;
-    work.counts.typifications += asked[i].typifications;
+    work.counts.typifications += asked[i].answered.typifications;
+    seconds += asked[i].seconds;
+    in_roles += asked[i].answered.seconds;
     if (change.is_on_its_way || !change.unsound.empty() || asked[i].remembers_more) next.due.nodes.push_back(due[i]);
     next.largest_move = std::max(next.largest_move, change.move);
     for (const PortRef port : change.unsound) report_overflow(work, port);
@@ -199,6 +212,7 @@ void evaluate_nodes(TickWork& work, ThreadPool& pool) {
     add_changes(due[i], frozen.nodes[due[i]], asked[i].node, plan.nodes[due[i]], work.moved);
     work.next.nodes.put(due[i], std::move(asked[i].node));
   }
+  if (work.times != nullptr) work.times->split_nodes(seconds, in_roles);
 }
 
 bool evaluate_unasked(StateDraft& draft) {
@@ -209,7 +223,7 @@ bool evaluate_unasked(StateDraft& draft) {
       return !draft.nodes[n].types[t].is_evaluated && is_only_now(definition);
     };
     NodeState node = draft.nodes[n];
-    if (ask_node(*draft.state.plan, n, draft.state.tick, node, is_due) == 0) continue;
+    if (ask_node(*draft.state.plan, n, draft.state.tick, node, nullptr, is_due).typifications == 0) continue;
     has_any = true;
     draft.nodes.put(n, std::move(node));
   }

@@ -10,6 +10,7 @@
 #include "core/graph/kept_sets.h"
 #include "core/graph/link_memos.h"
 #include "core/graph/state.h"
+#include "core/graph/tick_times.h"
 
 namespace bl {
 
@@ -38,6 +39,7 @@ struct TickWork {
   std::vector<std::uint32_t> spoken_to;  ///< nodes to which other things are proposed than before; ascending after phase 3
   std::vector<PortRef> moved;            ///< ports that phases 4 and 5 have changed; ascending
   TickCounts counts;
+  TickTimes* times = nullptr;  ///< of whoever measures
 };
 
 /// Phase 3: every link that is due reads the frozen state and fills its own slot. Parallel over links. Without memos, pairs that

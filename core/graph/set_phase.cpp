@@ -163,7 +163,8 @@ AnalysisInput input_of(const StateDraft& draft, SetCase&& one) {
                       .sets = std::move(one.own),
                       .members = {},
                       .write_paths = {},
-                      .memo = nullptr};
+                      .memo = nullptr,
+                      .time = nullptr};
   for (std::size_t s = 0; s < one.plans.size(); ++s) {
     std::vector<std::string>& members = input.members.emplace_back();
     std::vector<std::string>& paths = input.write_paths.emplace_back();
@@ -233,6 +234,7 @@ void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCa
     return hand_on();
   }
   input.memo = shared_memo_of(memo);
+  if (work.times != nullptr) input.time = work.times->beside(group.analysis);
   const auto begun = std::make_shared<Analysis>(std::move(input));
   if (latency > 0) {
     analysis.begun = state.tick;
@@ -337,13 +339,17 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
       is_asked = needs_data(analysis, next.state.tick);
     }
     if (!is_asked) continue;
+    const double began = moment_of(work.times);
     if (groups[g].analysis != SetGroup::kNone) cases[g] = gathered(next, groups[g]);
     else cases[g] = gathered(next, groups[g], memo_of(memos, plan, groups[g]), work.frozen.due.is_everything);
+    if (work.times != nullptr) work.times->add_role(groups[g].node, groups[g].type, began, 0);
   }
   std::vector<Reply> replies;
   std::vector<std::pair<std::size_t, bool>> written;  // groups, and whether all that they replied could be written
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const bool is_analysis = groups[g].analysis != SetGroup::kNone;
+    const double began = moment_of(work.times);
+    const std::size_t asked = work.counts.sets;
     if (const Error* error = error_of(plan, groups[g])) {
       if (next.nodes[groups[g].node].types[groups[g].type].error != *error)
         next.edit(groups[g].node, groups[g].type).error = *error;
@@ -355,6 +361,8 @@ void evaluate_sets(TickWork& work, ThreadPool& pool, SetMemos& memos, AnalysisRu
       ++work.counts.sets;
       written.emplace_back(g, evaluate_now(work, *cases[g], pool, replies));
     }
+    if (work.times != nullptr && (is_analysis || cases[g]))
+      work.times->add_role(groups[g].node, groups[g].type, began, work.counts.sets - asked);
   }
   write_replies(next, replies);
   for (std::size_t g = 0; g < groups.size(); ++g)

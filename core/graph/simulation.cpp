@@ -73,9 +73,11 @@ std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
 }
 
 void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
+  const double began = moment_of(measured_);
   take(with_scene(scene, placed));
   // What was kept for evaluations of nodes that are gone, or that play the role no more, is for nobody.
   std::erase_if(memos_, [&](const auto& memo) { return !plays_role(*state_->plan, memo.first); });
+  if (measured_ != nullptr) measured_->add_commands(began);
 }
 
 Result<void> Simulation::restore_state(const SavedState& saved) {
@@ -109,28 +111,31 @@ std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> stat
 
 bool Simulation::step() {
   double last = now_ ? now_() : 0;
-  auto lap = [&](double& share) {
+  auto lap = [&](double& share, TickPart part) {
+    if (measured_ != nullptr) measured_->end_part(part);
     if (!now_) return;
     const double time = now_();
     share += time - last;
     last = time;
   };
+  if (measured_ != nullptr) measured_->begin_tick(state_->plan);
   State everything_due;
   if (evaluates_everything_) {
     everything_due = *state_;
     everything_due.due.is_everything = true;
   }
   TickWork work(evaluates_everything_ ? everything_due : *state_);
+  work.times = measured_;
   ++work.next.state.tick;
   evaluate_links(work, pool_, evaluates_everything_ ? nullptr : &link_memos_);
-  lap(times_.links);
+  lap(times_.links, TickPart::links);
   // A phase that was stopped has left gaps, which the next one must not meet.
   if (is_stop_wished()) return false;
   evaluate_nodes(work, pool_);
-  lap(times_.nodes);
+  lap(times_.nodes, TickPart::roles);
   if (is_stop_wished()) return false;
   evaluate_sets(work, pool_, memos_, runner_);
-  lap(times_.solve);
+  lap(times_.solve, TickPart::sets);
   if (is_stop_wished()) {
     // What evaluations keep for the next tick may have gaps as well.
     memos_.clear();
@@ -138,9 +143,10 @@ bool Simulation::step() {
   }
   counts_ += work.counts;
   auto next = std::make_shared<State>(commit(std::move(work)));
-  lap(times_.commit);
   is_idle_ = !evaluates_everything_ && is_idle_after(*state_, *next);
   state_ = std::move(next);
+  lap(times_.commit, TickPart::publish);
+  if (measured_ != nullptr) measured_->end_tick();
   return true;
 }
 

@@ -43,6 +43,8 @@ class Simulation {
   std::shared_ptr<const State> shown(std::shared_ptr<const State> state);
   /// Evaluates everything in each tick, whether it has changed or not. The result is the same; tests compare the two.
   void evaluate_everything(bool is_on) { evaluates_everything_ = is_on; }
+  /// Adds the times of the ticks to `times`, which must live until another one is named, or none. It cannot influence the result.
+  void measure(TickTimes* times) { measured_ = times; }
   /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
   bool step();
 
@@ -70,6 +72,7 @@ class Simulation {
   double (*now_)();
   std::shared_ptr<const State> state_;
   PhaseTimes times_;
+  TickTimes* measured_ = nullptr;
   TickCounts counts_;
   bool evaluates_everything_ = false, is_idle_ = false;
   SetMemos memos_;

@@ -135,6 +135,11 @@ void LiveSession::play(bool is_playing) {
   if (!shared_->is_ticking) shared_->publish();
 }
 
+void LiveSession::watch_times(bool is_watched) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->are_times_watched = is_watched;
+}
+
 void LiveSession::set_rate(double ticks_per_second) {
   const std::lock_guard lock(shared_->mutex);
   shared_->stir();

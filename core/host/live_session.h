@@ -24,8 +24,8 @@ struct Moment {
   double tick_seconds = 0;  ///< duration of a tick, smoothed [s]
   double rate = 0;          ///< reached ticks per second, smoothed
   std::int64_t oldest = 0;  ///< the first tick that rewinding can reach
-  PhaseTimes times;         ///< total time of all ticks so far [s]
-  std::string failure;      ///< why the ticks stopped: out of memory, or an error of the program; the state is the last good one
+  std::shared_ptr<const TimeTable> times;  ///< where the time of the ticks goes, where somebody watches; a moment old at most
+  std::string failure;  ///< why the ticks stopped: out of memory, or an error of the program; the state is the last good one
 
   bool is_behind() const { return is_playing && !is_resting && tick_seconds * wanted_rate > 1.05; }
 };
@@ -100,6 +100,8 @@ class LiveSession {
   /// passed are in the state as soon as somebody says something, or asks for the coming state. Who needs each tick does not let
   /// it.
   void let_rest(bool may_rest);
+  /// Measures where the time of the ticks goes, from the next one on, and says so in the moments. Off, it costs nothing.
+  void watch_times(bool is_watched);
   /// The tick before the waiting one, if that one is due; else nothing.
   std::optional<std::int64_t> unserved_tick() const;
   void serve(std::int64_t tick);

@@ -10,6 +10,8 @@ namespace bl::host {
 
 namespace {
 
+// Nobody reads a table of times more often than this while the clock plays [s].
+constexpr double kTablePause = 0.5;
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
 
@@ -26,10 +28,30 @@ void LiveSession::Shared::publish() {
   moment->tick_seconds = tick_seconds;
   moment->rate = is_playing ? rate : 0;
   moment->oldest = past.empty() ? simulation.state()->tick : past.oldest();
-  moment->times = simulation.times();
+  moment->times = table_of_now();
   moment->failure = failure;
   published = std::move(moment);
   for (const auto& [number, listener] : listeners) listener(published);
+}
+
+// Measuring begins and ends between two ticks. It needs the real time, whatever clock the ticks follow.
+void LiveSession::Shared::follow_times() {
+  if (are_times_watched == (times != nullptr)) return;
+  table = nullptr;
+  times = are_times_watched ? std::make_unique<TickTimes>([] { return real_clock().now(); }) : nullptr;
+  simulation.measure(times.get());
+}
+
+// A clock that stands or rests leaves a table that has everything.
+std::shared_ptr<const TimeTable> LiveSession::Shared::table_of_now() {
+  if (!times || times->ticks() == 0) return nullptr;
+  const auto known = table ? static_cast<std::int64_t>(table->ticks.evaluations) : 0;
+  if (known == times->ticks()) return table;
+  const bool is_last = !is_playing || rests_since;
+  if (table && !is_last && clock.now() < table_at + kTablePause) return table;
+  table = std::make_shared<TimeTable>(times->table());
+  table_at = clock.now();
+  return table;
 }
 
 // What people say from now on belongs to the tick at which the clock stands now.
@@ -130,6 +152,7 @@ void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
 // One tick; the lock is given up while it computes. Whether it went well.
 bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   gather_changes();
+  follow_times();
   shown = said();
   is_ticking = true;
   next_tick = simulation.state()->tick + 1;

@@ -17,12 +17,11 @@
 namespace bl::host {
 
 struct LiveSession::Shared {
-  // Times of phases are for benches: nothing but the real time will do.
   Shared(const Registry& registry, Ledger& the_ledger, OpenGestures& the_gestures, const LiveSessionOptions& options)
       : clock(*options.clock),
         ledger(the_ledger),
         gestures(the_gestures),
-        simulation(registry, options.threads, [] { return real_clock().now(); }),
+        simulation(registry, options.threads),
         last_tick(clock.now()) {}
 
   Clock& clock;
@@ -40,6 +39,7 @@ struct LiveSession::Shared {
   std::optional<std::int64_t> rewinds_to;  // a tick whose state the ticking thread is to compute again, before anything else
   bool do_ticks_wait = false;              // for somebody who serves them
   std::int64_t served = -1;                // the last tick that was
+  bool are_times_watched = false;
   double wanted_rate = 20;
   bool may_rest = false;              // ticks that only count on need not be taken one by one
   std::optional<double> rests_since;  // the time of the last tick, where the thread sleeps and the clock counts on without it
@@ -60,6 +60,7 @@ struct LiveSession::Shared {
   // Of the ticking thread alone.
   Past past;
   double tick_seconds = 0, rate = 0, last_tick;
+  std::unique_ptr<TickTimes> times;  // where they are watched
   std::thread thread;
   std::map<std::size_t, std::function<void(const std::shared_ptr<const Moment>&)>> listeners;
   std::size_t last_listener = 0;
@@ -94,6 +95,11 @@ struct LiveSession::Shared {
   void gather_changes();
   void wait_between_ticks(std::unique_lock<std::mutex>& lock);
   void publish();
+  void follow_times();
+  std::shared_ptr<const TimeTable> table_of_now();
+  // What was published last of the times, and when [s].
+  std::shared_ptr<const TimeTable> table;
+  double table_at = 0;
 };
 
 }  // namespace bl::host

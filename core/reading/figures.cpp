@@ -47,6 +47,14 @@ std::string quantity(double value, Unit unit) {
   return handy.pretty.empty() ? text : text + "\xC2\xA0" + std::string(handy.pretty);
 }
 
+std::string duration(double seconds) {
+  if (seconds == 0 || !std::isfinite(seconds)) return readable(seconds) + "\xC2\xA0s";
+  if (std::abs(seconds) >= 0.9995) return quantity(seconds, Unit::second);
+  for (const auto& [scale, symbol] : {std::pair{1e3, "ms"}, std::pair{1e6, "\xC2\xB5s"}})
+    if (std::abs(seconds) * scale >= 0.9995) return readable(seconds * scale) + "\xC2\xA0" + symbol;
+  return readable(seconds * 1e9) + "\xC2\xA0ns";
+}
+
 std::string percent(double share) {
   const double size = std::abs(share * 100);
   return grouped(share * 100, size >= 10                 ? 1

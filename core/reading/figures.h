@@ -15,6 +15,8 @@ std::string readable(double value);
 const UnitInfo& handy_unit(double value, Unit unit);
 /// `readable` with the printed symbol of its handy unit: "84.2 m²", "8.50 h".
 std::string quantity(double value, Unit unit);
+/// A time that something takes, with the unit that fits: "2.31 ms", "840 µs", "35.0 ns".
+std::string duration(double seconds);
 /// A share as a percentage of two or three digits: "0.42 %".
 std::string percent(double share);
 /// The same with its sign, also where it is positive.

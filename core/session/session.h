@@ -51,6 +51,7 @@ class Session {
   const TickCounts& counts() const { return simulation_.counts(); }
   /// As Simulation's.
   void evaluate_everything(bool is_on) { simulation_.evaluate_everything(is_on); }
+  void measure(TickTimes* times) { simulation_.measure(times); }
   /// As Ledger's.
   std::size_t subscribe(std::function<void(const LogEntry&)> listener) { return ledger_.subscribe(std::move(listener)); }
   void unsubscribe(std::size_t number) { ledger_.unsubscribe(number); }

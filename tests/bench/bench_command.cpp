@@ -18,6 +18,7 @@
 #include "tests/bench/bench_voropp.h"
 #include "tests/bench/random_scene.h"
 #include "tests/bench/solver_bench.h"
+#include "tests/bench/times_bench.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
@@ -26,12 +27,6 @@
 namespace bl::cli::bench {
 
 namespace {
-
-struct BenchCase {
-  std::string name;
-  Scene scene;
-  std::optional<SavedState> state;
-};
 
 struct Row {
   std::string name, hash;
@@ -184,6 +179,7 @@ int bench_command(const BenchOptions& given) {
   const auto cases = cases_of(options);
   if (!cases) return kBadInput;
   catch_interrupts();
+  if (options.is_times) return times_bench(*cases, options);
   TextTable table({{"case"},
                    {"sites", true},
                    {"threads", true},

@@ -26,6 +26,32 @@ TEST(Bench, RowsHoldWhatWasAsked) {
   EXPECT_EQ(rows[2]["sites"], 50);
 }
 
+// Measured by kinds, nodes and links, the ticks are those of the rows beside rivals.
+TEST(Bench, TimesAreThoseOfTheSameTicksSlowestFirst) {
+  const Workplace place;
+  const std::string scene = BL_SOURCE_DIR "/scenes/start/quarter.json";
+  const Outcome plain = place.bench({scene, "--repeat", "1", "--ticks", "6", "--json", "rows.json"});
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  const Outcome outcome = place.bench({scene, "--times", "--ticks", "6", "--threads", "1", "2", "--json", "times.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json cases = place.json("times.json");
+  ASSERT_EQ(cases.size(), 2u);
+  for (const auto& one : cases) {
+    EXPECT_EQ(one["hash"], place.json("rows.json")[0]["hash"]);
+    EXPECT_NE(outcome.out.find(one["hash"].get<std::string>()), std::string::npos);
+    EXPECT_EQ(one["ticks"], 6);
+    EXPECT_EQ(one["parts"].size(), 6u);
+    double shares = 0;
+    for (const auto& kind : one["kinds"]) shares += kind["share"].get<double>();
+    EXPECT_LE(shares, 1 + 1e-9);
+    for (const char* rows : {"kinds", "nodes", "links"}) {
+      ASSERT_GT(one[rows].size(), 1u) << rows;
+      for (std::size_t k = 1; k < one[rows].size(); ++k)
+        EXPECT_GE(one[rows][k - 1]["seconds"].get<double>(), one[rows][k]["seconds"].get<double>()) << rows << " " << k;
+    }
+  }
+}
+
 std::string study_scene() { return scene_text(volume_text("a", "[8, 0, 8]") + "," + volume_text("b", "[-8, 0, 8]", "2000")); }
 
 TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {

@@ -21,10 +21,13 @@ void declare(CLI::App& c, BenchOptions& o) {
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
+  auto* times = c.add_flag("--times", o.is_times,
+                           "Shows where the time of a tick goes: its parts, and kinds, nodes and links, the slowest first.");
   auto* solver =
       c.add_flag("--solver", o.is_solver,
                  "Measures the algorithms: cells, fits, drags, growth, rays, traffic, the feedback on a scene, and ticks that "
-                 "evaluate what has changed.");
+                 "evaluate what has changed.")
+          ->excludes(times);
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
@@ -45,6 +48,7 @@ void declare(CLI::App& c, BenchOptions& o) {
       "Without scenes and --sites: 100 and 1000 random volumes; of the solver the sizes that suit each row, threads 1 and 2, "
       "and\n"
       "scenes/studies/sixty_volumes.json for the feedback.\n\nExample:\n  behaviourlinks-bench --sites 100 1000 --threads 1 2\n"
+      "  behaviourlinks-bench --times scenes/studies/urban_mode.json\n"
       "  behaviourlinks-bench --solver --rows drag --sites 5000");
 }
 

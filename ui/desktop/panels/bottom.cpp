@@ -9,6 +9,8 @@ namespace bl::desktop {
 
 void watch_run(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
+  // Nobody pays for times that nobody sees.
+  editor.document->session().watch_times(memory.times_frame >= ImGui::GetFrameCount() - 1);
   const std::shared_ptr<const State>& state = editor.moment->state;
   const bool is_the_same_scene = memory.watched && memory.watched->plan->dependents == state->plan->dependents &&
                                  memory.watched_problems == editor.problems_revision;
@@ -38,6 +40,10 @@ void draw_bottom(Workbench& editor) {
   }
   if (ImGui::BeginTabItem("Statistics", nullptr, flags("Statistics"))) {
     draw_statistics(editor);
+    ImGui::EndTabItem();
+  }
+  if (ImGui::BeginTabItem("Time", nullptr, flags("Time"))) {
+    draw_times(editor);
     ImGui::EndTabItem();
   }
   if (ImGui::BeginTabItem("History", nullptr, flags("History"))) {

@@ -5,11 +5,15 @@
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/statistics_record.h"
+#include "ui/desktop/panels/time_list.h"
 
 namespace bl::desktop {
 
 PanelMemory::PanelMemory()
-    : problems(std::make_unique<ProblemList>()), record(std::make_unique<RunRecord>()), imports(std::make_unique<ImportList>()) {}
+    : problems(std::make_unique<ProblemList>()),
+      record(std::make_unique<RunRecord>()),
+      imports(std::make_unique<ImportList>()),
+      times(std::make_unique<TimeList>()) {}
 PanelMemory::~PanelMemory() = default;
 
 PanelMemory& memory_of(Workbench& editor) {

@@ -17,6 +17,7 @@ class ImportList;
 class InspectorView;
 class ProblemList;
 class RunRecord;
+class TimeList;
 
 /// A field that a person types into. Its key is that of the field.
 struct Typing {
@@ -57,6 +58,8 @@ struct PanelMemory {
   std::uint64_t watched_problems = 0;     ///< the revision of those of the file
   double watch_at = 0;                    ///< when they are made anew at the earliest [s]
   std::unique_ptr<ImportList> imports;    ///< of the reports, as they are shown
+  std::unique_ptr<TimeList> times;        ///< of the ticks, as they are shown
+  int times_frame = -1;                   ///< the last frame in which somebody saw them
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.

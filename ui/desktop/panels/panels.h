@@ -11,11 +11,13 @@ void watch_run(Workbench& editor);
 void draw_clock(Workbench& editor);
 /// What is chosen, with all of its ports; several nodes are edited together.
 void draw_inspector(Workbench& editor);
-/// Tabs below: problems and conflicts, history, statistics with charts.
+/// Tabs below: problems and conflicts, statistics with charts, times, history, imports.
 void draw_bottom(Workbench& editor);
 void draw_problems(Workbench& editor);
 void draw_history(Workbench& editor);
 void draw_statistics(Workbench& editor);
+/// What a tick takes, and who takes it.
+void draw_times(Workbench& editor);
 /// What became of every element of imported files; a press goes to it.
 void draw_imports(Workbench& editor);
 

@@ -223,8 +223,6 @@ void fact(Workbench& editor, const std::string& name, const std::string& value) 
   list.AddText(small, small->FontSize, {at.x + width - value_width, at.y}, theme.colours().text, value.c_str());
 }
 
-std::string milliseconds(double seconds) { return reading::readable(1000 * seconds) + "\xC2\xA0ms"; }
-
 std::string bytes_text(double bytes) {
   if (bytes < 1024)
     return reading::grouped(bytes) +
@@ -248,11 +246,7 @@ void draw_engine(Workbench& editor, const RunRecord& record) {
     bar(editor.theme, at, {at.x + width, at.y + thick}, fill, -1,
         fill > 0.98 ? editor.theme.colours().warning : editor.theme.colours().accent);
   }
-  fact(editor, "a tick", milliseconds(moment.tick_seconds));
-  fact(editor, "  links", milliseconds(record.phase.links));
-  fact(editor, "  nodes", milliseconds(record.phase.nodes));
-  fact(editor, "  solve", milliseconds(record.phase.solve));
-  fact(editor, "  commit", milliseconds(record.phase.commit));
+  fact(editor, "a tick", reading::duration(moment.tick_seconds));
   fact(editor, "ticks/s", reading::readable(moment.rate) + " of " + reading::readable(moment.wanted_rate));
   fact(editor, "pictures/s", reading::readable(record.frame_rate));
   fact(editor, "to the GPU, a tick", bytes_text(record.bytes.empty() ? 0 : record.bytes.back()));

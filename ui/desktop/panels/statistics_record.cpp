@@ -45,12 +45,6 @@ void RunRecord::sample(const Workbench& editor) {
   const bool is_next = sampled_ && state->tick > sampled_->tick;
   const double ticks = is_next ? static_cast<double>(state->tick - sampled_->tick) : 1;
   if (!is_next) forget_from(static_cast<double>(state->tick));
-  const PhaseTimes& now = editor.moment->times;
-  if (is_next) {
-    for (double PhaseTimes::*part : {&PhaseTimes::links, &PhaseTimes::nodes, &PhaseTimes::solve, &PhaseTimes::commit})
-      phase.*part = smooth(phase.*part, (now.*part - times_.*part) / ticks);
-  }
-  times_ = now;
   sampled_ = state;
   const reading::ReportModel& model = figures(editor);
   double sum = 0;

@@ -32,7 +32,6 @@ class RunRecord {
 
   // Columns of samples, the oldest first; all of one length.
   std::vector<double> tick, worst, mean, volume, move, tick_ms, bytes;
-  PhaseTimes phase;       ///< of one tick, smoothed [s]
   double frame_rate = 0;  ///< smoothed [1/s]
   VolumeOrder order = VolumeOrder::error;
   bool is_order_stale = true;
@@ -44,7 +43,6 @@ class RunRecord {
   std::shared_ptr<const State> sampled_, figured_, sorted_;
   std::unique_ptr<reading::ReportModel> figures_;
   std::vector<std::size_t> ordered_;
-  PhaseTimes times_;
   std::uint64_t bytes_sent_ = 0;
   double sorted_at_ = -1, figured_at_ = -1, last_frame_ = 0;
 };
