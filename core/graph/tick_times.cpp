@@ -80,7 +80,7 @@ void WorkTime::add(std::int64_t now, double more_seconds, std::size_t more_evalu
   recent_seconds += more_seconds;
 }
 
-// Plans that are amended have the same nodes, links and roles as the one before: they share their dependents.
+// Plans with the same nodes, links and roles as the one before share its dependents.
 void TickTimes::follow(const std::shared_ptr<const Plan>& plan) {
   if (table_.plan == plan) return;
   if (!table_.plan || table_.plan->dependents != plan->dependents) {

@@ -37,7 +37,7 @@ struct TimeTable {
   std::vector<WorkTime> roles;   ///< by type_index(); within the tick
   std::vector<WorkTime> beside;  ///< by analysis of the plan: on its own thread
 
-  std::size_t type_index(std::size_t node, std::size_t type) const { return plan->dependents->first_type[node] + type; }
+  std::size_t type_index(std::size_t node, std::size_t type) const { return plan->dependents->sets->first_type[node] + type; }
 };
 
 /// Adds up the times of the ticks of one simulation. Whatever may be added by several threads has a slot of its own.

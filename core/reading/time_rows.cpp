@@ -97,7 +97,7 @@ class RowMaker {
   // Those that have been evaluated: node, type, time.
   std::vector<std::tuple<std::uint32_t, std::uint32_t, const WorkTime*>> roles() const {
     std::vector<std::tuple<std::uint32_t, std::uint32_t, const WorkTime*>> roles;
-    const std::vector<std::uint32_t>& first = table_.plan->dependents->first_type;
+    const std::vector<std::uint32_t>& first = table_.plan->dependents->sets->first_type;
     for (std::uint32_t n = 0; n < first.size(); ++n) {
       const std::size_t end = n + 1 < first.size() ? first[n + 1] : table_.roles.size();
       for (std::size_t k = first[n]; k < end; ++k)

@@ -101,11 +101,11 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"ways", 1},
                                                {"districts", 2},
                                                {"study", 3},
-                                               {"tick", 24},
+                                               {"tick", 30},
                                                {"plan", 9},
                                                {"past", 1},
                                                {"load", 1}}));
-  EXPECT_EQ(hashes.size(), 20u);
+  EXPECT_EQ(hashes.size(), 23u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
 }

@@ -10,6 +10,7 @@
 #include "core/session/session.h"
 #include "tests/bench/random_scene.h"
 #include "tests/bench/solver_bench_rows.h"
+#include "ui/cli/scene_loading.h"
 
 namespace bl::cli::bench {
 
@@ -18,6 +19,8 @@ namespace {
 constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
 constexpr double kTickFills[] = {0.7, 0.95, 1};
 constexpr double kDragStep = 0.2;  // [m]
+constexpr const char* kStudy = "scenes/studies/urban_mode.json";
+constexpr int kStudyTicks = 400;
 
 // One session as people have it, and one of the same scene that evaluates everything.
 struct Rivals {
@@ -57,7 +60,7 @@ Result<void> tick_both(Rivals& rivals, const Command* command, int threads, Time
 
 BenchTable table_of_ticks() {
   return {"tick",
-          "Ticks of volumes with three links to sets, against the same ticks with everything evaluated",
+          "Ticks of volumes with three links to sets, and of the urban study, against the same ticks with everything evaluated",
           {{"case", "case", true},
            {"fill %", "fill_percent"},
            {"volumes", "sites"},
@@ -83,29 +86,85 @@ struct Case {
   int count, threads;
 };
 
+// Frames of one kind: a tick of each, after the command of the frame or none.
+template <class OfFrame>
+Result<void> time_frames(const SolverBench& bench, Rivals& rivals, const Case& one, const std::string& name, BenchTable& table,
+                         const OfFrame& command_of) {
+  Times times;
+  for (int t = 0; t < kFrames && bench.goes_on("ticks, " + name); ++t) {
+    const std::optional<Command> command = command_of(t);
+    if (auto done = tick_both(rivals, command ? &*command : nullptr, one.threads, times); !done) return done;
+  }
+  add_row(table, name, one.fill, one.count, one.threads, times, *rivals.session->state());
+  return {};
+}
+
+std::optional<Command> nothing(int) { return std::nullopt; }
+
+// One node is pulled there and back again.
+Result<void> time_drag(const SolverBench& bench, Rivals& rivals, const Case& one, const std::string& name,
+                       const std::string& dragged, BenchTable& table) {
+  const State& state = *rivals.session->state();
+  const auto position = state.plan->find(state.plan->node_index(dragged), {"node", "position", ""});
+  if (!position) return Error{ErrorCode::not_found, "", "there is no node `" + dragged + "` to be dragged"};
+  Vector3 place = std::get<Vector3>(state.value(*position));
+  return time_frames(bench, rivals, one, name, table, [&](int t) -> std::optional<Command> {
+    place.x += t < kFrames / 2 ? kDragStep : -kDragStep;
+    return command<SetPort>({dragged, {"node.position"}, {JsonValue::of(Json::array({place.x, place.y, place.z}))}});
+  });
+}
+
 // Each frame of it after a command: the volume in the middle of the list moves, or wants something else.
 Result<void> time_commands(const SolverBench& bench, Rivals& rivals, const Case& one, BenchTable& table) {
   const auto middle = std::next(one.scene.nodes.begin(), static_cast<std::ptrdiff_t>(one.scene.nodes.size() / 2));
   const std::string dragged = middle->first;
-  const State& rest = *rivals.session->state();
-  const std::uint32_t node = rest.plan->node_index(dragged);
-  Vector3 place = std::get<Vector3>(rest.value(*rest.plan->find(node, {"node", "position", ""})));
-  const double demand = as_number(rest.value(*rest.plan->find(node, {"smart_volume", "demand", ""})));
-  Times drag, demanded;
-  for (int t = 0; t < kFrames && bench.goes_on("ticks, one dragged"); ++t) {
-    place.x += t < kFrames / 2 ? kDragStep : -kDragStep;
-    const Command move =
-        command<SetPort>({dragged, {"node.position"}, {JsonValue::of(Json::array({place.x, place.y, place.z}))}});
-    if (auto done = tick_both(rivals, &move, one.threads, drag); !done) return done;
-  }
-  add_row(table, "one dragged", one.fill, one.count, one.threads, drag, *rivals.session->state());
-  for (int t = 0; t < kFrames && bench.goes_on("ticks, one demand changed"); ++t) {
-    const Command wish =
-        command<SetPort>({dragged, {"smart_volume.demand"}, {JsonValue::of(Json(demand * (1 - 0.01 * (t % 20))))}});
-    if (auto done = tick_both(rivals, &wish, one.threads, demanded); !done) return done;
-  }
-  add_row(table, "a demand changed", one.fill, one.count, one.threads, demanded, *rivals.session->state());
-  return {};
+  if (auto done = time_drag(bench, rivals, one, "one dragged", dragged, table); !done) return done;
+  const State& state = *rivals.session->state();
+  const double demand =
+      as_number(state.value(*state.plan->find(state.plan->node_index(dragged), {"smart_volume", "demand", ""})));
+  return time_frames(bench, rivals, one, "a demand changed", table, [&](int t) -> std::optional<Command> {
+    return command<SetPort>({dragged, {"smart_volume.demand"}, {JsonValue::of(Json(demand * (1 - 0.01 * (t % 20))))}});
+  });
+}
+
+// Both come to rest together, or to where they would go on for ever; what the slower one takes for that is not measured.
+void settle(const SolverBench& bench, Rivals& rivals, int most, const std::string& what) {
+  for (int t = 0; t < most && !rivals.session->state()->due.is_nothing() && bench.goes_on(what + ", coming to rest"); ++t)
+    rivals.session->tick();
+  while (rivals.everything->state()->tick < rivals.session->state()->tick && bench.goes_on(what + ", the rival"))
+    rivals.everything->tick();
+}
+
+// The study with everything that the city has to say: its sensor's reading is a tick older in every tick.
+Result<void> time_study(const SolverBench& bench, int threads, BenchTable& table) {
+  const auto reading = load_scene(kStudy);
+  if (!reading) return Error{ErrorCode::parse, kStudy, "this scene cannot be measured"};
+  const auto volumes = std::count_if(reading->scene.nodes.begin(), reading->scene.nodes.end(),
+                                     [](const auto& node) { return node.second.types.contains("smart_volume"); });
+  const Case one{reading->scene, 0, static_cast<int>(volumes), threads};
+  auto rivals = rivals_of(one.scene, threads);
+  if (!rivals) return rivals.error();
+  settle(bench, *rivals, bench.options.is_quick ? 5 : kStudyTicks, "ticks of the urban study");
+  if (auto done = time_frames(bench, *rivals, one, "urban study", table, nothing); !done) return done;
+  return time_drag(bench, *rivals, one, "urban study, one dragged", "offices", table);
+}
+
+// A sensor among volumes at rest.
+Result<void> time_readings(const SolverBench& bench, int count, int threads, BenchTable& table) {
+  auto scene = linked_scene(count, kTickFills[0]);
+  if (!scene) return scene.error();
+  scene->nodes["sensor"].types = {{"node", {}}, {"sensor", {{"timeout", 0.0}}}};
+  const Case one{*scene, kTickFills[0], count, threads};
+  auto rivals = rivals_of(one.scene, threads);
+  if (!rivals) return rivals.error();
+  settle(bench, *rivals, bench.options.is_quick ? 5 : kMostTicksToRest, "ticks with a sensor");
+  return time_frames(bench, *rivals, one, "a reading", table, [&](int t) -> std::optional<Command> {
+    const auto set = [](const char* port, const Json& value) {
+      return command<SetPort>({"sensor", {port}, JsonValue::of(value)});
+    };
+    const std::int64_t now = rivals->session->state()->tick;
+    return command<Batch>({{set("sensor.reading", 20 + 0.1 * t), set("sensor.reading_tick", now)}});
+  });
 }
 
 Result<void> time_case(const SolverBench& bench, const Case& one, BenchTable& table) {
@@ -113,20 +172,13 @@ Result<void> time_case(const SolverBench& bench, const Case& one, BenchTable& ta
   auto rivals = rivals_of(one.scene, one.threads);
   if (!rivals) return rivals.error();
   rivals->session->tick(), rivals->everything->tick();  // the first one finds all volumes without a weight
-  Times negotiation, rest, waiting;
+  Times negotiation;
   for (int t = 0; t < kNegotiation && bench.goes_on(what + ", negotiating"); ++t)
     if (auto done = tick_both(*rivals, nullptr, one.threads, negotiation); !done) return done;
   add_row(table, "all negotiate", one.fill, one.count, one.threads, negotiation, *rivals->session->state());
-  // Both get to rest together; what the slower one takes for that is not measured.
-  const int most = bench.options.is_quick ? 5 : kMostTicksToRest;
-  for (int t = 0; t < most && !rivals->session->state()->due.is_nothing() && bench.goes_on(what + ", coming to rest"); ++t)
-    rivals->session->tick();
-  while (rivals->everything->state()->tick < rivals->session->state()->tick && bench.goes_on(what + ", the rival"))
-    rivals->everything->tick();
-  for (int t = 0; t < kFrames && bench.goes_on(what + ", at rest"); ++t)
-    if (auto done = tick_both(*rivals, nullptr, one.threads, rest); !done) return done;
+  settle(bench, *rivals, bench.options.is_quick ? 5 : kMostTicksToRest, what);
   const bool is_at_rest = rivals->session->state()->due.is_nothing();
-  add_row(table, is_at_rest ? "at rest" : "settling", one.fill, one.count, one.threads, rest, *rivals->session->state());
+  if (auto done = time_frames(bench, *rivals, one, is_at_rest ? "at rest" : "settling", table, nothing); !done) return done;
   return time_commands(bench, *rivals, one, table);
 }
 
@@ -141,6 +193,11 @@ BenchTables bench_tick(const SolverBench& bench) {
       for (const int threads : bench.threads())
         if (auto done = time_case(bench, {*scene, fill, count, threads}, table); !done) return done.error();
     }
+  for (const int threads : bench.threads()) {
+    for (const int count : bench.sites({1000}, {60}))
+      if (auto done = time_readings(bench, count, threads, table); !done) return done.error();
+    if (auto done = time_study(bench, threads, table); !done) return done.error();
+  }
   return std::vector<BenchTable>{std::move(table)};
 }
 

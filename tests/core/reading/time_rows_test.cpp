@@ -15,7 +15,7 @@ TimeTable made_table() {
   TimeTable table;
   table.plan = world.state().plan;
   table.links.resize(table.plan->links.size());
-  table.roles.resize(table.plan->dependents->first_port.size());
+  table.roles.resize(table.plan->dependents->sets->first_port.size());
   table.beside.resize(table.plan->analyses.size());
   double links = 0, roles = 0, sets = 0;
   for (std::size_t l = 0; l < table.links.size(); ++l) {
