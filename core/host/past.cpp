@@ -5,6 +5,14 @@
 
 namespace bl::host {
 
+namespace {
+
+std::size_t most_whole(const State& state) {
+  return std::clamp(Past::kMostWholeNodes / std::max<std::size_t>(1, state.nodes.size()), Past::kLeastWhole, Past::kWholeStates);
+}
+
+}  // namespace
+
 void Past::set_scene(std::int64_t tick, const Scene& scene, Placed placed) {
   changes_.push_back({tick, scene, std::move(placed)});
   // No tick reads it, and it is the only part that scenes do not share.
@@ -24,8 +32,9 @@ void Past::add(std::shared_ptr<const State> state) {
   else stretches_.push_back({tick, tick});
   const bool is_key = !goes_on || tick - last_key_ >= kPackedEvery;
   if (is_key) last_key_ = tick;
+  const std::size_t most = most_whole(*state);
   whole_.push_back({std::move(state), is_key});
-  while (whole_.size() > kWholeStates) {
+  while (whole_.size() > most) {
     if (whole_.front().is_packed_later) pack(std::move(whole_.front().state));
     whole_.pop_front();
   }
@@ -78,7 +87,7 @@ Result<void> Past::recompute(std::int64_t tick, Simulation& simulation) const {
     for (; change != changes_.end() && change->tick == simulation.state()->tick; ++change)
       simulation.set_scene(change->scene, change->placed);
     if (simulation.state()->tick >= tick) return {};
-    simulation.step();
+    if (!simulation.step()) return Error{ErrorCode::cancelled, "rewind", "the work was stopped on the way"};
   }
 }
 

@@ -19,8 +19,9 @@ class Past {
  public:
   using Placed = std::set<std::pair<std::string, std::string>>;
 
-  /// How many of the last states are kept whole.
-  static constexpr std::size_t kWholeStates = 20;
+  /// How many of the last states are kept whole: fewer where they have many nodes, down to the least. While all of them move, a
+  /// node takes some 7 kB in each.
+  static constexpr std::size_t kWholeStates = 20, kLeastWhole = 3, kMostWholeNodes = 60000;
   /// Of older states each one that comes so many ticks after the one before is kept, packed.
   static constexpr std::int64_t kPackedEvery = 20;
   /// Beyond these the oldest are given up: ten minutes at twenty ticks a second, and what packed states may take.

@@ -163,7 +163,8 @@ Result<void> time_readings(const SolverBench& bench, int count, int threads, Ben
       return command<SetPort>({"sensor", {port}, JsonValue::of(value)});
     };
     const std::int64_t now = rivals->session->state()->tick;
-    return command<Batch>({{set("sensor.reading", 20 + 0.1 * t), set("sensor.reading_tick", now)}});
+    const std::vector<Command> commands{set("sensor.reading", 20 + 0.1 * t), set("sensor.reading_tick", now)};
+    return command<Batch>({commands});
   });
 }
 
