@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "core/base/stop_check.h"
 #include "core/geometry/inside/cell_workshop.h"
 #include "core/geometry/tessellate.h"
 
@@ -194,7 +195,7 @@ struct PowerDiagram::Workshop {
     for (const std::uint32_t i : made) is_complete[i] = 0;
     last = options;
     storey_heights.assign(options.storey_heights.begin(), options.storey_heights.end());
-    is_whole = true;
+    is_whole = !is_stop_wished();
     return {};
   }
 
@@ -214,7 +215,7 @@ struct PowerDiagram::Workshop {
     for (const std::uint32_t i : completed) is_complete[i] = 1;
     completed_with = options;
     completed_heights.assign(options.storey_heights.begin(), options.storey_heights.end());
-    is_whole = true;
+    is_whole = !is_stop_wished();
     return {};
   }
 };

@@ -41,17 +41,22 @@ bool LinkReach::follow(const State& frozen, const LinkPlan& plan) {
 }
 
 void LinkReach::begin(const State& frozen, const LinkPlan& plan) {
-  is_known_ = true;
-  if (!can_be_silent(frozen, plan)) return;
+  if (!can_be_silent(frozen, plan)) {
+    is_known_ = true;
+    return;
+  }
   const SilentBand band = plan.definition->silent_band(plan.parameters.get());
   least_ = band.least * (1 + kMargin) + kMargin;
   most_ = band.most * (1 - kMargin) - kMargin;
   least_squared_ = least_ * least_;
   most_squared_ = most_ * most_;
-  is_useful_ = least_ <= most_;
   is_symmetric_ = plan.nodes[0] == plan.nodes[1];
   in_plan_ = band.in_plan;
-  if (is_useful_) read_all(frozen, plan);
+  const bool is_useful = least_ <= most_;
+  if (is_useful) read_all(frozen, plan);
+  // Last of all: an exception on the way leaves what has to be begun again.
+  is_useful_ = is_useful;
+  is_known_ = true;
 }
 
 void LinkReach::read_all(const State& frozen, const LinkPlan& plan) {

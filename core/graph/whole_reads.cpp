@@ -14,10 +14,12 @@ bool WholeReads::follow(const State& frozen, const LinkPlan& plan) {
 }
 
 void WholeReads::read_all(const State& frozen, const LinkPlan& plan) {
-  is_known_ = true;
   const std::vector<LinkRead>& reads = plan.definition->reads;
-  has_whole_ = std::any_of(reads.begin(), reads.end(), [](const LinkRead& read) { return read.is_whole; });
-  if (!has_whole_) return;
+  const bool has_whole = std::any_of(reads.begin(), reads.end(), [](const LinkRead& read) { return read.is_whole; });
+  if (!has_whole) {
+    is_known_ = true;
+    return;
+  }
   reads_.values.resize(reads.size());
   for (std::size_t r = 0; r < reads.size(); ++r) {
     reads_.values[r].resize(reads[r].is_whole ? plan.reads[r].size() : 1);
@@ -27,9 +29,15 @@ void WholeReads::read_all(const State& frozen, const LinkPlan& plan) {
   reads_.loaded = &loaded_;
   nodes_ = frozen.nodes;
   node_plans_ = frozen.plan->nodes;
+  // Last of all: an exception on the way leaves what has to be begun again.
+  has_whole_ = is_known_ = true;
 }
 
 void WholeReads::read_changes(const State& frozen, const LinkPlan& plan) {
+  // Changes that the last evaluation has not taken, because its kind takes none or because it failed before: then it is loaded
+  // anew when it asks.
+  if (!loaded_.changed[0].empty() || !loaded_.changed[1].empty()) loaded_.is_complete = false;
+  for (auto& changed : loaded_.changed) changed.clear();
   each_difference(nodes_, frozen.nodes, [&](std::uint32_t n) {
     for (const End end : {End::from, End::to}) {
       const auto at = place_in(plan.nodes[static_cast<std::size_t>(end)], n);

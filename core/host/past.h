@@ -22,7 +22,9 @@ class Past {
   /// How many of the last states are kept whole: fewer where they have many nodes, down to the least. While all of them move, a
   /// node takes some 7 kB in each.
   static constexpr std::size_t kWholeStates = 20, kLeastWhole = 3, kMostWholeNodes = 60000;
-  /// Of older states each one that comes so many ticks after the one before is kept, packed.
+  /// Of older states each one that comes so many ticks after the one before is kept: packed, where a tick has made it and nobody
+  /// has set a scene since. Meshes of the others belong to older settings, which packing cannot bring back: where one of these
+  /// has to be kept, because there was none better for twice as long, it stays whole.
   static constexpr std::int64_t kPackedEvery = 20;
   /// Beyond these the oldest are given up: ten minutes at twenty ticks a second, and what packed states may take.
   static constexpr std::size_t kMostPacked = 600, kMostBytes = std::size_t{400} << 20;
@@ -47,7 +49,14 @@ class Past {
  private:
   struct Whole {
     std::shared_ptr<const State> state;
-    bool is_packed_later = false;
+    bool is_key = false;   // kept when it leaves the last states
+    bool is_made = false;  // by a tick, and as that left it
+  };
+  struct Key {
+    std::int64_t tick = 0;
+    std::size_t bytes = 0;
+    std::optional<PackedState> packed;
+    std::shared_ptr<const State> whole;  // where it is not packed
   };
   struct SceneChange {
     std::int64_t tick = 0;
@@ -59,16 +68,17 @@ class Past {
     std::int64_t first = 0, last = 0;
   };
 
-  void pack(std::shared_ptr<const State> state);
+  bool is_set_over(std::int64_t tick) const { return !changes_.empty() && changes_.back().tick == tick; }
+  void keep(const Whole& one);
   void give_up_oldest();
 
   std::deque<Stretch> stretches_;
   std::deque<Whole> whole_;
-  std::deque<PackedState> packed_;
+  std::deque<Key> keys_;
   std::deque<SceneChange> changes_;
-  std::shared_ptr<const State> last_packed_;  // the state that the last of `packed_` was made from
-  std::int64_t last_key_ = 0;                 // the last tick whose state is packed, or will be
-  bool begins_anew_ = true;                   // the next state does not follow from the ticks before it
+  std::shared_ptr<const State> last_kept_;  // the state that the last of `keys_` was made from
+  std::int64_t last_key_ = 0;               // the last tick whose state is kept, or will be
+  bool begins_anew_ = true;                 // the next state does not follow from the ticks before it
   std::size_t bytes_ = 0;
 };
 

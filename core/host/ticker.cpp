@@ -104,12 +104,14 @@ void LiveSession::Shared::rewind(std::unique_lock<std::mutex>& lock) {
   is_ticking = true;
   lock.unlock();
   try {
+    simulation.measure(nullptr);
     if (const auto reached = past.recompute(tick, simulation)) earlier = simulation.state();
     else trouble = "the rewind failed (" + reached.error().text() + "); the clock is stopped";
   } catch (const std::exception& exception) {
     trouble = std::string("the rewind failed (") + exception.what() + "); the clock is stopped";
   }
   simulation.put_back(present);
+  simulation.measure(times.get());
   lock.lock();
   is_ticking = false;
   // Somebody may want to go back further by now.

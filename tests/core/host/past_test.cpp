@@ -63,6 +63,57 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PastLaws,
                                          "scenes/nodes/sun_study.json", "scenes/nodes/sensor.json"),
                          [](const auto& test) { return "S" + std::to_string(test.index); });
 
+// The scene with finer or coarser meshes, which shadows are measured on.
+Scene with_depth(const Scene& scene, std::int64_t depth) {
+  Scene changed = scene;
+  for (const auto& [id, node] : scene.nodes)
+    if (node.types.contains("smart_volumes_solver"))
+      changed.nodes.edit(id).types["smart_volumes_solver"]["tessellation_depth"] = depth;
+  return changed;
+}
+
+// Edits in the very ticks whose states would be kept, and right after a return: what stands there was made from older settings.
+TEST(Past, AnEditOfAStateThatIsKeptLeavesNoTrace) {
+  for (const char* name :
+       {"scenes/nodes/sun_study.json", "scenes/nodes/shadow_caster.json", "scenes/nodes/shadow_receiver.json"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = read_scene(project_file(name), full_registry()).scene;
+    Past past;
+    Simulation simulation(full_registry(), 1), again(full_registry(), 1);
+    simulation.set_scene(scene);
+    std::map<std::int64_t, std::uint64_t> hashes;
+    const auto go_on = [&](std::int64_t end, std::map<std::int64_t, std::int64_t> depths) {
+      for (std::int64_t tick = simulation.state()->tick; tick < end; ++tick) {
+        if (depths.contains(tick)) {
+          const Scene edited = with_depth(scene, depths[tick]);
+          simulation.set_scene(edited);
+          past.set_scene(tick, edited, {});
+        }
+        past.add(simulation.state());
+        hashes[tick] = simulation.state()->hash;
+        simulation.step();
+      }
+    };
+    const auto expect_all = [&](std::int64_t end) {
+      for (std::int64_t tick = 0; tick < end; ++tick) {
+        ASSERT_TRUE(past.recompute(tick, again).ok());
+        ASSERT_EQ(again.state()->hash, hashes[tick]) << tick;
+      }
+    };
+    go_on(90, {{20, 3}, {40, 0}, {60, 2}});
+    expect_all(90);
+    // For so long that no state is only as a tick has left it.
+    std::map<std::int64_t, std::int64_t> always;
+    for (std::int64_t tick = 91; tick < 150; ++tick) always[tick] = tick % 4;
+    go_on(170, always);
+    expect_all(170);
+    ASSERT_TRUE(past.recompute(105, simulation).ok());
+    past.forget_from(105);
+    go_on(160, {{105, 0}});
+    expect_all(160);
+  }
+}
+
 TEST(Past, WhatIsGivenUpIsForgottenAndWhatFollowsStandsForItself) {
   Past past;
   Simulation simulation(full_registry(), 1);
