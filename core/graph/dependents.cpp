@@ -2,8 +2,8 @@
 #include "core/graph/dependents.h"
 
 #include <algorithm>
-#include <numeric>
 #include <iterator>
+#include <numeric>
 
 #include "core/graph/phases.h"
 

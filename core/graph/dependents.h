@@ -57,7 +57,7 @@ struct SetGroup {
   std::uint32_t node = 0, type = 0;
   std::size_t first = 0, count = 0;  ///< in Plan::sets
   std::size_t analysis = kNone;      ///< in Plan::analyses
-  bool is_always_due = false;  ///< asked in every tick: it reads the time, or an analysis is among its rivals
+  bool is_always_due = false;        ///< asked in every tick: it reads the time, or an analysis is among its rivals
   /// The first of the groups that it shares a port with to write to, or that share one with these, and so on; kNone where it has
   /// its ports to itself. Such groups are asked together, so that who comes first is found out.
   std::size_t rivals = kNone;

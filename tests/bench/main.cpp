@@ -31,7 +31,8 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan", "past", "load"}))
+      ->check(CLI::IsMember(
+          {"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan", "past", "load"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")

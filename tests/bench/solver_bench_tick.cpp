@@ -1,5 +1,6 @@
 // Rows of whole ticks: while all negotiate, at rest, and while one volume is dragged, against a tick that evaluates everything.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -60,7 +61,7 @@ Result<void> tick_both(Rivals& rivals, const Command* command, int threads, Time
 
 BenchTable table_of_ticks() {
   return {"tick",
-          "Ticks of volumes with three links to sets, and of the urban study, against the same ticks with everything evaluated",
+          "Ticks of volumes with three links to sets, and of a study, against the same ticks with everything evaluated",
           {{"case", "case", true},
            {"fill %", "fill_percent"},
            {"volumes", "sites"},
@@ -135,18 +136,23 @@ void settle(const SolverBench& bench, Rivals& rivals, int most, const std::strin
     rivals.everything->tick();
 }
 
-// The study with everything that the city has to say: its sensor's reading is a tick older in every tick.
+// A study as it is, after some ticks: the one that was named, or that with everything that a city has to say. In that one a
+// sensor's reading is a tick older in every tick.
 Result<void> time_study(const SolverBench& bench, int threads, BenchTable& table) {
-  const auto reading = load_scene(kStudy);
-  if (!reading) return Error{ErrorCode::parse, kStudy, "this scene cannot be measured"};
-  const auto volumes = std::count_if(reading->scene.nodes.begin(), reading->scene.nodes.end(),
-                                     [](const auto& node) { return node.second.types.contains("smart_volume"); });
-  const Case one{reading->scene, 0, static_cast<int>(volumes), threads};
+  const std::string file = bench.options.scenes.empty() ? kStudy : bench.options.scenes.front();
+  const auto reading = load_scene(file);
+  if (!reading) return Error{ErrorCode::parse, file, "this scene cannot be measured"};
+  std::vector<std::string> volumes;
+  for (const auto& [id, node] : SharedMap(reading->scene.nodes))
+    if (node.types.contains("smart_volume")) volumes.push_back(id);
+  if (volumes.empty()) return Error{ErrorCode::missing, file, "there is no volume in it that could be dragged"};
+  const Case one{reading->scene, 0, static_cast<int>(volumes.size()), threads};
   auto rivals = rivals_of(one.scene, threads);
   if (!rivals) return rivals.error();
-  settle(bench, *rivals, bench.options.is_quick ? 5 : kStudyTicks, "ticks of the urban study");
-  if (auto done = time_frames(bench, *rivals, one, "urban study", table, nothing); !done) return done;
-  return time_drag(bench, *rivals, one, "urban study, one dragged", "offices", table);
+  settle(bench, *rivals, bench.options.is_quick ? 5 : kStudyTicks, "ticks of the study");
+  const std::string name = std::filesystem::path(file).stem().string();
+  if (auto done = time_frames(bench, *rivals, one, name, table, nothing); !done) return done;
+  return time_drag(bench, *rivals, one, name + ", one dragged", volumes[volumes.size() / 2], table);
 }
 
 // A sensor among volumes at rest.
