@@ -63,12 +63,16 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PastLaws,
                                          "scenes/nodes/sun_study.json", "scenes/nodes/sensor.json"),
                          [](const auto& test) { return "S" + std::to_string(test.index); });
 
-// The scene with finer or coarser meshes, which shadows are measured on.
-Scene with_depth(const Scene& scene, std::int64_t depth) {
+// The scene with its volumes so far aside [m]: their shapes of the tick before stand where they were, and shadows are theirs.
+Scene moved_aside(const Scene& scene, std::int64_t by) {
   Scene changed = scene;
-  for (const auto& [id, node] : scene.nodes)
-    if (node.types.contains("smart_volumes_solver"))
-      changed.nodes.edit(id).types["smart_volumes_solver"]["tessellation_depth"] = depth;
+  for (const auto& [id, node] : SharedMap(scene.nodes)) {
+    if (!node.types.contains("smart_volume")) continue;
+    Value& place = changed.nodes.edit(id).types[std::string(kBaseNode)]["position"];
+    Vector3 at = std::holds_alternative<Vector3>(place) ? std::get<Vector3>(place) : Vector3{};
+    at.x += static_cast<double>(by);
+    place = at;
+  }
   return changed;
 }
 
@@ -78,16 +82,19 @@ TEST(Past, AnEditOfAStateThatIsKeptLeavesNoTrace) {
        {"scenes/nodes/sun_study.json", "scenes/nodes/shadow_caster.json", "scenes/nodes/shadow_receiver.json"}) {
     SCOPED_TRACE(name);
     const Scene scene = read_scene(project_file(name), full_registry()).scene;
+    Past::Placed placed;
+    for (const auto& [id, node] : scene.nodes)
+      if (node.types.contains("smart_volume")) placed.emplace(id, "node.position");
     Past past;
     Simulation simulation(full_registry(), 1), again(full_registry(), 1);
     simulation.set_scene(scene);
     std::map<std::int64_t, std::uint64_t> hashes;
-    const auto go_on = [&](std::int64_t end, std::map<std::int64_t, std::int64_t> depths) {
+    const auto go_on = [&](std::int64_t end, std::map<std::int64_t, std::int64_t> moves) {
       for (std::int64_t tick = simulation.state()->tick; tick < end; ++tick) {
-        if (depths.contains(tick)) {
-          const Scene edited = with_depth(scene, depths[tick]);
-          simulation.set_scene(edited);
-          past.set_scene(tick, edited, {});
+        if (moves.contains(tick)) {
+          const Scene edited = moved_aside(scene, moves[tick]);
+          simulation.set_scene(edited, placed);
+          past.set_scene(tick, edited, placed);
         }
         past.add(simulation.state());
         hashes[tick] = simulation.state()->hash;
@@ -100,16 +107,16 @@ TEST(Past, AnEditOfAStateThatIsKeptLeavesNoTrace) {
         ASSERT_EQ(again.state()->hash, hashes[tick]) << tick;
       }
     };
-    go_on(90, {{20, 3}, {40, 0}, {60, 2}});
+    go_on(90, {{20, 3}, {40, 0}, {60, 2}, {61, 0}});
     expect_all(90);
-    // For so long that no state is only as a tick has left it.
+    // For so long that no state is only as a tick has left it; one of them has to be kept, and that is where something happens.
     std::map<std::int64_t, std::int64_t> always;
-    for (std::int64_t tick = 91; tick < 150; ++tick) always[tick] = tick % 4;
+    for (std::int64_t tick = 91; tick < 150; ++tick) always[tick] = tick < 120 ? 0 : 7;
     go_on(170, always);
     expect_all(170);
     ASSERT_TRUE(past.recompute(105, simulation).ok());
     past.forget_from(105);
-    go_on(160, {{105, 0}});
+    go_on(160, {{105, 5}});
     expect_all(160);
   }
 }
