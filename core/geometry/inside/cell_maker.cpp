@@ -99,7 +99,11 @@ void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site, std::
   // Nobody may cut twice: what touches is no longer sure.
   if (!expected.empty()) {
     is_done_.resize(ground.sites.size(), 0);
-    ++cell_number_;
+    // After four billion cells the numbers begin again: nobody may be left out by a mark of then.
+    if (++cell_number_ == 0) {
+      std::fill(is_done_.begin(), is_done_.end(), 0u);
+      cell_number_ = 1;
+    }
   }
   for (const std::uint32_t j : expected) {
     const SiteGrid::Entry other = ground.grid.of(j);
