@@ -167,7 +167,7 @@ run_suite() {
     build_prefix=
     [ "$(cat /proc/sys/vm/mmap_rnd_bits 2>/dev/null || echo 0)" -gt 28 ] && setarch -R true 2>/dev/null &&
       build_prefix='setarch -R'
-    TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
+    TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1:suppressions=\'$root/tests/house/thread_sanitizer.supp\'
     export TSAN_OPTIONS
     programs=$tsan_programs
     GTEST_FILTER=$tsan_tests
