@@ -49,8 +49,8 @@ Result<FitReport> WeightFit::run() {
   PowerDiagram& diagram = options_.diagram != nullptr ? *options_.diagram : own;
   if (auto set = diagram.set_domain(domain_); !set) return set.error();
   CellOptions cells;
-  cells.with_shape = cells.with_outlines = options_.with_whole_cells;
-  cells.with_storeys = cells.with_centroid = false;
+  cells.with_shape = cells.with_outlines = cells.with_centroid = options_.with_whole_cells;
+  cells.with_storeys = false;
   cells.pool = options_.pool;
   for (int step = 0; step < std::max(1, options_.steps); ++step) {
     auto measured = diagram.update(sites_, cells);

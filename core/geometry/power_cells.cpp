@@ -52,6 +52,7 @@ struct PowerDiagram::Workshop {
   CellWorkshop workshop;
   std::vector<CellMeasure> cells;
   std::vector<std::vector<std::uint32_t>> borders, faces;
+  std::vector<std::vector<ShapeMeasure>> shapes;  // of cells that are to be completed
   std::vector<std::uint32_t> changed, made, completed, empty, unlimited;
   std::vector<std::uint8_t> is_marked;
   std::vector<double> limits;  // how far from its site each cell is made [m]
@@ -69,6 +70,8 @@ struct PowerDiagram::Workshop {
            a.with_centroid == b.with_centroid && a.with_outlines == b.with_outlines && a.with_coarse_mesh == b.with_coarse_mesh &&
            a.tessellation_depth == b.tessellation_depth;
   }
+
+  CellLists lists() { return {borders.data(), faces.data(), shapes.empty() ? nullptr : shapes.data()}; }
 
   void mark(std::uint32_t site) {
     if (is_marked[site]) return;
@@ -113,7 +116,7 @@ struct PowerDiagram::Workshop {
       std::sort(made.begin() + static_cast<std::ptrdiff_t>(from), made.end());
       before.resize(end - from);
       for (std::size_t k = from; k < end; ++k) before[k - from] = faces[made[k]];
-      workshop.make(std::span(made).subspan(from), options, cells, borders.data(), faces.data());
+      workshop.make(std::span(made).subspan(from), options, cells, lists());
       for (std::size_t k = from; k < end; ++k) {
         const auto& now = faces[made[k]];
         for (const std::uint32_t j : before[k - from]) {
@@ -140,7 +143,7 @@ struct PowerDiagram::Workshop {
     for (const std::uint32_t site : changed) {
       for (const std::uint32_t j : borders[site]) mark(j);
     }
-    workshop.make(changed, options, cells, borders.data(), faces.data());
+    workshop.make(changed, options, cells, lists());
     for (const std::uint32_t site : changed) {
       for (const std::uint32_t j : borders[site]) mark(j);
     }
@@ -162,9 +165,10 @@ struct PowerDiagram::Workshop {
     is_complete.resize(sites.size());
     borders.resize(sites.size());
     faces.resize(sites.size());
+    shapes.resize(options.with_outlines ? sites.size() : 0);
     made.resize(sites.size());
     std::iota(made.begin(), made.end(), 0u);
-    workshop.make_all(options, cells, borders.data(), faces.data());
+    workshop.make_all(options, cells, lists());
     return {};
   }
 
@@ -200,8 +204,8 @@ struct PowerDiagram::Workshop {
   }
 
   Result<void> complete(const CellOptions& options) {
-    if (!is_whole || !last.with_shape || !last.with_outlines)
-      return Error{ErrorCode::missing, "", "only cells that were made with their outlines can be measured again"};
+    if (!is_whole || !last.with_shape || !last.with_outlines || !last.with_centroid)
+      return Error{ErrorCode::missing, "", "only cells that were made with outlines and centroids can be completed"};
     if (auto checked = check_options(workshop.sites(), workshop.domain(), options); !checked) return checked.error();
     const bool is_same = asks_the_same(completed_with, options) && completed_heights.size() == options.storey_heights.size();
     const auto is_due = [&](std::uint32_t i) {
@@ -211,7 +215,7 @@ struct PowerDiagram::Workshop {
     for (std::uint32_t i = 0; i < cells.size(); ++i)
       if (is_due(i)) completed.push_back(i);
     is_whole = false;
-    workshop.measure(completed, options, cells);
+    workshop.complete(completed, options, cells, shapes.data());
     for (const std::uint32_t i : completed) is_complete[i] = 1;
     completed_with = options;
     completed_heights.assign(options.storey_heights.begin(), options.storey_heights.end());

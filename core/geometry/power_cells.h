@@ -104,15 +104,16 @@ class PowerDiagram {
   const Domain& domain() const;
   /// Valid until the next call. An error leaves the last measures as they were.
   Result<std::span<const CellMeasure>> update(std::span<const PowerSite> sites, const CellOptions& options = {});
-  /// The measures that the last updates have left out, of the same sites: for cells that were made anew since the last call, or
-  /// of which it asks for something else. To be asked after an update with outlines. Like this a fit makes cells many times, and
-  /// who looks at the result has them measured once. Cells that an update without these measures keeps, keep them too.
+  /// The storeys and meshes that the last updates have left out, of the same sites: for cells that were made anew since the last
+  /// call, or of which it asks for something else. To be asked after an update with outlines and centroids. Like this a fit makes
+  /// cells many times, and who looks at the result has these measured once. Cells that an update without them keeps, keep them
+  /// too.
   Result<std::span<const CellMeasure>> complete(const CellOptions& options);
   /// The measures of the last update.
   std::span<const CellMeasure> cells() const;
   /// The sites whose cells the last update has computed anew; the other cells cannot have changed.
   std::span<const std::uint32_t> made() const;
-  /// The sites whose cells the last complete() has measured; the other cells have not changed since the one before.
+  /// The sites whose cells the last complete() has completed; the other cells have not changed since the one before.
   std::span<const std::uint32_t> completed() const;
 
  private:

@@ -60,7 +60,7 @@ struct VolumeSolver::Workspace {
   // Measures the marked cells and takes over what they say.
   void make_marked(std::size_t from, const SolveOptions& options, SolveReport& report) {
     const auto which = std::span(made).subspan(from);
-    workshop.make(which, plain_cells(options.pool), cells, borders.data());
+    workshop.make(which, plain_cells(options.pool), cells, {.borders = borders.data()});
     for (const std::uint32_t i : which) {
       volume[i] = cells[i].volume;
       shift[i] = 0;
@@ -234,7 +234,7 @@ struct VolumeSolver::Workspace {
     if (!fit) return fit.error();
     for (std::size_t k = 0; k < place.size(); ++k) sites[place[k]].weight = fit->weights[k];
     if (auto set = workshop.set_sites(sites, absent); !set) return set.error();
-    workshop.make_all(plain_cells(options.pool), cells, borders.data());
+    workshop.make_all(plain_cells(options.pool), cells, {.borders = borders.data()});
     response.reset(size());
     for (std::uint32_t i = 0; i < size(); ++i) {
       volume[i] = cells[i].volume;

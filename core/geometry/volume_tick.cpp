@@ -72,7 +72,7 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
   // The fit has made most of these cells. What people read of them is measured once, of those that it ends with.
   if (auto set = kept.cells.set_domain(domain); !set) return set.error();
   const auto made =
-      kept.cells.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true, .pool = pool});
+      kept.cells.update(sites, {.with_storeys = false, .with_outlines = true, .pool = pool});
   if (!made) return made.error();
   const auto cells = kept.cells.complete(
       {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});

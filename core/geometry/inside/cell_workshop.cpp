@@ -90,13 +90,20 @@ std::shared_ptr<const std::vector<Polyhedron>> polyhedra_of(std::span<const Poly
   return std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
 }
 
-void measure_parts(const CellInput& ground, std::uint32_t index, std::span<const Polyhedron> parts, const CellOptions& options,
-                   CellBench& bench, CellMeasure& out) {
-  const PowerSite& site = ground.sites[index];
-  bench.shapes.resize(parts.size());
+// Of all parts together, relative to the site.
+Point3 centroid_of(std::span<const ShapeMeasure> shapes, double volume) {
+  if (shapes.size() == 1) return shapes[0].centroid;
   Vector3 moment;
+  for (const ShapeMeasure& shape : shapes)
+    if (!shape.is_empty && shape.volume > 0) moment += shape.volume * shape.centroid;
+  return moment / volume;
+}
+
+void measure_parts(const CellInput& ground, std::uint32_t index, std::span<const Polyhedron> parts, const CellOptions& options,
+                   std::span<ShapeMeasure> shapes, CellMeasure& out) {
+  const PowerSite& site = ground.sites[index];
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    ShapeMeasure& shape = bench.shapes[k];
+    ShapeMeasure& shape = shapes[k];
     Point3 middle;
     const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kNoLimit;
     if (options.with_shape) out.cell_volume += cell_volume;
@@ -108,21 +115,11 @@ void measure_parts(const CellInput& ground, std::uint32_t index, std::span<const
     if (options.with_centroid && !holds(parts[k], site.weight, shape.centroid, 0)) shape.centroid = shape.point_inside;
     out.volume += shape.volume;
     out.spherical_area += shape.spherical_area;
-    moment += shape.volume * shape.centroid;
     gather_facets(parts[k], site.weight, shape, out);
   }
   if (!(out.volume > 0)) return;
-  const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
-  if (options.with_centroid) out.centroid = site.position + centroid;
+  if (options.with_centroid) out.centroid = site.position + centroid_of(shapes, out.volume);
   add_up(ground, site, out);
-  if (options.with_shape && options.with_storeys) {
-    const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
-    measure_storeys(parts, bench.shapes, site, storey, out);
-  }
-  if (options.tessellation_depth < 0) return;
-  // Most meshes are never looked at.
-  auto kept = out.outlines ? out.outlines : polyhedra_of(parts);
-  out.mesh = MeshPointer(std::make_unique<CellRecipe>(std::move(kept), bench.shapes, site, centroid, options));
 }
 
 // Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of
@@ -250,7 +247,11 @@ void CellWorkshop::measure_one(std::uint32_t site, std::span<const Polyhedron> p
   out.centroid = sites_[site].position;
   out.bottom = sites_[site].position.z;
   const std::uint32_t twin = twin_[site];
-  if (twin == kNone) measure_parts(ground_, site, parts, options, bench, out);
+  if (twin == kNone) {
+    bench.shapes.resize(parts.size());
+    measure_parts(ground_, site, parts, options, bench.shapes, out);
+    complete_one(site, parts, options, bench.shapes, out);
+  }
   std::string emptiness;
   if (twin == kNone && !(out.volume > 0)) {
     const bool has_cell = out.cell_volume > 0 || (!options.with_shape && !parts.empty());
@@ -274,6 +275,23 @@ void CellWorkshop::measure_one(std::uint32_t site, std::span<const Polyhedron> p
   }
 }
 
+void CellWorkshop::complete_one(std::uint32_t site, std::span<const Polyhedron> parts, const CellOptions& options,
+                                std::span<ShapeMeasure> shapes, CellMeasure& out) const {
+  const PowerSite& own = sites_[site];
+  out.floor_area = out.footprint = out.height = 0;
+  out.bottom = own.position.z;
+  out.mesh = {};
+  if (!(out.volume > 0)) return;
+  if (options.with_shape && options.with_storeys) {
+    const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[site];
+    measure_storeys(parts, shapes, own, storey, out);
+  }
+  if (options.tessellation_depth < 0) return;
+  // Most meshes are never looked at.
+  auto kept = out.outlines ? out.outlines : polyhedra_of(parts);
+  out.mesh = MeshPointer(std::make_unique<CellRecipe>(std::move(kept), shapes, own, centroid_of(shapes, out.volume), options));
+}
+
 std::unique_ptr<CellBench> CellWorkshop::take_bench() {
   const std::lock_guard lock(mutex_);
   if (benches_.empty()) return std::make_unique<CellBench>();
@@ -288,11 +306,10 @@ void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
 }
 
 void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
-                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
-                              std::vector<std::uint32_t>* faces) {
+                              const CellOptions& options, std::span<CellMeasure> cells, const CellLists& lists) {
   auto bench = take_bench();
   // Who bordered a cell before is likely to do so again. Of sites at one place only one has a cell that can be cut by.
-  const bool is_expected = !is_run && faces != nullptr && !has_twins_ && !ground_.is_triangulated;
+  const bool is_expected = !is_run && lists.faces != nullptr && !has_twins_ && !ground_.is_triangulated;
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
     if (k % kCellsPerLook == 0 && is_stop_wished()) break;
@@ -301,34 +318,30 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
       fetch_ahead(cells[which[k + 1]]);
       fetch_ahead(sites_[which[k + 1]]);
     }
-    make_one(which[k], options, is_expected ? faces[which[k]] : std::span<const std::uint32_t>{}, *bench, cells[which[k]]);
-    if (borders == nullptr) continue;
-    const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
-    borders[which[k]].assign(found.begin(), found.end());
-    if (faces == nullptr) continue;
-    const auto sides = twin_[which[k]] == kNone ? bench->maker.faces() : std::span<const std::uint32_t>{};
-    faces[which[k]].assign(sides.begin(), sides.end());
+    make_one(which[k], options, is_expected ? lists.faces[which[k]] : std::span<const std::uint32_t>{}, *bench, cells[which[k]]);
+    const bool is_made = twin_[which[k]] == kNone;
+    const auto keep = [&](std::vector<std::uint32_t>* list, std::span<const std::uint32_t> found) {
+      if (list != nullptr) list[which[k]].assign(found.begin(), is_made ? found.end() : found.begin());
+    };
+    keep(lists.borders, bench->maker.borders());
+    keep(lists.faces, bench->maker.faces());
+    if (lists.shapes != nullptr && is_made) lists.shapes[which[k]].swap(bench->shapes);
   }
   bench->maker.end_run();
   give_back(std::move(bench));
 }
 
 void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
-                        std::vector<std::uint32_t>* borders, std::vector<std::uint32_t>* faces) {
+                        const CellLists& lists) {
   share_out(which.size(), options.pool,
-            [&](std::size_t begin, std::size_t end) { make_range(which, false, begin, end, options, cells, borders, faces); });
+            [&](std::size_t begin, std::size_t end) { make_range(which, false, begin, end, options, cells, lists); });
 }
 
-void CellWorkshop::measure(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells) {
+void CellWorkshop::complete(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
+                            std::vector<ShapeMeasure>* shapes) {
   share_out(which.size(), options.pool, [&](std::size_t begin, std::size_t end) {
-    auto bench = take_bench();
-    for (std::size_t k = begin; k < end; ++k) {
-      CellMeasure& cell = cells[which[k]];
-      const auto outlines = cell.outlines;
-      measure_one(which[k], outlines ? std::span<const Polyhedron>(*outlines) : std::span<const Polyhedron>{}, options, *bench,
-                  cell);
-    }
-    give_back(std::move(bench));
+    for (const std::uint32_t site : which.subspan(begin, end - begin))
+      if (cells[site].outlines) complete_one(site, *cells[site].outlines, options, shapes[site], cells[site]);
   });
 }
 
@@ -350,11 +363,10 @@ std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions
   return std::clamp<std::size_t>(static_cast<std::size_t>(most), 1, kRunsPerThread);
 }
 
-void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
-                            std::vector<std::uint32_t>* faces) {
+void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, const CellLists& lists) {
   const auto order = ground_.grid.order();
   const auto body = [&](std::size_t begin, std::size_t end) {
-    make_range(order, true, begin, end, options, cells, borders, faces);
+    make_range(order, true, begin, end, options, cells, lists);
   };
   const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
   const std::size_t runs = threads > 1 && order.size() > 2 * kSitesAtATime ? threads * runs_per_thread(threads, options) : 1;
@@ -367,7 +379,7 @@ void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> c
   for (std::uint32_t i = 0; has_twins_ && i < sites_.size(); ++i) {
     if (twin_[i] != kNone) others.push_back(i);
   }
-  make(others, options, cells, borders, faces);
+  make(others, options, cells, lists);
 }
 
 Result<void> check_sites(std::span<const PowerSite> sites) {

@@ -20,6 +20,13 @@ struct CellBench {
   std::vector<ShapeMeasure> shapes;
 };
 
+/// What is kept of each cell besides its record: null, or one list per site.
+struct CellLists {
+  std::vector<std::uint32_t>* borders = nullptr;  ///< the sites whose change can change the cell
+  std::vector<std::uint32_t>* faces = nullptr;    ///< those of them that share a face with it; only together with `borders`
+  std::vector<ShapeMeasure>* shapes = nullptr;    ///< of the parts of its outlines
+};
+
 /// Is a position so far outside that a ball around it that reaches the domain cannot be measured in it?
 bool is_out_of_reach(const Domain& domain, const Point3& position);
 std::vector<std::uint8_t> out_of_reach(const Domain& domain, std::span<const PowerSite> sites);
@@ -55,20 +62,18 @@ class CellWorkshop {
   /// Sites in the order in which they lie in memory: nearby cells are made one after the other.
   std::span<const std::uint32_t> order() const { return ground_.grid.order(); }
 
-  /// Makes the cells of `which`, each into its place of `cells`; `borders` (null, or one list per site) gets the sites whose
-  /// change can change the cell; `faces` (likewise) those of them that share a face with it.
+  /// Makes the cells of `which`, each into its place of `cells` and of the lists.
   void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
-            std::vector<std::uint32_t>* borders = nullptr, std::vector<std::uint32_t>* faces = nullptr);
-  /// Measures cells anew from the outlines that they were made with.
-  void measure(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells);
+            const CellLists& lists = {});
+  /// Adds what cells were made without, storeys and meshes, to their records, from their outlines and `shapes`.
+  void complete(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
+                std::vector<ShapeMeasure>* shapes);
   /// Makes all cells, which takes less than making each of them.
-  void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr,
-                std::vector<std::uint32_t>* faces = nullptr);
+  void make_all(const CellOptions& options, std::span<CellMeasure> cells, const CellLists& lists = {});
 
  private:
   void make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
-                  const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
-                  std::vector<std::uint32_t>* faces);
+                  const CellOptions& options, std::span<CellMeasure> cells, const CellLists& lists);
   std::size_t runs_per_thread(std::size_t threads, const CellOptions& options) const;
   void make_place(std::uint32_t site);
   bool has_room_for(std::uint32_t site, const Point3& position) const;
@@ -76,6 +81,8 @@ class CellWorkshop {
                 CellMeasure& out) const;
   void measure_one(std::uint32_t site, std::span<const Polyhedron> parts, const CellOptions& options, CellBench& bench,
                    CellMeasure& out) const;
+  void complete_one(std::uint32_t site, std::span<const Polyhedron> parts, const CellOptions& options,
+                    std::span<ShapeMeasure> shapes, CellMeasure& out) const;
   template <class Body>
   void share_out(std::size_t count, ThreadPool* pool, const Body& body);
   std::unique_ptr<CellBench> take_bench();

@@ -132,10 +132,10 @@ TEST(CellHistory, WhatIsCompletedLaterIsWhatIsMadeAtOnce) {
     for (int step = 0; step < 25; ++step) {
       for (std::size_t n = random.below(3); n > 0; --n) {
         change(sites, set.sites, random);
-        ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true}).ok());
+        ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_outlines = true}).ok());
       }
       if (random.below(4) == 0) heights[random.below(heights.size())] = random.uniform(0.05, 0.2);
-      ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_centroid = false, .with_outlines = true}).ok());
+      ASSERT_TRUE(diagram.update(sites, {.with_storeys = false, .with_outlines = true}).ok());
       const geometry::CellOptions asked{.storey_heights = heights, .tessellation_depth = random.below(8) == 0 ? 1 : 0};
       const auto cells = diagram.complete(asked);
       ASSERT_TRUE(cells.ok()) << cells.error().text();
@@ -155,12 +155,17 @@ TEST(CellHistory, WhatIsCompletedLaterIsWhatIsMadeAtOnce) {
   EXPECT_GT(kept, 0u);
 }
 
-TEST(CellHistory, OnlyCellsWithOutlinesCanBeCompleted) {
+TEST(CellHistory, OnlyCellsWithOutlinesAndCentroidsCanBeCompleted) {
   geometry::PowerDiagram diagram;
   ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
   EXPECT_FALSE(diagram.complete({}).ok());
-  ASSERT_TRUE(diagram.update(random_sites(20, 1, 0.01, 0.02)).ok());
+  const auto sites = random_sites(20, 1, 0.01, 0.02);
+  ASSERT_TRUE(diagram.update(sites).ok());
   EXPECT_FALSE(diagram.complete({}).ok());
+  ASSERT_TRUE(diagram.update(sites, {.with_centroid = false, .with_outlines = true}).ok());
+  EXPECT_FALSE(diagram.complete({}).ok());
+  ASSERT_TRUE(diagram.update(sites, {.with_outlines = true}).ok());
+  EXPECT_TRUE(diagram.complete({}).ok());
 }
 
 }  // namespace
