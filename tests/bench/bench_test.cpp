@@ -74,6 +74,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
       EXPECT_EQ(row["fit_hash"].get<std::string>().size(), 16u) << row;
       continue;
     }
+    if (kind == "tick_growth") { EXPECT_GT(row["moving_ms"].get<double>(), row["alone_ms"].get<double>()) << row; }
     if (kind == "rays") { EXPECT_EQ(row["differing_rays"], 0) << row; }
     if (kind == "ways") { EXPECT_EQ(row["same"], "yes") << row; }
     if (kind == "traffic") {
@@ -104,7 +105,8 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"tick", 30},
                                                {"plan", 9},
                                                {"past", 1},
-                                               {"load", 1}}));
+                                               {"load", 1},
+                                               {"tick_growth", 1}}));
   EXPECT_EQ(hashes.size(), 23u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
@@ -128,13 +130,15 @@ TEST(SolverBench, FitsAreMetAndDragsKeepTheirTolerance) {
 
 TEST(SolverBench, ChartsAreWholeDrawings) {
   const Workplace place;
-  const Outcome outcome = place.bench({"--solver", "--quick", "--rows", "growth", "study", "--sites", "30", "60", "--chart",
-                                       "charts", "--json", "rows.json", "--threads", "1"});
+  const Outcome outcome = place.bench({"--solver", "--quick", "--rows", "growth", "tick_growth", "study", "--sites", "30", "60",
+                                       "--chart", "charts", "--json", "rows.json", "--threads", "1"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("sixty_volumes"), std::string::npos) << "there is no such study in the folder";
-  const std::string growth = place.text("charts/growth.svg");
-  EXPECT_TRUE(growth.starts_with("<svg ")) << growth.substr(0, 80);
-  EXPECT_NE(growth.find("</svg>"), std::string::npos);
+  for (const char* name : {"charts/growth.svg", "charts/tick_growth.svg"}) {
+    const std::string growth = place.text(name);
+    EXPECT_TRUE(growth.starts_with("<svg ")) << growth.substr(0, 80);
+    EXPECT_NE(growth.find("</svg>"), std::string::npos) << name;
+  }
   EXPECT_FALSE(std::filesystem::exists(place.path("charts/feedback_newton.svg")));
 }
 

@@ -31,8 +31,8 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember(
-          {"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan", "past", "load"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan",
+                             "past", "load", "tick_growth"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")
@@ -41,7 +41,7 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_option("--tntp", o.tntp, "Of the solver: networks for the rows of traffic, NAME_net.tntp with NAME_trips.tntp.")
       ->type_name("DIR")
       ->needs(solver);
-  c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
+  c.add_option("--chart", o.chart, "Of the solver: writes growth.svg, tick_growth.svg and feedback_newton.svg into a folder.")
       ->type_name("DIR")
       ->needs(solver);
   files_of(c).reads({"scenes", "--tntp"}).writes("--json", FileKind::figures).fills("--chart", {".svg"});

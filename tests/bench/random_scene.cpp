@@ -21,6 +21,19 @@ std::string padded(int number, int count) {
   return "v" + std::string(last.size() - text.size(), '0') + text;
 }
 
+// Keeps all volumes on the move, so that no tick shares anything with the one before.
+constexpr const char* kWalker = R"(return {id = 'stroll', doc = 'Walks about.',
+  reads = {ids = {at = 'to', port = 'node.id', whole = true}},
+  proposes = {moves = {at = 'to', port = 'node.position', whole = true}},
+  evaluate = function(params, ends, tick)
+    local moves = {}
+    for i, id in ipairs(ends.ids) do
+      moves[i] = point(random(id, tick.index, 1) - 0.5, random(id, tick.index, 2) - 0.5, random(id, tick.index, 3) - 0.5)
+    end
+    return {moves = moves}
+  end}
+)";
+
 }  // namespace
 
 Result<Scene> random_scene(int count, const Registry& registry, double fill) {
@@ -69,6 +82,17 @@ Result<Scene> linked_scene(int count, double fill) {
   join("inside", "inside_boundary", {{"box"}, {}, {}}, volumes, {{"margin", 1.0}});
   join("cap", "set_cap", {{"sum"}, {}, {}}, volumes, {{"cap", 1e12}});
   join("apart", "keep_distance", tagged, tagged, {{"minimum", 12.0}, {"maximum", 1e6}});
+  return scene;
+}
+
+Result<Scene> restless_scene(int count, double fill) {
+  auto scene = linked_scene(count, fill);
+  if (!scene) return scene.error();
+  scene->scripts = Scripts::read({{"stroll", kWalker}}, full_registry());
+  LinkRecord& link = scene->links["stroll"];
+  link.kind = "stroll";
+  link.from.ids = {"box"};
+  link.to = {{}, "smart_volume", {}};
   return scene;
 }
 

@@ -14,4 +14,7 @@ Result<Scene> random_scene(int count, const Registry& registry, double fill = 0.
 /// its kind: three links to sets.
 Result<Scene> linked_scene(int count, double fill);
 
+/// The same, and a script moves every volume by up to half a metre along each axis in every tick.
+Result<Scene> restless_scene(int count, double fill);
+
 }  // namespace bl::cli::bench

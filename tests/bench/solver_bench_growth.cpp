@@ -14,8 +14,6 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr double kGrowthFill = 0.7;
-// Below so many sites the pages that a system hands out are larger than what is to be measured.
-constexpr int kLeastMeasured = 1000;
 
 struct GrowthCurve {
   const char *label, *key, *colour, *dashes;

@@ -13,32 +13,8 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr int kSamples = 12;
-// Keeps all volumes on the move, so that no tick shares anything with the one before.
-constexpr const char* kWalker = R"(return {id = 'stroll', doc = 'Walks about.',
-  reads = {ids = {at = 'to', port = 'node.id', whole = true}},
-  proposes = {moves = {at = 'to', port = 'node.position', whole = true}},
-  evaluate = function(params, ends, tick)
-    local moves = {}
-    for i, id in ipairs(ends.ids) do
-      moves[i] = point(random(id, tick.index, 1) - 0.5, random(id, tick.index, 2) - 0.5, random(id, tick.index, 3) - 0.5)
-    end
-    return {moves = moves}
-  end}
-)";
-
-Result<Scene> restless_scene(int count) {
-  auto scene = linked_scene(count, 0.7);
-  if (!scene) return scene.error();
-  scene->scripts = Scripts::read({{"stroll", kWalker}}, full_registry());
-  LinkRecord& link = scene->links["stroll"];
-  link.kind = "stroll";
-  link.from.ids = {"box"};
-  link.to = {{}, "smart_volume", {}};
-  return scene;
-}
-
 Result<void> time_past(const SolverBench& bench, int count, int ticks, BenchTable& table) {
-  const auto scene = restless_scene(count);
+  const auto scene = restless_scene(count, 0.7);
   if (!scene) return scene.error();
   Simulation simulation(full_registry(), 1);
   simulation.set_scene(*scene);

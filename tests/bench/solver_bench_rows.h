@@ -88,6 +88,9 @@ std::string hash_of(std::span<const geometry::CellMeasure> cells);
 /// Fills of the boundary that fits are measured at.
 inline constexpr double kFills[] = {0.3, 0.7, 0.95, 0.99, 1.0};
 
+/// Below so many sites the pages that a system hands out are larger than the memory that is to be measured.
+inline constexpr int kLeastMeasured = 1000;
+
 // --- Rows ---------------------------------------------------------------------------------------------------------------------
 
 using BenchTables = Result<std::vector<BenchTable>>;
@@ -109,6 +112,8 @@ BenchTables bench_rays(const SolverBench& bench);
 BenchTables bench_traffic(const SolverBench& bench);
 /// Whole ticks, against ticks that evaluate everything.
 BenchTables bench_tick(const SolverBench& bench);
+/// Ticks and memory over the number of volumes, beside the solver alone.
+BenchTables bench_tick_growth(const SolverBench& bench);
 /// Plans and states after one edit, against compiling the whole scene.
 BenchTables bench_plan(const SolverBench& bench);
 /// Memory of ten thousand ticks that a rewind can reach, and the time of a rewind.

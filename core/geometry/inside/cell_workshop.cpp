@@ -365,9 +365,7 @@ std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions
 
 void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, const CellLists& lists) {
   const auto order = ground_.grid.order();
-  const auto body = [&](std::size_t begin, std::size_t end) {
-    make_range(order, true, begin, end, options, cells, lists);
-  };
+  const auto body = [&](std::size_t begin, std::size_t end) { make_range(order, true, begin, end, options, cells, lists); };
   const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
   const std::size_t runs = threads > 1 && order.size() > 2 * kSitesAtATime ? threads * runs_per_thread(threads, options) : 1;
   if (runs > 1) {
