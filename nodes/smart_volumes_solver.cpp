@@ -49,7 +49,7 @@ struct SmartVolumesSolver {
     double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
     double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
     std::string state, reason;
-    Table neighbours;
+    Shared<Table> neighbours;
     Point3 centroid;
     MeshPointer mesh;
     double hang = 0, drop = 0;
@@ -228,6 +228,19 @@ struct SmartVolumesSolver {
     return is_denied(member, wanted) ? 1.0 : wanted > 0 ? std::abs(volume - wanted) / wanted : 0.0;
   }
 
+  static Shared<Table> neighbours_of(const geometry::CellMeasure& cell, std::span<const std::string> names) {
+    Table table{{"node", "area"}, {}};
+    table.rows.reserve(cell.facets.size());
+    for (const geometry::FacetArea& facet : cell.facets)
+      if (facet.kind == geometry::FacetArea::Kind::site) {
+        TableRow& row = table.rows.emplace_back();
+        row.reserve(2);
+        row.emplace_back(names[facet.index]);
+        row.emplace_back(facet.area);
+      }
+    return table;
+  }
+
   // Of what the fit and the cell of one member come to.
   static Reply reply_of(std::uint32_t i, const Volumes& volumes, const geometry::VolumeTick::Outcome& done,
                         std::span<const Member> members, std::span<const std::string> names) {
@@ -251,7 +264,7 @@ struct SmartVolumesSolver {
         .last_direction = done.state.direction.empty() ? 0 : done.state.direction[i],
         .state = std::string(name_of(cell.state)),
         .reason = wanted > 0 ? geometry::with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-        .neighbours = {{"node", "area"}, {}},
+        .neighbours = neighbours_of(cell, names),
         .centroid = cell.centroid,
         .mesh = cell.mesh,
         .hang = done.stances[i].hang,
@@ -259,8 +272,6 @@ struct SmartVolumesSolver {
         .stands_on = on == geometry::Stance::kNothing  ? ""
                      : on == geometry::Stance::kGround ? "the ground"
                                                        : names[static_cast<std::size_t>(on)]};
-    for (const geometry::FacetArea& facet : cell.facets)
-      if (facet.kind == geometry::FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     if (!is_denied(members[i], wanted)) return reply;
     reply.state = std::string(name_of(geometry::SiteState::starved));
     reply.reason = "its limit of " + fixed(members[i].limit, 1) + " m³ leaves it next to nothing of the " +
