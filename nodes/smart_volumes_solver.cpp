@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -228,25 +229,16 @@ struct SmartVolumesSolver {
     return is_denied(member, wanted) ? 1.0 : wanted > 0 ? std::abs(volume - wanted) / wanted : 0.0;
   }
 
-  static Shared<Table> neighbours_of(const geometry::CellMeasure& cell, std::span<const std::string> names) {
-    Table table{{"node", "area"}, {}};
-    table.rows.reserve(cell.facets.size());
-    for (const geometry::FacetArea& facet : cell.facets)
-      if (facet.kind == geometry::FacetArea::Kind::site) {
-        TableRow& row = table.rows.emplace_back();
-        row.reserve(2);
-        row.emplace_back(names[facet.index]);
-        row.emplace_back(facet.area);
-      }
-    return table;
-  }
-
   // Of what the fit and the cell of one member come to.
   static Reply reply_of(std::uint32_t i, const Volumes& volumes, const geometry::VolumeTick::Outcome& done,
                         std::span<const Member> members, std::span<const std::string> names) {
     const geometry::CellMeasure& cell = done.cells[i];
     const double wanted = volumes.wanted[i], weight = volumes.sites[i].weight;
     const std::int32_t on = done.stances[i].stands_on;
+    Table neighbours{{"node", "area"}, {}};
+    neighbours.rows.reserve(cell.facets.size());
+    for (const geometry::FacetArea& facet : cell.facets)
+      if (facet.kind == geometry::FacetArea::Kind::site) neighbours.rows.push_back({names[facet.index], facet.area});
     Reply reply{
         .wanted = wanted,
         .weight = weight,
@@ -264,7 +256,7 @@ struct SmartVolumesSolver {
         .last_direction = done.state.direction.empty() ? 0 : done.state.direction[i],
         .state = std::string(name_of(cell.state)),
         .reason = wanted > 0 ? geometry::with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-        .neighbours = neighbours_of(cell, names),
+        .neighbours = std::move(neighbours),
         .centroid = cell.centroid,
         .mesh = cell.mesh,
         .hang = done.stances[i].hang,
