@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -49,7 +50,7 @@ struct SmartVolumesSolver {
     double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
     double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
     std::string state, reason;
-    Table neighbours;
+    Shared<Table> neighbours;
     Point3 centroid;
     MeshPointer mesh;
     double hang = 0, drop = 0;
@@ -234,6 +235,10 @@ struct SmartVolumesSolver {
     const geometry::CellMeasure& cell = done.cells[i];
     const double wanted = volumes.wanted[i], weight = volumes.sites[i].weight;
     const std::int32_t on = done.stances[i].stands_on;
+    Table neighbours{{"node", "area"}, {}};
+    neighbours.rows.reserve(cell.facets.size());
+    for (const geometry::FacetArea& facet : cell.facets)
+      if (facet.kind == geometry::FacetArea::Kind::site) neighbours.rows.push_back({names[facet.index], facet.area});
     Reply reply{
         .wanted = wanted,
         .weight = weight,
@@ -251,7 +256,7 @@ struct SmartVolumesSolver {
         .last_direction = done.state.direction.empty() ? 0 : done.state.direction[i],
         .state = std::string(name_of(cell.state)),
         .reason = wanted > 0 ? geometry::with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-        .neighbours = {{"node", "area"}, {}},
+        .neighbours = std::move(neighbours),
         .centroid = cell.centroid,
         .mesh = cell.mesh,
         .hang = done.stances[i].hang,
@@ -259,8 +264,6 @@ struct SmartVolumesSolver {
         .stands_on = on == geometry::Stance::kNothing  ? ""
                      : on == geometry::Stance::kGround ? "the ground"
                                                        : names[static_cast<std::size_t>(on)]};
-    for (const geometry::FacetArea& facet : cell.facets)
-      if (facet.kind == geometry::FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     if (!is_denied(members[i], wanted)) return reply;
     reply.state = std::string(name_of(geometry::SiteState::starved));
     reply.reason = "its limit of " + fixed(members[i].limit, 1) + " m³ leaves it next to nothing of the " +

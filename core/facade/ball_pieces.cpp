@@ -98,10 +98,19 @@ class PieceMaker {
   BallPiece* keep(std::span<const Point3> polygon, const Vector3& doubled) {
     const double size = norm(doubled);
     if (!(size > 0)) return nullptr;
-    if (!out_.about_outward(polygon) && !(norm(out_.outward(polygon)) > 0)) return nullptr;
+    const Vector3 about = about_outward(polygon);
+    if (about == Vector3{} && !(norm(out_.outward(polygon)) > 0)) return nullptr;
     const auto first = static_cast<std::uint32_t>(out_.corners.size());
-    for (const Point3& corner : polygon) out_.corners.push_back(corner);
-    return &out_.pieces.emplace_back(BallPiece{first, static_cast<std::uint32_t>(polygon.size()), doubled / size, 0.5 * size, 0});
+    out_.corners.insert(out_.corners.end(), polygon.begin(), polygon.end());
+    out_.area += 0.5 * size;
+    return &out_.pieces.emplace_back(BallPiece{first, static_cast<std::uint32_t>(polygon.size()), doubled / size, about, 0});
+  }
+
+  Vector3 about_outward(std::span<const Point3> polygon) const {
+    Vector3 sum;
+    for (const Point3& corner : polygon) sum += corner - out_.centre;
+    constexpr double kFarEnough = 1e-8;  // squared: at 1e-4 of the coordinates rounding is 1e-11 of the direction
+    return squared_norm(sum) > kFarEnough * squared_norm(out_.centre) ? sum : Vector3{};
   }
 
   Projection projection_;

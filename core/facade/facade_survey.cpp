@@ -15,38 +15,37 @@ namespace {
 using Polygon = std::vector<Point3>;
 using Corners = std::span<const Point3>;
 
-// The few corners of a small piece, without memory of their own: there are thousands of pieces.
-class Piece {
- public:
-  void push_back(const Point3& p) {
-    if (count_ < at_.size()) at_[count_++] = p;
-  }
-  operator Corners() const { return std::span(at_).first(count_); }
-
- private:
-  std::array<Point3, 8> at_;  // a clipped triangle has at most six, and a level cut adds one
-  std::size_t count_ = 0;
-};
-
 using Plane2 = std::array<double, 2>;
 
 // Steeper than 45 degrees is façade: |n.z| <= cos 45°.
 constexpr double kSteep = 0.70710678118654757;
 constexpr double kMostStoreys = 10000;
 
-template <class Part>
-Part below(Corners polygon, double height) {
-  Part out;
+// Hands the corners of what lies below a height to `out`, in their order.
+template <class Out>
+void cut_below(Corners polygon, double height, const Out& out) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-    if (a.z <= height) out.push_back(a);
-    if ((a.z < height && b.z > height) || (a.z > height && b.z < height))
-      out.push_back(a + ((height - a.z) / (b.z - a.z)) * (b - a));
+    if (a.z <= height) out(a);
+    if ((a.z < height && b.z > height) || (a.z > height && b.z < height)) out(a + ((height - a.z) / (b.z - a.z)) * (b - a));
   }
-  return out;
 }
 
 double flat_area(Corners polygon, const Vector3& normal) { return std::max(0.0, 0.5 * doubled_area(polygon, normal)); }
+
+// As flat_area() of what lies below a height, triangle by triangle, without keeping its corners: there are thousands of pieces.
+double flat_area_below(Corners polygon, const Vector3& normal, double height) {
+  Point3 first, last;
+  int count = 0;
+  double doubled = 0;
+  cut_below(polygon, height, [&](const Point3& corner) {
+    if (count == 0) first = corner;
+    else if (count > 1) doubled += dot(normal, cross(last - first, corner - first));
+    last = corner;
+    ++count;
+  });
+  return std::max(0.0, 0.5 * doubled);
+}
 
 // What a piece of surface counts as, and where it looks to if it is façade.
 struct Facing {
@@ -61,15 +60,14 @@ Facing facing_of(const Vector3& normal, const Compass& compass) {
 }
 
 // Of a piece of the ball: by comparing squares where these leave no doubt, without roots and divisions.
-Facing facing_of(const BallPieces& round, Corners polygon, const Compass& compass) {
-  if (const auto about = round.about_outward(polygon)) {
-    const double squared = squared_norm(*about), steepness = about->z * about->z - kSteep * kSteep * squared;
-    constexpr double kDoubtful = 1e-8;
-    if (steepness > kDoubtful * squared) return {about->z > 0 ? Facing::Side::roof : Facing::Side::underside};
-    if (steepness < -kDoubtful * squared)
-      if (const auto orientation = compass.of_about(*about)) return {Facing::Side::facade, *orientation};
-  }
-  const Vector3 outward = round.outward(polygon);
+Facing facing_of(const BallPieces& round, const BallPiece& piece, const Compass& compass) {
+  const Vector3& about = piece.about_outward;
+  const double squared = squared_norm(about), steepness = about.z * about.z - kSteep * kSteep * squared;
+  constexpr double kDoubtful = 1e-8;
+  if (steepness > kDoubtful * squared) return {about.z > 0 ? Facing::Side::roof : Facing::Side::underside};
+  if (steepness < -kDoubtful * squared)
+    if (const auto orientation = compass.of_about(about)) return {Facing::Side::facade, *orientation};
+  const Vector3 outward = round.outward(round.of(piece));
   return facing_of(outward / norm(outward), compass);
 }
 
@@ -102,16 +100,16 @@ class Surveyor {
   explicit Surveyor(const SurveyOptions& options) : options_(options), compass_(options.true_north) {}
   const Compass& compass() const { return compass_; }
 
-  /// Adds the polygon, whose whole area is given; `area` gives that of any part of it, which is held as `Part`.
-  template <class Part, class Area>
-  void add(Corners polygon, const Facing& facing, double whole, double scale, const Area& area) {
+  /// Adds the polygon, whose whole area is given; `area_below` gives that of what lies below a height.
+  template <class AreaBelow>
+  void add(Corners polygon, const Facing& facing, double whole, const AreaBelow& area_below) {
     if (!(whole > 0)) return;
     double low = polygon[0].z, high = low;
     for (const Point3& p : polygon) {
       low = std::min(low, p.z);
       high = std::max(high, p.z);
     }
-    if (facing.side == Facing::Side::facade) add_facade<Part>(polygon, low, high, facing.orientation, whole, scale, area);
+    if (facing.side == Facing::Side::facade) add_facade(low, high, facing.orientation, whole, area_below);
     else if (facing.side == Facing::Side::roof) out_.roof += whole;
     else (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
   }
@@ -129,15 +127,13 @@ class Surveyor {
  private:
   static constexpr double kOnGround = 1e-6;  // [m]
 
-  template <class Part, class Area>
-  void add_facade(Corners polygon, double low, double high, Orientation orientation, double whole, double scale,
-                  const Area& area) {
+  template <class AreaBelow>
+  void add_facade(double low, double high, Orientation orientation, double whole, const AreaBelow& area_below) {
     // The area below each height; what lies between two heights is the difference, so that all of them add up to the whole.
     double done = 0;
     const auto up_to = [&](double height) {
-      const double reached = height >= high  ? whole
-                             : height <= low ? 0
-                                             : std::min(whole, scale * area(below<Part>(polygon, height)));
+      if (height <= low && height < high) return 0.0;
+      const double reached = height >= high ? whole : std::min(whole, area_below(height));
       return std::max(0.0, reached - std::exchange(done, std::max(done, reached)));
     };
     out_.ground += up_to(options_.ground);
@@ -150,7 +146,9 @@ class Surveyor {
       const double floor = options_.base + storey * height;
       FacadeRow& row = row_of(static_cast<int>(storey), orientation);
       row.below += up_to(floor + std::clamp(band.sill, 0.0, height));
+      if (done >= whole) return;
       row.band += up_to(floor + std::clamp(band.head, 0.0, height));
+      if (done >= whole) return;
       row.above += up_to(storey + 1 < kMostStoreys ? options_.base + (storey + 1) * height : high);
     }
   }
@@ -182,20 +180,25 @@ void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& s
       for (const std::size_t corner : {1u, 2u}) polygon.push_back(mesh.vertices[mesh.triangles[face.first][corner]]);
     const Disc disc = mesh.wrap ? Disc::of(*mesh.wrap, face.normal, face.middle) : Disc{};
     const auto area = [&](Corners part) { return mesh.wrap ? disc.area(part) : flat_area(part, face.normal); };
-    if (face.is_shared) surveyor.out().shared += area(polygon);
-    else surveyor.add<Polygon>(polygon, facing_of(face.normal, surveyor.compass()), area(polygon), 1, area);
+    if (face.is_shared) {
+      surveyor.out().shared += area(polygon);
+      continue;
+    }
+    surveyor.add(polygon, facing_of(face.normal, surveyor.compass()), area(polygon), [&](double height) {
+      Polygon part;
+      cut_below(polygon, height, [&](const Point3& corner) { part.push_back(corner); });
+      return area(part);
+    });
   }
 }
 
 void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surveyor) {
   const BallPieces round = ball_pieces(mesh);
-  double measured = 0;
-  for (const BallPiece& piece : round.pieces) measured += piece.area;
-  const double scale = options.spherical_area >= 0 && measured > 0 ? options.spherical_area / measured : 1;
+  const double scale = options.spherical_area >= 0 && round.area > 0 ? options.spherical_area / round.area : 1;
   for (const BallPiece& piece : round.pieces) {
     const Corners polygon = round.of(piece);
-    surveyor.add<Piece>(polygon, facing_of(round, polygon, surveyor.compass()), scale * piece.flat_area, scale,
-                        [&](Corners part) { return flat_area(part, piece.flat_normal); });
+    surveyor.add(polygon, facing_of(round, piece, surveyor.compass()), scale * piece.flat_area,
+                 [&](double height) { return scale * flat_area_below(polygon, piece.flat_normal, height); });
   }
 }
 

@@ -20,21 +20,22 @@ struct SurveyCase {
   bool operator==(const SurveyCase&) const = default;
 };
 
-/// What it hands out depends on the cases alone: kept surveys are those of equal cases, with the very same meshes.
+/// What it hands out depends on the cases alone. Kept surveys are those of the very same meshes with the same options; neighbours
+/// matter by the faces that they cover.
 class SurveyCache {
  public:
   /// In the order of the cases; valid until the next call.
   std::vector<const FacadeSurvey*> of(const std::vector<SurveyCase>& cases, ThreadPool* pool);
-  /// How many the last call has made anew.
-  std::size_t made() const { return made_; }
 
  private:
   struct Entry {
     SurveyCase asked;
+    std::vector<ShapeFace> faces;  ///< of its mesh, those that neighbours cover marked
     FacadeSurvey survey;
   };
+  static void renew(const SurveyCase& one, Entry& entry);
+
   std::map<std::string, Entry> kept_;
-  std::size_t made_ = 0;
 };
 
 }  // namespace bl::facade

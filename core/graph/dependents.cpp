@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "core/graph/phases.h"
 
@@ -86,6 +87,16 @@ void find_rivals(SetDependents& index) {
     if (group.rivals != SetGroup::kNone && has_analysis[group.rivals]) group.is_always_due = true;
 }
 
+// Ports are written to twice by different groups, or by two sets of one.
+void find_contests(SetDependents& index, const Pairs& writing, std::size_t ports) {
+  constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+  std::vector<std::uint32_t> first(ports, kNobody);
+  for (const auto& [port, group] : writing) {
+    const std::uint32_t other = std::exchange(first[port], group);
+    if (other != kNobody) index.groups[other].writes_alone = index.groups[group].writes_alone = false;
+  }
+}
+
 void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
   Pairs reading, writing;
   std::size_t analysis = 0;
@@ -109,6 +120,7 @@ void add_groups(const Plan& plan, SetDependents& index, std::size_t ports) {
       for (const PortRef& ref : plan.sets[s].writes) writing.emplace_back(index.port_index(ref), group);
     }
   }
+  find_contests(index, writing, ports);
   index.groups_reading = NumberLists::made(ports, std::move(reading));
   index.groups_writing = NumberLists::made(ports, std::move(writing));
   find_rivals(index);

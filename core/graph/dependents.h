@@ -61,6 +61,8 @@ struct SetGroup {
   /// The first of the groups that it shares a port with to write to, or that share one with these, and so on; kNone where it has
   /// its ports to itself. Such groups are asked together, so that who comes first is found out.
   std::size_t rivals = kNone;
+  /// None of the ports that it replies to is written to twice, by a rival or by itself.
+  bool writes_alone = true;
   static constexpr std::size_t kNone = ~std::size_t{0};
 };
 

@@ -25,19 +25,21 @@ const Value& value_read(const State& frozen, const LinkRead& read, PortRef ref) 
 }
 
 LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, LinkReads* whole)
-    : LinkRun(frozen, plan, std::vector<std::uint32_t>{}) {
-  if (whole != nullptr) reads_ = whole;
-  collected_.resize(plan.targets.size());
-  has_failed_.resize(plan.targets.size());
-}
+    : LinkRun(frozen, plan, plan.targets.size(), whole) {}
 
 LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, std::vector<std::uint32_t> targets)
-    : frozen_(frozen), plan_(plan), definition_(*plan.definition), reads_(&own_reads_), targets_(std::move(targets)) {
+    : LinkRun(frozen, plan, targets.size(), nullptr) {
+  targets_ = std::move(targets);
+}
+
+LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, std::size_t targets, LinkReads* whole)
+    : frozen_(frozen), plan_(plan), definition_(*plan.definition), reads_(whole == nullptr ? &own_reads_ : whole) {
   is_pairwise_ = !definition_.is_whole(End::from) && !definition_.is_whole(End::to);
-  for (const LinkRead& read : definition_.reads) own_reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
+  if (whole == nullptr)
+    for (const LinkRead& read : definition_.reads) own_reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
   for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
-  collected_.resize(targets_.size());
-  has_failed_.resize(targets_.size());
+  collected_.resize(targets);
+  has_failed_.resize(targets);
 }
 
 void LinkRun::run(const Tick& tick) {

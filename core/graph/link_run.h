@@ -45,6 +45,7 @@ class LinkRun {
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
 
+  LinkRun(const State& frozen, const LinkPlan& plan, std::size_t targets, LinkReads* whole);
   std::size_t count(End end) const { return plan_.nodes[static_cast<int>(end)].size(); }
   // The places of the end that one evaluation of a pair does not take together.
   std::size_t steps(End end) const { return definition_.is_whole(end) ? 1 : count(end); }

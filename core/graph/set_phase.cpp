@@ -95,7 +95,13 @@ SetMemo& memo_of(SetMemos& memos, const Plan& plan, const SetGroup& group) {
   return memos[{plan.nodes[group.node].id, plan.nodes[group.node].types[group.type].definition->id}];
 }
 
-// Whether all that it replies can be written.
+void write_reply(StateDraft& next, PortRef target, Value&& value) {
+  if (next.value(target) == value) return;
+  next.edit(target) = std::move(value);
+  next.state.due.replied.push_back(target);
+}
+
+// Whether all that it replies can be written. What nobody else writes to is written at once.
 bool evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, std::vector<Reply>& replies) {
   StateDraft& next = work.next;
   const Plan& plan = *next.state.plan;
@@ -117,7 +123,9 @@ bool evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, std::vector<Re
       auto& value = one.sets[s].writes[w];
       if (!value) continue;
       if (make_storable(*value)) {
-        replies.push_back({.target = target_of(one, s, w), .value = std::move(*value), .node = one.node(), .type = one.type()});
+        const PortRef target = target_of(one, s, w);
+        if (one.group->writes_alone) write_reply(next, target, std::move(*value));
+        else replies.push_back({.target = target, .value = std::move(*value), .node = one.node(), .type = one.type()});
         continue;
       }
       is_complete = false;
@@ -253,12 +261,6 @@ void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCa
   hand_on();
 }
 
-void write_reply(StateDraft& next, Reply& reply) {
-  if (next.value(reply.target) == reply.value) return;
-  next.edit(reply.target) = std::move(reply.value);
-  next.state.due.replied.push_back(reply.target);
-}
-
 bool has_rivals(const SetDependents& dependents, const std::vector<Reply>& replies) {
   std::vector<bool> is_written(dependents.groups_writing.keys());
   for (const Reply& reply : replies) {
@@ -271,9 +273,10 @@ bool has_rivals(const SetDependents& dependents, const std::vector<Reply>& repli
 
 // Where two write to one port the first one has it, and the other one says so.
 void write_replies(StateDraft& next, std::vector<Reply>& replies) {
+  if (replies.empty()) return;
   const Plan& plan = *next.state.plan;
   if (!has_rivals(*plan.dependents->sets, replies)) {
-    for (Reply& reply : replies) write_reply(next, reply);
+    for (Reply& reply : replies) write_reply(next, reply.target, std::move(reply.value));
     return;
   }
   std::vector<std::size_t> order(replies.size());
@@ -289,7 +292,7 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
       continue;
     }
     first = at;
-    write_reply(next, reply);
+    write_reply(next, reply.target, std::move(reply.value));
   }
   std::sort(late.begin(), late.end());
   for (const auto& [at, before] : late) {
