@@ -9,6 +9,7 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/hash.h"
 #include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
@@ -161,13 +162,15 @@ Result<void> measure(int count, const WindowBenchOptions& options, Progress& pro
     if (times.empty()) return {};
     std::sort(times.begin(), times.end());
     const double middle = median(times), late = times[times.size() * 95 / 100];
-    table.add({what, one.name, fixed(1000 * middle, 3), fixed(1000 * late, 3), fixed(1000 * times.back(), 3)});
+    const std::string hash = hex_digits(window.editor().state().hash);
+    table.add({what, one.name, fixed(1000 * middle, 3), fixed(1000 * late, 3), fixed(1000 * times.back(), 3), hash});
     rows.push_back({{"volumes", count},
                     {"case", one.name},
                     {"frames", times.size()},
                     {"median_seconds", middle},
                     {"p95_seconds", late},
-                    {"longest_seconds", times.back()}});
+                    {"longest_seconds", times.back()},
+                    {"hash", hash}});
   }
   return {};
 }
@@ -176,7 +179,7 @@ int window_bench(const WindowBenchOptions& options) {
   catch_interrupts();
   print_line(machine_line());
   print_line("Processor time of the window's thread for each frame it draws, without the graphics driver.");
-  TextTable table({{"scene"}, {"frame"}, {"median ms", true}, {"p95 ms", true}, {"longest ms", true}});
+  TextTable table({{"scene"}, {"frame"}, {"median ms", true}, {"p95 ms", true}, {"longest ms", true}, {"hash", true}});
   nlohmann::json rows = nlohmann::json::array();
   {
     Progress progress;

@@ -35,6 +35,9 @@ void expect_same_facts(const SceneFacts& followed, const SceneFacts& fresh) {
   }
   for (const auto column : {&SightBalls::x, &SightBalls::y, &SightBalls::z, &SightBalls::squared_radius})
     EXPECT_EQ(followed.balls.*column, fresh.balls.*column);
+  EXPECT_EQ(followed.columns.node, fresh.columns.node);
+  EXPECT_EQ(followed.columns.radius, fresh.columns.radius);
+  EXPECT_EQ(followed.columns.position, fresh.columns.position);
   EXPECT_EQ(followed.places, fresh.places);
   EXPECT_EQ(followed.uses, fresh.uses);
   EXPECT_EQ(followed.links.size(), fresh.links.size());

@@ -27,7 +27,7 @@ class ViewGpu : public ::testing::Test {
   // The largest distance between corners of the same triangles, as a share of the cell's size.
   double worst_of(const geometry::CellMeasure& cell, int depth) {
     ViewScene scene;
-    scene.volumes.push_back({0, cell.mesh->coarse, 0, 0, 3, 0});
+    scene.volumes = listed({{0, cell.mesh->coarse, 0, 0, 3, 0}});
     const std::vector<float> ours = renderer_->divided(scene, depth);
     const Mesh& theirs = *cell.mesh;
     const Point3& ball = cell.mesh->coarse->wrap->ball_centre;
@@ -123,8 +123,10 @@ TEST_F(ViewGpu, WrapsFarFromTheOrigin) {
 
 TEST_F(ViewGpu, SendsOnlyWhatHasChanged) {
   ViewScene scene;
+  std::vector<ViewVolume> volumes;
   for (int k = 0; k < 20; ++k)
-    scene.volumes.push_back({static_cast<std::uint32_t>(k), ball_cell({30.0 * k, 0, 0}, 10), 0xff8080c0u, 0, 3, 0});
+    volumes.push_back({static_cast<std::uint32_t>(k), ball_cell({30.0 * k, 0, 0}, 10), 0xff8080c0u, 0, 3, 0});
+  scene.volumes = listed(volumes);
   scene.centre = {300, 0, 0};
   scene.radius = 320;
   (void)renderer_->take_bytes_sent();
@@ -136,7 +138,8 @@ TEST_F(ViewGpu, SendsOnlyWhatHasChanged) {
   scene.camera.azimuth += 0.3;
   renderer_->draw(scene, 200, 120);
   EXPECT_EQ(renderer_->take_bytes_sent(), 0u) << "a camera that turns sends nothing";
-  scene.volumes[3].cell = ball_cell({90, 5, 0}, 11);
+  volumes[3].cell = ball_cell({90, 5, 0}, 11);
+  scene.volumes = listed(volumes);
   (void)renderer_->take_bytes_spared();
   renderer_->draw(scene, 200, 120);
   const std::uint64_t one = renderer_->take_bytes_sent();
@@ -147,7 +150,7 @@ TEST_F(ViewGpu, SendsOnlyWhatHasChanged) {
 
 TEST_F(ViewGpu, DrawsVolumesWhereTheyStand) {
   ViewScene scene;
-  scene.volumes.push_back({0, ball_cell({0, 0, 10}, 10), 0xff3030e0u, 0, 3, 0});
+  scene.volumes = listed({{0, ball_cell({0, 0, 10}, 10), 0xff3030e0u, 0, 3, 0}});
   scene.centre = {0, 0, 8};
   scene.radius = 30;
   scene.colours.sky = 0xff302010u;
@@ -197,7 +200,7 @@ TEST_F(ViewGpu, SurvivesEmptyAndBrokenScenes) {
   EXPECT_EQ(renderer_->draw(scene, 0, 10), 0u);
   EXPECT_NE(renderer_->draw(scene, 16, 16), 0u);
   const double bad = std::nan("");
-  scene.volumes.push_back({0, ball_cell({bad, 0, 0}, 1), 0, 0, 0, 0});
+  scene.volumes = listed({{0, ball_cell({bad, 0, 0}, 1), 0, 0, 0, 0}});
   scene.lines.push_back({{bad, 0, 0}, {1, 1, 1}, 0xffffffffu, 2, 0});
   scene.camera.target = {bad, bad, bad};
   scene.camera.limit();

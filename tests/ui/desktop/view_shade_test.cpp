@@ -67,7 +67,7 @@ TEST_F(ViewShade, IsTranslucentAndNoOrderOfDrawingIsSeen) {
 }
 
 TEST_F(ViewShade, IsHiddenByVolumesThatStandBeforeIt) {
-  scene_.volumes.push_back({0, ball_cell({0, 0, 10}, 20), 0xff8080c0u, 0, 0, 0});
+  scene_.volumes = listed({{0, ball_cell({0, 0, 10}, 20), 0xff8080c0u, 0, 0, 0}});
   const auto without = drawn();
   scene_.bodies = {{box({-3, -3, 7}, {3, 3, 13}), kShade}};
   EXPECT_EQ(differing(drawn(), without), 0u) << "inside the ball";
@@ -75,7 +75,7 @@ TEST_F(ViewShade, IsHiddenByVolumesThatStandBeforeIt) {
 
 TEST_F(ViewShade, ThinLinesDoNotShineThroughWhatStandsBeforeThem) {
   scene_.layers.ground = false;
-  scene_.volumes.push_back({0, ball_cell({0, 0, 5}, 4), 0xff8080c0u, 0, 0, 0});
+  scene_.volumes = listed({{0, ball_cell({0, 0, 5}, 4), 0xff8080c0u, 0, 0, 0}});
   const auto without = drawn();
   const Point3 behind = Point3{0, 0, 5} + 5.0 * scene_.camera.forward();
   scene_.lines = {{behind - 2.0 * scene_.camera.right(), behind + 2.0 * scene_.camera.right(), 0xffffffffu, 1, 0}};

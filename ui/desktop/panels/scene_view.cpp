@@ -52,9 +52,9 @@ void SceneView::draw(ImVec2 size) {
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   follow_sun();
   follow_choice();
-  follow_colours();
   choices_.folder = editor_->document->folder();
-  ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
+  const Colouring& colouring = colours_.of(facts_, colour_choice(), editor_->theme);
+  ViewScene scene = build_view(*facts_, colouring, choices_, editor_->picks, editor_->person, editor_->theme, &pictures_);
   const bool has_same_cells = still_facts_ && has_same_shapes(facts_->volumes, still_facts_->volumes);
   if (scene.camera != still_camera_ || scene.sun != still_sun_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
@@ -106,8 +106,9 @@ void SceneView::draw_overlay() {
 void SceneView::forget() {
   document_ = 0;
   all_facts_ = facts_ = nullptr;
-  still_facts_ = coloured_ = nullptr;
-  uses_ = {};
+  still_facts_ = nullptr;
+  colours_ = {};
+  pictures_ = {};
   move_.reset();
   preview_.reset();
   is_sun_running_ = false;
@@ -157,16 +158,6 @@ void SceneView::follow_state() {
   camera.fit({facts_->centre.x, facts_->centre.y, facts_->ground + 0.35 * (facts_->centre.z - facts_->ground)},
              0.86 * facts_->radius, width() / std::max(1.0f, height()));
   set_camera(camera);
-}
-
-// Colours follow from what there is, and are kept as long as that is the same.
-void SceneView::follow_colours() {
-  const bool is_dark = editor_->theme.is_dark();
-  if (coloured_ == facts_ && coloured_by_ == colour_choice() && is_coloured_dark_ == is_dark) return;
-  coloured_ = facts_;
-  coloured_by_ = colour_choice();
-  is_coloured_dark_ = is_dark;
-  colouring_ = colour_volumes(*facts_, coloured_by_, editor_->theme, uses_.of(facts_->state));
 }
 
 void SceneView::set_camera(const Camera& camera) {

@@ -122,7 +122,6 @@ class SceneView {
   void follow_document();
   void follow_state();
   void advance_camera();
-  void follow_colours();
   void take_keys();
   void take_mouse();
   void draw_overlay();
@@ -208,11 +207,8 @@ class SceneView {
   std::shared_ptr<const SceneFacts> all_facts_, facts_;  ///< of the state; of those nodes that are not hidden
   HiddenNodes hidden_;
   std::set<std::string> left_out_;  ///< of `facts_`
-  Colouring colouring_;
-  std::shared_ptr<const SceneFacts> coloured_;  ///< what `colouring_` is of, by this choice and on this ground
-  std::string coloured_by_;
-  bool is_coloured_dark_ = false;
-  UseMemo uses_;
+  ColourMemo colours_;
+  VolumePictures pictures_;
   std::uint64_t document_ = 0;  ///< whose facts these are
   bool wants_fit_ = true, has_fitted_boundary_ = false;
   Camera from_, to_;

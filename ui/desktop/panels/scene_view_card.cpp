@@ -67,13 +67,14 @@ const VolumeFacts* SceneView::nearest_volume() const {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const VolumeFacts* nearest = hit_ ? facts_->volume_of(hit_->node) : nullptr;
   float least = editor_->theme.px(kReach);
-  for (const VolumeFacts& volume : facts_->volumes) {
-    const Seen at = seen(volume.figures.position);
+  const Lens lens(choices_.camera, width(), height());
+  for (std::size_t row = 0; row < facts_->volumes.size() && !hit_; ++row) {
+    const Seen at = lens.project(facts_->columns.position[row]);
     const ImVec2 p = on_screen(at);
     const float far = std::hypot(p.x - mouse.x, p.y - mouse.y);
-    if (hit_ || !at.is_in_front || far >= least) continue;
+    if (!at.is_in_front || far >= least) continue;
     least = far;
-    nearest = &volume;
+    nearest = &facts_->volumes[row];
   }
   const bool is_another = nearest != nullptr && !pointed_at_.empty() && pointed_at_ != nearest->id;
   return is_another ? nullptr : nearest;

@@ -32,7 +32,7 @@ std::size_t rows_in(const Legend& legend, float room, float line) {
 // it moves no other.
 std::vector<Legend> SceneView::legends() const {
   std::vector<Legend> all = urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
-  all.insert(all.begin(), colouring_.legend);
+  all.insert(all.begin(), colours_.last().legend);
   if (width() < editor_->theme.px(kNarrow)) all.push_back(isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
   std::erase_if(all, [](const Legend& legend) { return legend.rows.empty() && legend.ramp.empty(); });
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Legend& l) { return l.title == wanted_legend_; });

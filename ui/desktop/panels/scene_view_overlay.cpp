@@ -98,9 +98,9 @@ void SceneView::draw_marks() {
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) draw(mark.node, mark.id, mark.icon, c.line);
   for (std::size_t k = 0; k < facts_->volumes.size(); ++k) {
-    const VolumeFacts& volume = facts_->volumes[k];
-    const bool is_held = choices_.held.contains(volume.node);
-    if (!volume.cell || is_held) draw(volume.node, volume.id, Icon::cube, colouring_.colours[k]);
+    const std::uint32_t node = facts_->columns.node[k];
+    const bool has_shape = facts_->balls.squared_radius[k] >= 0, is_held = choices_.held.contains(node);
+    if (!has_shape || is_held) draw(node, id_of(node), Icon::cube, colours_.last().colours[k]);
   }
 }
 
@@ -124,23 +124,25 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
   const Lens lens(choices_.camera, width(), height());
   const double least = kLeastVolumeOnScreen * editor_->theme.scale(), of_marks = 14.0 * editor_->theme.scale();
   const std::size_t volumes = facts_->volumes.size(), marks = shows("marks") ? facts_->marks.size() : 0;
-  const auto is_lit = [&](const std::string& id, bool& is_chosen) {
-    is_chosen = editor_->picks.nodes.contains(id);
-    return editor_->picks.hovered_node == id;
-  };
+  std::set<std::uint32_t> chosen;
+  for (const std::string& id : editor_->picks.nodes) chosen.insert(seen_index(id));
+  const std::string& hovered_id = editor_->picks.hovered_node;
+  const std::uint32_t nobody = static_cast<std::uint32_t>(facts_->places.size());
+  const std::uint32_t hovered = hovered_id.empty() ? nobody : seen_index(hovered_id);
   std::vector<LabelCandidate> candidates;
-  const auto consider = [&](const std::string& id, std::uint32_t node, double size, std::size_t order) {
-    bool is_chosen = false;
-    const bool is_hovered = is_lit(id, is_chosen);
+  const auto consider = [&](std::uint32_t node, double size, std::size_t order) {
+    const bool is_chosen = chosen.contains(node), is_hovered = node == hovered;
+    if (!is_chosen && !is_hovered && size < least) return;
     const Seen at = lens.project(place_of(node));
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
-    if (!at.is_in_front || !is_inside || (!is_chosen && !is_hovered && size < least)) return;
+    if (!at.is_in_front || !is_inside) return;
     candidates.push_back({size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), order});
   };
   std::size_t order = 0;
-  for (const VolumeFacts& volume : facts_->volumes)
-    consider(volume.id, volume.node, volume.figures.radius / lens.metres_per_pixel(volume.figures.position), order++);
-  for (std::size_t k = 0; k < marks; ++k) consider(facts_->marks[k].id, facts_->marks[k].node, of_marks, order++);
+  const VolumeColumns& columns = facts_->columns;
+  for (std::size_t k = 0; k < volumes; ++k)
+    consider(columns.node[k], columns.radius[k] / lens.metres_per_pixel(columns.position[k]), order++);
+  for (std::size_t k = 0; k < marks; ++k) consider(facts_->marks[k].node, of_marks, order++);
   const std::size_t count = std::min(kMostLabels, candidates.size());
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
   std::vector<LabelRequest> wishes;
@@ -148,11 +150,10 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
     const std::size_t row = candidates[k].order;
     LabelRequest& wish = wishes.emplace_back();
     wish.is_mark = row >= volumes;
-    const std::string& id = wish.is_mark ? facts_->marks[row - volumes].id : facts_->volumes[row].id;
     wish.text = wish.is_mark ? &facts_->marks[row - volumes].name : &facts_->volumes[row].name;
     wish.node = wish.is_mark ? facts_->marks[row - volumes].node : facts_->volumes[row].node;
     wish.at = lens.project(place_of(wish.node));
-    wish.is_chosen = is_lit(id, wish.is_chosen) || wish.is_chosen;
+    wish.is_chosen = wish.node == hovered || chosen.contains(wish.node);
     wish.stream = stream_of(*editor_, *facts_->state, wish.node);
   }
   return wishes;
@@ -268,7 +269,7 @@ void SceneView::draw_tools() {
   if (ImGui::Button((std::string(icon::kEye) + "  Show##layers").c_str())) ImGui::OpenPopup("layers");
   ImGui::SameLine(0, theme.px(6));
   std::string label = "Use";
-  const auto known = colour_choices(*facts_);
+  const std::vector<ColourChoice>& known = colours_.choices(*facts_);
   for (const ColourChoice& choice : known)
     if (choice.id == colour_choice()) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");

@@ -78,6 +78,7 @@ const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
   figured_ = state;
   figured_at_ = editor.now;
   figures_ = std::make_unique<reading::ReportModel>();
+  ++figures_revision_;
   reading::read_figures(*figured_, *figures_);
   return *figures_;
 }

@@ -27,6 +27,8 @@ class RunRecord {
   /// Volumes, uses and totals of the current state; made when they are asked for. Of a large scene that changes in every frame
   /// they are those of a moment ago.
   const reading::ReportModel& figures(const Workbench& editor);
+  /// Grows whenever those are made.
+  std::uint64_t figures_revision() const { return figures_revision_; }
   /// Indices of the volumes in the order that is wanted; it settles down between changes.
   const std::vector<std::size_t>& ordered(const Workbench& editor);
 
@@ -42,6 +44,7 @@ class RunRecord {
 
   std::shared_ptr<const State> sampled_, figured_, sorted_;
   std::unique_ptr<reading::ReportModel> figures_;
+  std::uint64_t figures_revision_ = 0;
   std::vector<std::size_t> ordered_;
   std::uint64_t bytes_sent_ = 0;
   double sorted_at_ = -1, figured_at_ = -1, last_frame_ = 0;

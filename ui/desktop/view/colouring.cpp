@@ -51,10 +51,19 @@ std::string told(double value, Unit unit) {
   return unit == Unit::ratio ? reading::percent(value) : reading::quantity(value, unit);
 }
 
+Colour colour_by_use(const VolumeFacts& volume, const Theme& theme, const UseNumbers& numbers) {
+  return colour_of_use(theme, numbers.of(volume.figures.use));
+}
+
+// Against what was asked for: short to one side, more than that to the other.
+Colour colour_by_error(const VolumeFacts& volume, const Theme& theme) {
+  return theme.diverging(volume.standing() / kLargestShownError);
+}
+
 Colouring by_use(const SceneFacts& facts, const Theme& theme, const UseNumbers& numbers) {
   Colouring out;
   out.legend.title = "Use";
-  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_of_use(theme, numbers.of(volume.figures.use)));
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_by_use(volume, theme, numbers));
   // As they are numbered; what has no use comes last.
   std::vector<std::string> uses = facts.uses;
   std::stable_sort(uses.begin(), uses.end(),
@@ -63,7 +72,6 @@ Colouring by_use(const SceneFacts& facts, const Theme& theme, const UseNumbers& 
   return out;
 }
 
-// Against what was asked for: short to one side, more than that to the other.
 Colouring by_error(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
   out.legend = {"Volume against demand",
@@ -72,7 +80,7 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
                 reading::signed_percent(-kLargestShownError),
                 "met",
                 reading::signed_percent(kLargestShownError)};
-  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.standing() / kLargestShownError));
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_by_error(volume, theme));
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
   return out;
 }
@@ -121,7 +129,7 @@ const UseNumbers& UseMemo::of(const std::shared_ptr<const State>& state) {
   const bool is_same = changed && std::all_of(changed->begin(), changed->end(), [&](std::uint32_t node) {
                          return uses_of(*state_, node) == uses_of(*state, node);
                        });
-  if (!is_same) numbers_ = UseNumbers(state->plan->scene);
+  if (!is_same) numbers_ = UseNumbers(state->plan->scene), ++revision_;
   state_ = state;
   return *numbers_;
 }
@@ -166,10 +174,12 @@ std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
   return choices;
 }
 
-Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme, const UseNumbers& numbers) {
+namespace {
+
+Colouring coloured(const SceneFacts& facts, const std::string& choice, const std::vector<ColourChoice>& choices,
+                   const Theme& theme, const UseNumbers& numbers) {
   if (choice == "error") return by_error(facts, theme);
   // What another scene was coloured by may not be known to this one.
-  const std::vector<ColourChoice> choices = colour_choices(facts);
   const auto known = std::find_if(choices.begin(), choices.end(), [&](const ColourChoice& c) { return c.id == choice; });
   if (choice == "use" || known == choices.end()) return by_use(facts, theme, numbers);
   Unit unit = Unit::none;
@@ -189,6 +199,50 @@ Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, con
   out.legend.high = told(high, unit);
   if (high > low) out.legend.middle = told(0.5 * (low + high), unit);
   return out;
+}
+
+}  // namespace
+
+Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme, const UseNumbers& numbers) {
+  return coloured(facts, choice, colour_choices(facts), theme, numbers);
+}
+
+// They follow from the roles that nodes have, not from values.
+const std::vector<ColourChoice>& ColourMemo::choices(const SceneFacts& facts) {
+  const bool is_same =
+      chosen_from_ && chosen_from_->plan->dependents == facts.state->plan->dependents && nodes_ == facts.columns.node;
+  if (is_same) return choices_;
+  chosen_from_ = facts.state;
+  nodes_ = facts.columns.node;
+  return choices_ = colour_choices(facts);
+}
+
+// False where more than single volumes may have changed.
+bool ColourMemo::follow(const SceneFacts& facts, const Theme& theme, const UseNumbers& numbers) {
+  const bool is_by_use = choice_ == "use";
+  if ((!is_by_use && choice_ != "error") || facts.volumes.size() != facts_->volumes.size()) return false;
+  if (is_by_use && facts.uses != facts_->uses) return false;
+  for (std::size_t row = 0; row < facts.volumes.size(); ++row) {
+    if (row % VolumeList::kLeaf == 0 && facts.volumes.shares_leaf(facts_->volumes, row / VolumeList::kLeaf)) {
+      row += VolumeList::kLeaf - 1;
+      continue;
+    }
+    const VolumeFacts& volume = facts.volumes[row];
+    colouring_.colours[row] = is_by_use ? colour_by_use(volume, theme, numbers) : colour_by_error(volume, theme);
+  }
+  return true;
+}
+
+const Colouring& ColourMemo::of(const std::shared_ptr<const SceneFacts>& facts, const std::string& choice, const Theme& theme) {
+  const UseNumbers& numbers = uses_.of(facts->state);
+  const bool is_same_way = facts_ && choice_ == choice && is_dark_ == theme.is_dark() && uses_revision_ == uses_.revision();
+  if (!is_same_way || (facts_ != facts && !follow(*facts, theme, numbers)))
+    colouring_ = coloured(*facts, choice, choices(*facts), theme, numbers);
+  facts_ = facts;
+  choice_ = choice;
+  is_dark_ = theme.is_dark();
+  uses_revision_ = uses_.revision();
+  return colouring_;
 }
 
 }  // namespace bl::desktop

@@ -51,8 +51,11 @@ class UseNumbers {
 class UseMemo {
  public:
   const UseNumbers& of(const std::shared_ptr<const State>& state);
+  /// Grows whenever they are made anew.
+  std::uint64_t revision() const { return revision_; }
 
  private:
+  std::uint64_t revision_ = 0;
   std::shared_ptr<const State> state_;
   std::optional<UseNumbers> numbers_;
 };
@@ -71,5 +74,28 @@ Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, con
 inline Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme) {
   return colour_volumes(facts, choice, theme, UseNumbers(facts.state->plan->scene));
 }
+
+/// Colours and choices of one state after another: where a volume's colour follows from itself alone, only those that have
+/// changed are coloured again.
+class ColourMemo {
+ public:
+  const std::vector<ColourChoice>& choices(const SceneFacts& facts);
+  const Colouring& of(const std::shared_ptr<const SceneFacts>& facts, const std::string& choice, const Theme& theme);
+  /// What was asked for last.
+  const Colouring& last() const { return colouring_; }
+
+ private:
+  bool follow(const SceneFacts& facts, const Theme& theme, const UseNumbers& numbers);
+
+  UseMemo uses_;
+  std::shared_ptr<const SceneFacts> facts_;  ///< what `colouring_` is of, by this choice and on this ground
+  std::string choice_;
+  bool is_dark_ = false;
+  std::uint64_t uses_revision_ = 0;
+  Colouring colouring_;
+  std::shared_ptr<const State> chosen_from_;  ///< what `choices_` are of, and the nodes of its volumes
+  std::vector<std::uint32_t> nodes_;
+  std::vector<ColourChoice> choices_;
+};
 
 }  // namespace bl::desktop

@@ -68,20 +68,21 @@ bool GlRenderer::build(std::string& failure) {
     std::vector<const char*> captured;
   };
   const std::string nothing = version + "void main() {}\n";
-  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kFacade + shaders::kVolumeFragment, {}},
-                            {&p.cut_volumes,
-                             divide + shaders::kVolumeVertex,
-                             version + "#define WITH_SECTION\n" + light + shaders::kFacade + shaders::kVolumeFragment,
-                             {}},
-                            {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
-                            {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},
-                            {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
-                            {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
-                            {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
-                            {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
-                            {&p.pictures, version + shaders::kPictureVertex, version + shaders::kPictureFragment, {}},
-                            {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
-                            {&p.finish, version + shaders::kWholeVertex, version + shaders::kFinishFragment, {}}};
+  const Recipe recipes[] = {
+      {&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kFacade + shaders::kVolumeFragment, {}},
+      {&p.cut_volumes,
+       divide + shaders::kVolumeVertex,
+       version + "#define WITH_SECTION\n" + light + shaders::kFacade + shaders::kVolumeFragment,
+       {}},
+      {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
+      {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},
+      {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
+      {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
+      {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
+      {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
+      {&p.pictures, version + shaders::kPictureVertex, version + shaders::kPictureFragment, {}},
+      {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
+      {&p.finish, version + shaders::kWholeVertex, version + shaders::kFinishFragment, {}}};
   for (const Recipe& recipe : recipes)
     if (!recipe.program->build(recipe.vertex, recipe.fragment, recipe.captured)) {
       failure = "the graphics driver refuses a shader: " + recipe.program->failure();
@@ -100,21 +101,15 @@ bool GlRenderer::build(std::string& failure) {
 }
 
 int GlRenderer::affordable(const ViewScene& scene, int less) const {
-  std::size_t coarse = 0;
-  for (const ViewVolume& volume : scene.volumes) coarse += volume.cell->triangles.size();
   const int usual = !is_software_ ? kHardwareTriangles : scene.is_hurried ? kHurriedTriangles : kSoftwareTriangles;
   const int most = scene.most_triangles > 0 ? scene.most_triangles : usual;
-  return std::max(0, depth_within(coarse, most, is_software_ ? 3 : GlVolumes::kDeepest) - less);
+  return std::max(0, depth_within(coarse_triangles(scene.volumes), most, is_software_ ? 3 : GlVolumes::kDeepest) - less);
 }
 
 bool GlRenderer::has_new_shapes(const ViewScene& scene) const {
-  if (!has_last_ || scene.volumes.size() != last_.volumes.size() || scene.section != last_.section ||
-      scene.centre != last_.centre || scene.radius != last_.radius || scene.origin != last_.origin || scene.sun != last_.sun ||
-      scene.ground != last_.ground || scene.layers.shadows != last_.layers.shadows)
-    return true;
-  for (std::size_t k = 0; k < scene.volumes.size(); ++k)
-    if (scene.volumes[k].cell != last_.volumes[k].cell) return true;
-  return false;
+  return !has_last_ || scene.section != last_.section || scene.centre != last_.centre || scene.radius != last_.radius ||
+         scene.origin != last_.origin || scene.sun != last_.sun || scene.ground != last_.ground ||
+         scene.layers.shadows != last_.layers.shadows || !have_same_cells(scene.volumes, last_.volumes);
 }
 
 std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {

@@ -126,10 +126,10 @@ void GlVolumes::make_grids() {
   glBindVertexArray(0);
 }
 
-void GlVolumes::lay_out(std::span<const ViewVolume> volumes) {
-  slots_.assign(volumes.size(), {});
+void GlVolumes::lay_out(const ViewVolumes& volumes, std::size_t count) {
+  slots_.assign(count, {});
   corner_room_ = triangle_room_ = 0;
-  for (std::size_t k = 0; k < volumes.size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     Slot& slot = slots_[k];
     slot.first_corner = static_cast<std::uint32_t>(corner_room_);
     slot.first_triangle = static_cast<std::uint32_t>(triangle_room_);
@@ -139,8 +139,8 @@ void GlVolumes::lay_out(std::span<const ViewVolume> volumes) {
     triangle_room_ += slot.triangle_room;
   }
   corners_.reserve(corner_room_ * kCornerBytes);
-  records_.reserve(volumes.size() * kRecordBytes);
-  facades_.reserve(volumes.size() * kFacadeBytes);
+  records_.reserve(count * kRecordBytes);
+  facades_.reserve(count * kFacadeBytes);
   if (instances_.reserve(triangle_room_ * sizeof(Instance))) {
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
@@ -205,20 +205,37 @@ void GlVolumes::send_facade(std::size_t k, const ViewFacade& facade, Traffic& tr
   slot.has_facade = true;
 }
 
+bool GlVolumes::has_room_for(const ViewVolume& volume, std::size_t k) const {
+  return corners_of(*volume.cell) <= slots_[k].corner_room && volume.cell->triangles.size() <= slots_[k].triangle_room;
+}
+
 void GlVolumes::update(const ViewScene& scene, int depth, Traffic& traffic) {
   // More than the numbers of the instances reach would need another layout; no scene of volumes comes near it.
   const std::size_t count = std::min<std::size_t>(scene.volumes.size(), 0xffff);
-  const std::span<const ViewVolume> volumes = std::span(scene.volumes).first(count);
-  bool is_laid_out = slots_.size() != volumes.size();
-  for (std::size_t k = 0; k < volumes.size() && !is_laid_out; ++k)
-    is_laid_out =
-        corners_of(*volumes[k].cell) > slots_[k].corner_room || volumes[k].cell->triangles.size() > slots_[k].triangle_room;
-  if (is_laid_out) lay_out(volumes);
-  for (std::size_t k = 0; k < volumes.size(); ++k) {
+  const ViewVolumes& volumes = scene.volumes;
+  bool is_laid_out = slots_.size() != count;
+  // What the last picture had too is on the graphics processor already.
+  std::vector<std::size_t> news;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k % ViewVolumes::kLeaf == 0 && origin_ == scene.origin && volumes.shares_leaf(sent_, k / ViewVolumes::kLeaf)) {
+      k += ViewVolumes::kLeaf - 1;
+      continue;
+    }
+    news.push_back(k);
+    is_laid_out = is_laid_out || !has_room_for(volumes[k], k);
+  }
+  if (is_laid_out) {
+    lay_out(volumes, count);
+    news.resize(count);
+    std::iota(news.begin(), news.end(), std::size_t{0});
+  }
+  for (const std::size_t k : news) {
     send_cell(k, volumes[k], is_laid_out, depth, traffic);
     send_record(k, volumes[k], scene.origin, traffic);
     if ((volumes[k].flags & ViewVolume::dressed) != 0) send_facade(k, volumes[k].facade, traffic);
   }
+  sent_ = volumes;
+  origin_ = scene.origin;
 }
 
 void GlVolumes::draw(const GlProgram& program, int depth) const {

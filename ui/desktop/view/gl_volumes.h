@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "ui/desktop/view/gl_tools.h"
@@ -39,12 +38,15 @@ class GlVolumes {
     GLint base = 0;
   };
   void make_grids();
-  void lay_out(std::span<const ViewVolume> volumes);
+  void lay_out(const ViewVolumes& volumes, std::size_t count);
+  bool has_room_for(const ViewVolume& volume, std::size_t k) const;
   void send_cell(std::size_t k, const ViewVolume& volume, bool is_laid_out, int depth, Traffic& traffic);
   void send_facade(std::size_t k, const ViewFacade& facade, Traffic& traffic);
   void send_record(std::size_t k, const ViewVolume& volume, const Point3& origin, Traffic& traffic);
 
   std::vector<Slot> slots_;
+  ViewVolumes sent_;  ///< what the slots hold, relative to `origin_`
+  Point3 origin_;
   std::size_t corner_room_ = 0, triangle_room_ = 0;
   GlTexels corners_{GL_RGBA32F}, records_{GL_RGBA32F}, facades_{GL_RGBA32F};
   GlBuffer instances_;

@@ -85,21 +85,15 @@ struct BallOnTheWay {
   auto operator<=>(const BallOnTheWay&) const = default;
 };
 
-// Nearest first. All balls are looked at in one go without a branch, since a picture asks this for every label.
+// Nearest first.
 std::vector<BallOnTheWay> balls_on_the_way(const Ray& ray, const SightBalls& balls) {
-  const std::size_t count = balls.size();
-  std::vector<double> along(count), inside(count);  // to the ball's middle, and half of the way through it, squared
-  for (std::size_t k = 0; k < count; ++k) {
-    const double x = ray.origin.x - balls.x[k], y = ray.origin.y - balls.y[k], z = ray.origin.z - balls.z[k];
-    const double b = x * ray.direction.x + y * ray.direction.y + z * ray.direction.z;
-    along[k] = b;
-    inside[k] = b * b - (x * x + y * y + z * z - balls.squared_radius[k]);
-  }
   std::vector<BallOnTheWay> found;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!(inside[k] >= 0) || balls.squared_radius[k] < 0) continue;
-    const double root = std::sqrt(inside[k]);
-    if (-along[k] + root >= 0) found.push_back({std::max(0.0, -along[k] - root), k});
+  for (const std::uint32_t k : balls.rows_along(ray)) {
+    const Vector3 to = ray.origin - Point3{balls.x[k], balls.y[k], balls.z[k]};
+    const double along = dot(to, ray.direction), inside = along * along - (squared_norm(to) - balls.squared_radius[k]);
+    if (!(inside >= 0) || balls.squared_radius[k] < 0) continue;
+    const double root = std::sqrt(inside);
+    if (-along + root >= 0) found.push_back({std::max(0.0, -along - root), k});
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -163,7 +163,8 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
   const bool has_boundary = low.x <= high.x;
   if (has_boundary) facts.ground = low.z;
   if (!has_boundary)
-    for (const VolumeFacts& volume : facts.volumes) take(volume.figures.position, volume.figures.radius);
+    for (std::size_t row = 0; row < facts.columns.node.size(); ++row)
+      take(facts.columns.position[row], facts.columns.radius[row]);
   if (!(low.x <= high.x))
     for (const Point3& place : facts.places) take(place, 5);
   if (!(low.x <= high.x)) return;
@@ -177,17 +178,6 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
 }
 
 }  // namespace
-
-void SightBalls::resize(std::size_t size) {
-  for (auto* column : {&x, &y, &z, &squared_radius}) column->resize(size);
-}
-
-void SightBalls::set(std::size_t row, const MeshPointer& cell) {
-  const bool has_shape = cell != nullptr && cell->wrap;
-  const Point3 centre = has_shape ? cell->wrap->ball_centre : Point3{};
-  x[row] = centre.x, y[row] = centre.y, z[row] = centre.z;
-  squared_radius[row] = has_shape ? cell->wrap->radius * cell->wrap->radius : -1;
-}
 
 std::size_t SceneFacts::row_of(std::uint32_t node) const {
   std::size_t low = 0;
@@ -229,6 +219,20 @@ VolumeList published(VolumeList::Draft&& draft) {
   return std::move(draft).publish([](const VolumeFacts&, std::size_t) {}, [](const auto&, std::size_t) { return NoDigest{}; });
 }
 
+void set_columns(SceneFacts& facts, std::size_t row, const VolumeFacts& volume) {
+  facts.balls.set(row, volume.cell);
+  facts.columns.node[row] = volume.node;
+  facts.columns.radius[row] = volume.figures.radius;
+  facts.columns.position[row] = volume.figures.position;
+}
+
+void make_columns(SceneFacts& facts, const std::vector<VolumeFacts>& volumes) {
+  facts.balls.resize(volumes.size());
+  facts.columns.resize(volumes.size());
+  for (std::size_t row = 0; row < volumes.size(); ++row) set_columns(facts, row, volumes[row]);
+  facts.balls.group();
+}
+
 void read_uses(SceneFacts& facts) {
   std::set<std::string> uses;
   for (const VolumeFacts& volume : facts.volumes) uses.insert(volume.figures.use);
@@ -243,8 +247,7 @@ void read_all_nodes(const State& state, const SceneFacts* last, SceneFacts& fact
     VolumeFacts& volume = volumes.emplace_back(read_volume(state, std::move(account)));
     keep_ball(volume, last != nullptr ? last->volume_of(volume.node) : nullptr);
   }
-  facts.balls.resize(volumes.size());
-  for (std::size_t k = 0; k < volumes.size(); ++k) facts.balls.set(k, volumes[k].cell);
+  make_columns(facts, volumes);
   facts.volumes = published(VolumeList::Draft(std::move(volumes)));
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     if (const NodePlan& node = state.plan->nodes[n]; facts.volume_of(n) == nullptr && !has_own_picture(state, n))
@@ -260,6 +263,7 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
   facts.marks = last.marks;
   facts.links = last.links;
   facts.balls = last.balls;
+  facts.columns = last.columns;
   facts.uses = last.uses;
   for (const std::uint32_t n : changed) {
     facts.places[n] = reading::read<&reading::NodePlace::position>(state, n);
@@ -269,16 +273,19 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
   }
   VolumeList::Draft draft(last.volumes);
   bool has_other_use = false;
+  std::vector<std::size_t> rows;
   for (reading::VolumeAccount& account : reading::accounts_of_volumes(state, changed)) {
     VolumeFacts volume = read_volume(state, std::move(account));
     const VolumeFacts* before = last.volume_of(volume.node);
     const auto row = last.row_of(volume.node);
     keep_ball(volume, before);
     has_other_use |= before->figures.use != volume.figures.use;
-    facts.balls.set(row, volume.cell);
+    set_columns(facts, row, volume);
+    rows.push_back(row);
     draft.put(row, std::move(volume));
   }
   facts.volumes = published(std::move(draft));
+  facts.balls.refit(rows);
   if (has_other_use) read_uses(facts);
 }
 
@@ -307,8 +314,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   const auto is_gone = [&](const auto& item) { return is_hidden(item.node); };
   std::vector<VolumeFacts> shown;
   std::copy_if(facts.volumes.begin(), facts.volumes.end(), std::back_inserter(shown), [&](const auto& v) { return !is_gone(v); });
-  rest->balls.resize(shown.size());
-  for (std::size_t k = 0; k < shown.size(); ++k) rest->balls.set(k, shown[k].cell);
+  make_columns(*rest, shown);
   rest->volumes = published(VolumeList::Draft(std::move(shown)));
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);

@@ -14,6 +14,7 @@
 #include "core/reading/account.h"
 #include "ui/desktop/view/urban_facts.h"
 #include "ui/desktop/view/view_scene.h"
+#include "ui/desktop/view/volume_columns.h"
 
 namespace bl::desktop {
 
@@ -69,20 +70,12 @@ struct PullFacts {
 struct NoDigest {};
 using VolumeList = SharedList<VolumeFacts, NoDigest>;
 
-/// The balls that shapes lie in, in columns: lines of sight find what they may meet without a look at the shapes.
-struct SightBalls {
-  std::vector<double> x, y, z, squared_radius;  ///< a radius below 0: no shape
-
-  void resize(std::size_t size);
-  void set(std::size_t row, const MeshPointer& cell);
-  std::size_t size() const { return x.size(); }
-};
-
 struct SceneFacts {
   std::shared_ptr<const State> state;
   VolumeList volumes;
-  SightBalls balls;      ///< as volumes
-  double tolerance = 0;  ///< share of what was asked for below which nobody is short
+  SightBalls balls;       ///< as volumes
+  VolumeColumns columns;  ///< as volumes
+  double tolerance = 0;   ///< share of what was asked for below which nobody is short
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
   std::vector<MediaFacts> media;

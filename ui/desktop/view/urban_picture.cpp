@@ -76,7 +76,7 @@ struct UrbanPicture {
   void add_isochrones();
   void add_streets();
   void add_shade();
-  void add_bodies();
+  void add_edges();
   void add_sun_maps();
   void add_layers();
 };
@@ -115,24 +115,10 @@ void UrbanPicture::add_streets() {
   }
 }
 
-void UrbanPicture::add_bodies() {
-  const Colour stone = theme.is_dark() ? 0xff6d6762u : 0xffc9c5c0u;
+void UrbanPicture::add_edges() {
   const Colour ink = theme.is_dark() ? 0xffb8b2adu : 0xff5a544eu;
-  for (const BodyFacts& body : facts.urban.bodies) {
-    ViewVolume& shown = scene.volumes.emplace_back();
-    shown.node = body.node;
-    shown.cell = body.cell;
-    shown.colour = stone;
-    shown.flags = ViewVolume::plain;
-    // An assumed height is hatched, so that nobody takes it for a measured one.
-    if (body.is_assumed) shown.flags |= ViewVolume::hatched;
-    if (picks.hovered_node == body.id) shown.flags |= ViewVolume::hovered;
-    if (picks.nodes.contains(body.id)) shown.flags |= ViewVolume::chosen;
+  for (const BodyFacts& body : facts.urban.bodies)
     for (const auto& [a, b] : body.edges) line(a, b, faded(ink, 0.7f), 1, 0);
-  }
-  if (facts.urban.bodies.empty()) return;  // they are in order already
-  std::stable_sort(scene.volumes.begin(), scene.volumes.end(),
-                   [](const ViewVolume& a, const ViewVolume& b) { return a.node < b.node; });
 }
 
 void UrbanPicture::add_sun_maps() {
@@ -189,7 +175,7 @@ void add_urban(const SceneFacts& facts, const ViewChoices& choices, const Picks&
                    theme.px(picture.stands_out(shadow.id) ? 3.0f : 1.4f), 0.5f);
   if (shows("isochrones")) picture.add_isochrones();
   if (shows("streets")) picture.add_streets();
-  if (shows("buildings")) picture.add_bodies();
+  if (shows("buildings")) picture.add_edges();
   if (shows("data")) picture.add_layers();
   if (shows("shade_bodies")) picture.add_shade();
   if (const Vector3& sun = choices.sun.is_there ? choices.sun.toward : facts.urban.sun; sun.z > 0) scene.sun = sun / norm(sun);

@@ -39,7 +39,6 @@ constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", tr
                                                      {"sun_time", "Time of the sun, along the bottom", true},
                                                      {"data", "Data layers", true}}};
 
-constexpr Colour kPlaster = 0xffd8dde0u;
 constexpr int kCircleParts = 64;
 // A pull of one metre in a tick is drawn so long [m]: pulls are small against what they move.
 constexpr double kPullScale = 12;
@@ -64,7 +63,6 @@ struct Builder {
   }
 
   void add_frame();
-  void add_volumes();
   void add_boundary();
   void add_media();
   void add_links();
@@ -98,32 +96,6 @@ void Builder::add_frame() {
                    .cut = is_dark ? 0xff4a403au : 0xff5a504au,
                    .is_dark = is_dark};
   scene.layers = {.shadows = shows("shadows"), .edges = shows("edges"), .storeys = shows("storeys"), .ground = shows("grid")};
-}
-
-void Builder::add_volumes() {
-  std::set<std::uint32_t> joined;
-  for (const LinkFacts& link : facts.links)
-    if (link.id == picks.hovered_link || picks.links.contains(link.id)) joined.insert({link.from, link.to});
-  const bool has_facades = shows("facades"), has_chosen = !picks.nodes.empty();
-  scene.volumes.reserve(facts.volumes.size() + facts.urban.bodies.size());
-  for (std::size_t k = 0; k < facts.volumes.size(); ++k) {
-    const VolumeFacts& volume = facts.volumes[k];
-    if (!volume.cell) continue;
-    ViewVolume& shown = scene.volumes.emplace_back();
-    shown.node = volume.node;
-    shown.cell = volume.cell;
-    // A little plaster in every colour: the model stays calm beside the things that speak.
-    shown.colour = k < colouring.colours.size() ? mixed(colouring.colours[k], kPlaster, 0.16f) : kPlaster;
-    shown.bottom = static_cast<float>(volume.figures.bottom);
-    shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.figures.storey_height);
-    const bool is_hovered = volume.id == picks.hovered_node || joined.contains(volume.node);
-    if (is_hovered) shown.flags |= ViewVolume::hovered;
-    if (has_chosen && picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
-    if (volume.is_ball) shown.flags |= ViewVolume::dimmed;
-    if (!volume.is_dressed || volume.is_ball || !has_facades) continue;
-    shown.flags |= ViewVolume::dressed;
-    shown.facade = volume.facade;
-  }
 }
 
 void Builder::add_boundary() {
@@ -246,10 +218,13 @@ void set_layer(PersonSettings& person, const std::string& layer, bool is_on) {
 }
 
 ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const ViewChoices& choices, const Picks& picks,
-                     const PersonSettings& person, const Theme& theme) {
+                     const PersonSettings& person, const Theme& theme, VolumePictures* last) {
   Builder builder{facts, colouring, choices, picks, person, theme, {}};
   builder.add_frame();
-  builder.add_volumes();
+  VolumePictures fresh;
+  builder.scene.volumes =
+      (last != nullptr ? *last : fresh)
+          .of({facts, colouring.colours, picks, builder.shows("facades"), builder.shows("buildings"), theme.is_dark()});
   builder.add_boundary();
   builder.add_media();
   builder.add_links();

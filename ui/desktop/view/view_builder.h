@@ -12,6 +12,7 @@
 #include "ui/desktop/view/scene_facts.h"
 #include "ui/desktop/view/shade.h"
 #include "ui/desktop/view/view_scene.h"
+#include "ui/desktop/view/volume_pictures.h"
 
 namespace bl::desktop {
 
@@ -46,8 +47,9 @@ struct ViewChoices {
   std::shared_ptr<const Isochrones> isochrones = {};  ///< of the chosen node; none where they are not wanted
 };
 
+/// `last`: the volumes of the picture before this one, which become those of this one; null: all are made.
 ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const ViewChoices& choices, const Picks& picks,
-                     const PersonSettings& person, const Theme& theme);
+                     const PersonSettings& person, const Theme& theme, VolumePictures* last = nullptr);
 
 /// A distance of lines that people count with: 1, 2 or 5 times a power of ten, near to `wanted` [m].
 double round_distance(double wanted);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/mesh.h"
+#include "core/base/shared_list.h"
 #include "ui/desktop/view/camera.h"
 
 namespace bl::desktop {
@@ -38,6 +40,16 @@ struct ViewVolume {
   ViewFacade facade = {};  ///< where the flag `dressed` is set
   bool operator==(const ViewVolume&) const = default;
 };
+
+/// In ascending node. Pictures that follow each other share the volumes that look the same; each leaf knows how many coarse
+/// triangles it has.
+using ViewVolumes = SharedList<ViewVolume, std::size_t>;
+ViewVolumes published(ViewVolumes::Draft&& draft);
+inline ViewVolumes listed(std::vector<ViewVolume> volumes) { return published(ViewVolumes::Draft(std::move(volumes))); }
+/// What is shared is not looked at.
+bool operator==(const ViewVolumes& a, const ViewVolumes& b);
+bool have_same_cells(const ViewVolumes& a, const ViewVolumes& b);
+std::size_t coarse_triangles(const ViewVolumes& volumes);
 
 /// A line of a width in pixels; what lies behind volumes is hidden, or faint where `hidden_share` is above 0.
 struct ViewLine {
@@ -103,7 +115,7 @@ struct ViewScene {
   ViewColours colours;
   ViewLayers layers;
   ViewSection section;
-  std::vector<ViewVolume> volumes;  ///< ascending node
+  ViewVolumes volumes;
   std::vector<ViewSurface> surfaces;
   std::vector<ViewSurface> bodies;  ///< translucent, and seen as one: of those that lie behind each other only the nearest side
   std::vector<ViewLine> lines;

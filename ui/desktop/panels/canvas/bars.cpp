@@ -14,6 +14,10 @@ std::string BarFigures::text() const {
   return reading::readable(account.volume) + " / " + reading::quantity(account.asked, Unit::cubic_metre);
 }
 
+float BarFigures::share(double volume) const {
+  return static_cast<float>(volume / std::max({account.volume, account.asked, account.limited, 1e-9}));
+}
+
 BarFigures bar_figures(Workbench& editor, const NodeBox& box) {
   const reading::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
   BarFigures bar;

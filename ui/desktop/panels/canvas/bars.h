@@ -16,6 +16,8 @@ struct BarFigures {
 
   /// "400 / 600 m³": what there is, and what was asked for.
   std::string text() const;
+  /// Of the length of the bar, which is that of the largest of its figures.
+  float share(double volume) const;
 };
 
 /// Of a box with a SmartVolume. One that no tick has seen yet has nothing of what its scene asks for.

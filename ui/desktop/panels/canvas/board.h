@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ui/desktop/panels/canvas/camera.h"
+#include "ui/desktop/panels/canvas/glances.h"
 #include "ui/desktop/panels/canvas/live.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/panels/canvas/picker.h"
@@ -113,6 +114,7 @@ struct Board {
   Camera camera;
   Model model;
   Live live;
+  Glances glances;
   Picker picker;
   ContextMenu menu;
   Drag drag;

@@ -70,6 +70,7 @@ void canvas::follow_choice(Board& board) {
 namespace {
 
 void draw_layers(Board& board) {
+  board.glances.update(board);
   draw_ground(board);
   draw_frames_and_comments(board);
   draw_lines(board);

@@ -25,16 +25,18 @@ struct Ink {
   ImVec2 at(float x, float y) const { return board.camera.to_screen(ImVec2(x, y)); }
 };
 
-void draw_bar_of(const Ink& ink, const BarFigures& bar, ImVec2 low, ImVec2 high) {
-  const reading::Account& account = bar.account;
-  const double most = std::max({account.volume, account.asked, account.limited, 1e-9});
-  const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
+void draw_bar_ground(const Ink& ink, ImVec2 low, ImVec2 high, float share, AccountTone tone) {
   ink.list.AddRectFilled(low, high, ink.c.sunken);
-  ink.list.AddRectFilled(low, {x_of(account.volume), high.y}, faded(colour_of_account(ink.board.theme(), bar.tone), 0.85f));
-  if (ink.zoom < kNameZoom) return;
+  ink.list.AddRectFilled(low, {low.x + (high.x - low.x) * share, high.y},
+                         faded(colour_of_account(ink.board.theme(), tone), 0.85f));
+}
+
+void draw_bar_of(const Ink& ink, const BarFigures& bar, ImVec2 low, ImVec2 high) {
+  const auto x_of = [&](double v) { return low.x + (high.x - low.x) * bar.share(v); };
+  draw_bar_ground(ink, low, high, bar.share(bar.account.volume), bar.tone);
   // What was asked for, and what limits leave of it where that is less.
   const float reach = std::max(1.0f, 1.5f * ink.k);
-  const double asked = account.asked, limited = account.limited;
+  const double asked = bar.account.asked, limited = bar.account.limited;
   ink.list.AddRectFilled({x_of(asked) - reach, low.y - reach}, {x_of(asked), high.y + reach}, ink.c.text);
   if (bar.is_limited) ink.list.AddRectFilled({x_of(limited) - reach, low.y}, {x_of(limited), high.y}, ink.c.warning);
 }
@@ -181,15 +183,14 @@ float draw_hidden_badge(const Ink& ink, const NodeBox& box, ImVec2 right, float 
 }
 
 // Far away: the name as large as fits, on the colour of the first role.
-void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
-  const ImU32 tone = tone_of(ink.board, box);
+void draw_as_name(const Ink& ink, NodeBox& box, const Glance& glance, const Box& screen) {
+  const ImU32 tone = glance.tone;
   const float round = screen.size.x > 40 ? 3.0f : 0.0f, stripe = std::max(2.0f, 6 * ink.k), bar = std::max(2.0f, 12 * ink.k);
   ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.14f), round);
   ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
-  for (const Section& section : box.sections)
-    if (section.has_bar && !box.is_collapsed)
-      draw_bar_of(ink, bar_figures(ink.board.editor, box), {screen.low().x + stripe + 2, screen.high().y - bar - 2},
-                  screen.high() - ImVec2(3, 2));
+  if (glance.has_bar && !box.is_collapsed)
+    draw_bar_ground(ink, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2), glance.bar_share,
+                    glance.bar_tone);
   if (screen.size.x < 34) return;
   const float badge = std::max(12 * ink.k, 9 * ink.board.theme().scale());
   draw_hidden_badge(
@@ -255,13 +256,13 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
             box.name, room);
 }
 
-void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool has_error) {
-  const Workbench& editor = ink.board.editor;
-  const bool is_picked = editor.picks.nodes.contains(box.id), is_hovered = editor.picks.lit_node == box.id;
+// `stands_out`: it is chosen or pointed at.
+void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool has_error, bool stands_out) {
+  const bool is_picked = stands_out && ink.board.editor.picks.nodes.contains(box.id), is_hovered = stands_out && !is_picked;
   const float round = ink.zoom < kNameZoom ? (screen.size.x > 40 ? 3.0f : 0.0f) : kRounding * ink.k;
   const float scale = ink.board.theme().scale();
   // Thousands of small boxes are told apart by the ground between them.
-  if (!is_picked && !is_hovered && !has_error && screen.size.x < 40) return;
+  if (!stands_out && !has_error && screen.size.x < 40) return;
   const ImU32 colour = is_picked    ? ink.c.accent
                        : has_error  ? ink.c.bad
                        : is_hovered ? mixed(ink.c.line, ink.c.accent, 0.6f)
@@ -280,30 +281,26 @@ void draw_handles(const Ink& ink, const Box& screen, bool is_at_edge) {
   }
 }
 
-void draw_node(const Ink& ink, NodeBox& box) {
+void draw_whole(const Ink& ink, NodeBox& box, const Box& screen) {
+  const State& state = ink.board.editor.state();
+  const bool is_known = box.in_state != kNoIndex;
+  const std::string error = is_known ? error_of(state, box.in_state) : "";
+  const float round = kRounding * ink.k;
+  ink.list.AddRectFilled(screen.low() + ImVec2(0, 2 * ink.k), screen.high() + ImVec2(0, 3 * ink.k), IM_COL32(0, 0, 0, 38), round);
+  ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node, round);
+  draw_head(ink, box, is_known ? worst_tension(state, box.in_state) : 0, !error.empty());
+  float y = box.box.at.y + kHeadHeight;
+  if (!box.is_collapsed)
+    for (std::size_t k = 0; k < box.sections.size(); ++k) y = draw_section(ink, box, box.sections[k], k, y);
+  if (!error.empty() && ink.zoom >= kTextZoom)
+    draw_text(ink.board, {screen.low().x, screen.high().y + 3 * ink.k}, 10.5f * ink.k, ink.c.bad, error, 2 * screen.size.x);
+}
+
+void draw_node(const Ink& ink, NodeBox& box, const Glance& glance, bool stands_out) {
   const Box screen = ink.board.camera.to_screen(box.box);
-  const Workbench& editor = ink.board.editor;
-  std::string error;
-  double tension = 0;
-  if (box.in_state != kNoIndex) {
-    error = error_of(editor.state(), box.in_state);
-    if (ink.zoom >= kNameZoom) tension = worst_tension(editor.state(), box.in_state);
-  }
-  if (ink.zoom < kNameZoom) {
-    draw_as_name(ink, box, screen);
-  } else {
-    const float round = kRounding * ink.k;
-    ink.list.AddRectFilled(screen.low() + ImVec2(0, 2 * ink.k), screen.high() + ImVec2(0, 3 * ink.k), IM_COL32(0, 0, 0, 38),
-                           round);
-    ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node, round);
-    draw_head(ink, box, tension, !error.empty());
-    float y = box.box.at.y + kHeadHeight;
-    if (!box.is_collapsed)
-      for (std::size_t k = 0; k < box.sections.size(); ++k) y = draw_section(ink, box, box.sections[k], k, y);
-    if (!error.empty() && ink.zoom >= kTextZoom)
-      draw_text(ink.board, {screen.low().x, screen.high().y + 3 * ink.k}, 10.5f * ink.k, ink.c.bad, error, 2 * screen.size.x);
-  }
-  draw_outline(ink, box, screen, !error.empty());
+  if (ink.zoom < kNameZoom) draw_as_name(ink, box, glance, screen);
+  else draw_whole(ink, box, screen);
+  draw_outline(ink, box, screen, glance.has_error, stands_out);
 }
 
 }  // namespace
@@ -357,12 +354,16 @@ void draw_nodes(Board& board) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Ink ink{board, list, board.theme().colours(), board.camera.factor(), board.camera.zoom()};
   const Box sight = board.camera.sight().grown(20);
-  const auto& picks = board.editor.picks.nodes;
+  const Picks& picks = board.editor.picks;
+  std::vector<NodeBox>& boxes = board.model.boxes;
   // What is chosen or pointed at lies above the rest.
-  for (NodeBox& box : board.model.boxes)
-    if (box.box.touches(sight) && !picks.contains(box.id) && board.editor.picks.lit_node != box.id) draw_node(ink, box);
-  for (NodeBox& box : board.model.boxes)
-    if (box.box.touches(sight) && (picks.contains(box.id) || board.editor.picks.lit_node == box.id)) draw_node(ink, box);
+  std::vector<std::size_t> upper;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    if (!boxes[k].box.touches(sight)) continue;
+    if (picks.nodes.contains(boxes[k].id) || picks.lit_node == boxes[k].id) upper.push_back(k);
+    else draw_node(ink, boxes[k], board.glances.of(k), false);
+  }
+  for (const std::size_t k : upper) draw_node(ink, boxes[k], board.glances.of(k), true);
   const Thing thing = board.hovered.thing;
   if (is_body(thing) && board.drag.deed == DragMode::none && board.hovered.index < board.model.anchors() && ink.zoom > 0.15)
     draw_handles(ink, board.camera.to_screen(board.model.anchor(board.hovered.index)),

@@ -93,7 +93,7 @@ void draw_minimap(Board& board) {
     const Box& box = board.model.anchor(n);
     const bool is_box = n < board.model.boxes.size();
     const NodeBox* node = is_box ? &board.model.boxes[n] : nullptr;
-    ImU32 tone = node == nullptr ? c.text_faint : faded(tone_of(board, *node), 0.75f);
+    ImU32 tone = node == nullptr ? c.text_faint : faded(board.glances.of(n).tone, 0.75f);
     if (node != nullptr && board.editor.picks.nodes.contains(node->id)) tone = c.accent;
     const ImVec2 low = origin + box.low() * k, high = origin + box.high() * k;
     list.AddRectFilled(low, {std::max(high.x, low.x + 1), std::max(high.y, low.y + 1)}, tone);

@@ -71,4 +71,10 @@ std::string error_of(const State& state, std::uint32_t node) {
   return "";
 }
 
+bool has_error(const State& state, std::uint32_t node) {
+  const auto& types = state.nodes[node].types;
+  return std::any_of(types.begin(), types.end(),
+                     [](const TypeState& type) { return type.error && !type.error->message.empty(); });
+}
+
 }  // namespace bl::desktop::canvas

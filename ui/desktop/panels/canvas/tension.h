@@ -27,5 +27,6 @@ std::vector<Pull> pulls_of(const State& state, std::uint32_t node);
 std::vector<std::string> voices_at(const State& state, PortRef port);
 /// Why a node's typification fails, or empty.
 std::string error_of(const State& state, std::uint32_t node);
+bool has_error(const State& state, std::uint32_t node);
 
 }  // namespace bl::desktop::canvas

@@ -1,0 +1,58 @@
+// Bars follow the figures, which large scenes make anew only now and then; errors follow the state.
+#include "ui/desktop/panels/canvas/glances.h"
+
+#include <algorithm>
+
+#include "ui/desktop/panels/canvas/bars.h"
+#include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/tension.h"
+#include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/statistics_record.h"
+#include "ui/desktop/view/changed_nodes.h"
+
+namespace bl::desktop::canvas {
+
+void Glances::read_all(Board& board) {
+  const State& state = board.editor.state();
+  const std::vector<NodeBox>& boxes = board.model.boxes;
+  rows_.assign(boxes.size(), {});
+  box_of_node_.assign(state.nodes.size(), kNoIndex);
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const NodeBox& box = boxes[k];
+    rows_[k].tone = tone_of(board, box);
+    rows_[k].has_bar = std::any_of(box.sections.begin(), box.sections.end(), [](const Section& s) { return s.has_bar; });
+    if (box.in_state == kNoIndex) continue;
+    box_of_node_[box.in_state] = static_cast<std::uint32_t>(k);
+    rows_[k].has_error = has_error(state, box.in_state);
+  }
+  read_bars(board);
+}
+
+void Glances::read_bars(Board& board) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!rows_[k].has_bar) continue;
+    const BarFigures bar = bar_figures(board.editor, board.model.boxes[k]);
+    rows_[k].bar_tone = bar.tone;
+    rows_[k].bar_share = bar.share(bar.account.volume);
+  }
+}
+
+void Glances::update(Board& board) {
+  const std::shared_ptr<const State>& state = board.editor.moment->state;
+  RunRecord& record = *memory_of(board.editor).record;
+  (void)record.figures(board.editor);
+  const bool is_same_model = state_ && revision_ == board.model.revision;
+  const auto changed = is_same_model ? changed_nodes(*state_, *state) : std::nullopt;
+  if (!changed) {
+    read_all(board);
+  } else {
+    for (const std::uint32_t node : *changed)
+      if (const std::uint32_t box = box_of_node_[node]; box != kNoIndex) rows_[box].has_error = has_error(*state, node);
+    if (figures_ != record.figures_revision()) read_bars(board);
+  }
+  state_ = state;
+  revision_ = board.model.revision;
+  figures_ = record.figures_revision();
+}
+
+}  // namespace bl::desktop::canvas
