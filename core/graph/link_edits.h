@@ -35,14 +35,11 @@ inline std::vector<std::uint32_t> places_after(std::size_t count, std::span<cons
   return places;
 }
 
-/// A SharedList of links with those that stay in their new places. Those that were added are still to be put.
-template <class List>
-typename List::Draft moved_links(const List& before, std::size_t size, std::span<const LinkEdit> edits) {
-  typename List::Draft draft(before, size);
-  const std::vector<std::uint32_t> places = places_after(before.size(), edits);
-  for (std::size_t l = 0; l < places.size(); ++l)
-    if (places[l] != LinkEdit::kNone && places[l] != l) draft.share(places[l], before.item(l));
-  return draft;
+/// By index now: the index before, or LinkEdit::kNone. `count`: how many there are now.
+inline std::vector<std::uint32_t> origins_of(std::size_t count, std::span<const LinkEdit> edits) {
+  std::vector<LinkEdit> back;
+  for (const LinkEdit& edit : edits) back.push_back({edit.now, edit.before});
+  return places_after(count, back);
 }
 
 }  // namespace bl

@@ -228,7 +228,7 @@ void carry_links(const State& old, const Amended& amended, StateDraft& draft) {
   std::vector<std::uint32_t> again;
   for (const std::uint32_t link : due.links)
     if (places[link] != LinkEdit::kNone) again.push_back(places[link]);
-  draft.links = moved_links(old.links, amended.plan->links.size(), amended.links);
+  draft.links = LinkStates::Draft(old.links, origins_of(amended.plan->links.size(), amended.links));
   for (const LinkEdit& edit : amended.links) {
     if (!edit.is_removed()) again.push_back(edit.now);
     if (edit.is_added()) {
@@ -284,6 +284,10 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }
+  // A set with other members or ports is asked by its settings; so are those that write to the same ports.
+  for (const auto& [n, t] : amended.sets)
+    for (std::uint16_t p = 0; p < state.plan->nodes[n].types[t].set_values.size(); ++p)
+      state.due.replied.push_back({n, static_cast<std::uint16_t>(t), p});
   merge_from(changed, state.due.changed);
   merge_from(replied, state.due.replied);
   std::sort(state.due.nodes.begin(), state.due.nodes.end());
