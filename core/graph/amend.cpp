@@ -60,27 +60,48 @@ bool differs_plainly(const NodePlan& plan, const NodeRecord& before, const NodeR
   });
 }
 
-// A node of both scenes that differs.
+// A node that differs between two scenes; nullptr where there is none.
 struct NodeDifference {
-  std::uint32_t index = 0;
+  ItemEdit edit;
   const SharedMap<NodeRecord>::value_type *before = nullptr, *now = nullptr;
-  // Its tags, locks, or values that name nodes, ports or units: links and sets may find other nodes or ports there.
-  bool is_other_to_find = false;
+  // Links and sets may find something else there: it has come or gone, or has other tags, locks, or values that name nodes, ports
+  // or units.
+  bool is_other_to_find = true;
+  bool is_only_tagged = false;  // this because of its tags alone: who found it before and finds it now finds the same
 };
 
-// Nothing where nodes have come or gone, or have got other typifications.
+NodeRecord with_tags_of(const NodeRecord& other, NodeRecord node) {
+  const std::string base(kBaseNode), tags = "tags";
+  const auto from = other.types.find(base);
+  const auto to = node.types.find(base);
+  if (from == other.types.end() || to == node.types.end()) return node;
+  to->second.erase(tags);
+  if (const auto said = from->second.find(tags); said != from->second.end()) to->second.insert(*said);
+  return node;
+}
+
+template <class Item>
+std::uint32_t index_in(const SharedItems<Item>& items, const std::string& id) {
+  const auto at =
+      std::lower_bound(items.begin(), items.end(), id, [](const Item& item, const std::string& key) { return item.id < key; });
+  return static_cast<std::uint32_t>(at - items.begin());
+}
+
+// Ascending; nothing where nodes have got other typifications.
 std::optional<std::vector<NodeDifference>> node_changes(const Plan& plan, const Scene& scene) {
   std::vector<NodeDifference> changes;
+  EditCount count;
   const bool has_same_types = plan.scene.nodes.each_difference(scene.nodes, [&](const auto* old, const auto* now) {
-    if (old == nullptr || now == nullptr) return false;
+    const std::uint32_t place = index_in(plan.nodes, (now != nullptr ? now : old)->first);
+    NodeDifference& change = changes.emplace_back(NodeDifference{count.next(place, old, now), old, now});
+    if (old == nullptr || now == nullptr) return true;
     const auto &before = old->second.types, &after = now->second.types;
-    if (!std::equal(before.begin(), before.end(), after.begin(), after.end(),
-                    [](const auto& x, const auto& y) { return x.first == y.first; }))
-      return false;
-    NodeDifference& change = changes.emplace_back(NodeDifference{plan.node_index(now->first), old, now});
-    change.is_other_to_find =
-        old->second.locked != now->second.locked || !differs_plainly(plan.nodes[change.index], old->second, now->second);
-    return true;
+    const bool has_same_locks = old->second.locked == now->second.locked;
+    change.is_other_to_find = !has_same_locks || !differs_plainly(plan.nodes[place], old->second, now->second);
+    change.is_only_tagged = change.is_other_to_find && has_same_locks &&
+                            differs_plainly(plan.nodes[place], with_tags_of(now->second, old->second), now->second);
+    return std::equal(before.begin(), before.end(), after.begin(), after.end(),
+                      [](const auto& x, const auto& y) { return x.first == y.first; });
   });
   if (!has_same_types) return std::nullopt;
   return changes;
@@ -88,21 +109,23 @@ std::optional<std::vector<NodeDifference>> node_changes(const Plan& plan, const 
 
 void amend_nodes(const std::vector<NodeDifference>& changes, const Registry& registry, Amended& amended, Plan& plan) {
   SharedItems<NodePlan>::Draft drafts(plan.nodes);
-  for (const NodeDifference& change : changes) {
-    NodePlan node = compiled_node(plan.scene, registry, change.now->first, change.now->second);
-    for (std::size_t t = 0; t < node.types.size(); ++t) node.types[t].is_served = plan.nodes[change.index].types[t].is_served;
-    drafts.put(change.index, std::move(node));
-    const NodeRecord &before = change.before->second, &now = change.now->second;
-    if (before.types != now.types || before.locked != now.locked) amended.nodes.push_back(change.index);
+  for (const auto& [edit, before, now, is_other, is_tagged] : changes) {
+    if (edit.is_removed()) continue;
+    if (is_other || before->second.types != now->second.types) amended.nodes.push_back(edit.now);
+    if (edit.is_added()) continue;  // it was made where the others were moved
+    NodePlan node = compiled_node(plan.scene, registry, now->first, now->second);
+    for (std::size_t t = 0; t < node.types.size(); ++t) node.types[t].is_served = plan.nodes[edit.now].types[t].is_served;
+    drafts.put(edit.now, std::move(node));
   }
   plan.nodes = published<NodePlan>(std::move(drafts));
 }
 
-// Does the selection mean one of the nodes, or did it before?
+// May the selection find other nodes or ports now, among these?
 bool concerns(const std::vector<NodeDifference>& changes, const Registry& registry, const Selection& selection) {
+  const auto means = [&](const auto* node) { return node != nullptr && selects(registry, selection, node->first, node->second); };
   return std::any_of(changes.begin(), changes.end(), [&](const NodeDifference& change) {
-    return selects(registry, selection, change.before->first, change.before->second) ||
-           selects(registry, selection, change.now->first, change.now->second);
+    const bool was_meant = means(change.before), is_meant = means(change.now);
+    return change.is_only_tagged ? was_meant != is_meant : was_meant || is_meant;
   });
 }
 
@@ -114,7 +137,8 @@ void amend_sets(const Plan& before, const std::vector<NodeDifference>& found, co
     const SetPlan& set = before.sets[s];
     const TypePlan &old = before.nodes[set.node].types[set.type], &now = plan.nodes[set.node].types[set.type];
     const std::size_t port = now.definition->port_index(now.definition->sets[set.set].selection);
-    const bool is_own = std::any_of(found.begin(), found.end(), [&](const NodeDifference& one) { return one.index == set.node; });
+    const bool is_own = std::any_of(found.begin(), found.end(),
+                                    [&](const NodeDifference& one) { return !one.is_only_tagged && one.edit.now == set.node; });
     const bool may_differ = is_own || concerns(found, registry, *std::get<Shared<Selection>>(old.set_values[port])) ||
                             concerns(found, registry, *std::get<Shared<Selection>>(now.set_values[port]));
     if (!may_differ) continue;
@@ -122,8 +146,8 @@ void amend_sets(const Plan& before, const std::vector<NodeDifference>& found, co
     sets[s] = compiled_set(plan, registry, set.node, set.type, set.set);
     amended.sets.emplace_back(set.node, set.type);
   }
-  if (sets.empty()) return;
-  plan.sets = SharedVector<SetPlan>(std::move(sets));
+  if (sets.empty() && !amended.moved) return;
+  if (!sets.empty()) plan.sets = SharedVector<SetPlan>(std::move(sets));
   std::vector<std::uint32_t> nodes;
   const std::vector<std::uint32_t> served = mark_served(plan);
   std::set_union(amended.nodes.begin(), amended.nodes.end(), served.begin(), served.end(), std::back_inserter(nodes));
@@ -135,13 +159,6 @@ struct LinkChange {
   const SharedMap<LinkRecord>::value_type *before = nullptr, *now = nullptr;
   bool finds_anew = false;
 };
-
-// Where the link is, or would be.
-std::uint32_t link_place(const SharedItems<LinkPlan>& links, const std::string& id) {
-  const auto at = std::lower_bound(links.begin(), links.end(), id,
-                                   [](const LinkPlan& link, const std::string& key) { return link.id < key; });
-  return static_cast<std::uint32_t>(at - links.begin());
-}
 
 // The links that differ, and those that are the same but may find other nodes or ports at their ends; ascending.
 std::vector<LinkChange> link_changes(const Scene& before, const Scene& scene, const std::vector<NodeDifference>& found,
@@ -170,21 +187,16 @@ std::vector<LinkChange> link_changes(const Scene& before, const Scene& scene, co
 // The nodes of the plan are done: the ports of the links are found among them.
 void amend_links(const Plan& before, const std::vector<LinkChange>& changes, const Registry& registry, Amended& amended,
                  Plan& plan) {
-  std::uint32_t added = 0, removed = 0;
-  for (const LinkChange& change : changes) {
-    LinkEdit& edit = amended.links.emplace_back();
-    const std::uint32_t place = link_place(before.links, (change.now != nullptr ? change.now : change.before)->first);
-    if (change.before != nullptr) edit.before = place;
-    if (change.now != nullptr) edit.now = place + added - removed;
-    if (change.before == nullptr) ++added;
-    if (change.now == nullptr) ++removed;
-  }
+  EditCount count;
+  for (const LinkChange& change : changes)
+    amended.links.push_back(count.next(index_in(before.links, (change.now != nullptr ? change.now : change.before)->first),
+                                       change.before, change.now));
   if (changes.empty()) return;
   const LinkCompiler compiler(plan, registry);
   SharedItems<LinkPlan>::Draft drafts(before.links, origins_of(plan.scene.links.size(), amended.links));
   for (std::size_t c = 0; c < changes.size(); ++c) {
     const auto& [old, now, finds_anew] = changes[c];
-    const LinkEdit& edit = amended.links[c];
+    const ItemEdit& edit = amended.links[c];
     if (now == nullptr) continue;
     drafts.put(edit.now, old == nullptr || finds_anew ? compiler.compiled(now->first, now->second)
                                                       : compiler.amended(before.links[edit.before], old->second, now->second));
@@ -196,26 +208,31 @@ void amend_links(const Plan& before, const std::vector<LinkChange>& changes, con
 
 std::optional<Amended> amend(const Plan& plan, const Scene& scene, const Registry& program) {
   const Scene& before = plan.scene;
-  if (before.nodes.size() != scene.nodes.size() || before.settings != scene.settings || !(before.scripts == scene.scripts))
-    return std::nullopt;
+  if (before.settings != scene.settings || !(before.scripts == scene.scripts)) return std::nullopt;
   const auto nodes = node_changes(plan, scene);
   if (!nodes) return std::nullopt;
   std::vector<NodeDifference> found;
   std::copy_if(nodes->begin(), nodes->end(), std::back_inserter(found),
                [](const NodeDifference& one) { return one.is_other_to_find; });
+  // Definitions belong to the scripts of the scene that was compiled: the copies keep these, which say the same.
+  const Registry& registry = before.scripts.types(program);
   Amended amended;
-  auto made = std::make_shared<Plan>(plan);
-  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
+  std::vector<ItemEdit> edits;
+  for (const NodeDifference& one : *nodes) edits.push_back(one.edit);
+  const bool is_moved =
+      std::any_of(edits.begin(), edits.end(), [](const ItemEdit& one) { return one.is_added() || one.is_removed(); });
+  if (is_moved) amended.moved = moved_plan(plan, scene, edits, registry);
+  const Plan& base = is_moved ? *amended.moved->plan : plan;
+  auto made = std::make_shared<Plan>(base);
   made->scene.nodes = scene.nodes;
   made->scene.links = scene.links;
   made->scene.view = scene.view;
-  const Registry& registry = made->scene.scripts.types(program);
   amend_nodes(*nodes, registry, amended, *made);
-  amend_sets(plan, found, registry, amended, *made);
-  amend_links(plan, link_changes(before, scene, found, registry), registry, amended, *made);
-  made->dependents = amended_dependents(plan, *made, amended.links, !amended.sets.empty());
+  amend_sets(base, found, registry, amended, *made);
+  amend_links(base, link_changes(before, scene, found, registry), registry, amended, *made);
+  made->dependents = is_moved ? dependents_of(*made) : amended_dependents(plan, *made, amended.links, !amended.sets.empty());
   // Names and tags are no part of it, but readers who keep what they have read go by it.
-  const bool is_told = std::any_of(nodes->begin(), nodes->end(), [](const NodeDifference& one) {
+  const bool is_told = !is_moved && std::any_of(nodes->begin(), nodes->end(), [](const NodeDifference& one) {
     return one.is_other_to_find || one.before->second.name != one.now->second.name;
   });
   if (is_told) made->dependents = std::make_shared<const Dependents>(*made->dependents);

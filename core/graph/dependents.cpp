@@ -237,20 +237,22 @@ std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
       Dependents{set_dependents_of(plan), edited({}, plan.nodes.size(), {}, {}, std::move(entries))});
 }
 
-std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits,
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const ItemEdit> edits,
                                                      bool has_other_sets) {
   if (edits.empty() && !has_other_sets) return before.dependents;
-  LinkEntries less, more;
   bool differs = false, is_renumbered = false;
-  for (const LinkEdit& edit : edits) {
-    if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
-    if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+  for (const ItemEdit& edit : edits) {
     const bool stays = !edit.is_added() && !edit.is_removed();
     differs |= !stays || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
     is_renumbered |= !stays;
   }
   std::shared_ptr<const LinkDependents> links = before.dependents->links;
   if (differs) {
+    LinkEntries less, more;
+    for (const ItemEdit& edit : edits) {
+      if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
+      if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+    }
     const auto places = is_renumbered ? places_after(before.links.size(), edits) : std::vector<std::uint32_t>();
     links = edited(*links, plan.nodes.size(), std::move(less), places, std::move(more));
   }

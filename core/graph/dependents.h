@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/link_edits.h"
+#include "core/graph/item_edits.h"
 #include "core/graph/port_ref.h"
 
 namespace bl {
@@ -95,7 +95,7 @@ struct Dependents {
 
 std::shared_ptr<const Dependents> dependents_of(const Plan& plan);
 /// The same for a plan of nodes with the same typifications as in `before`, from that of `before`; `edits` of its links ascend.
-std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits,
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const ItemEdit> edits,
                                                      bool has_other_sets);
 
 }  // namespace bl

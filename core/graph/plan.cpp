@@ -67,15 +67,7 @@ std::shared_ptr<const Plan> compile(const Scene& scene, const Registry& program)
   std::vector<LinkPlan> links;
   for (const auto& [id, record] : plan->scene.links) links.push_back(compiler.compiled(id, record));
   plan->links = published<LinkPlan>(SharedItems<LinkPlan>::Draft(std::move(links)));
-  std::vector<SetPlan> sets;
-  for (std::uint32_t n = 0; n < plan->nodes.size(); ++n)
-    for (std::uint32_t t = 0; t < plan->nodes[n].types.size(); ++t) {
-      const TypificationDefinition& definition = *plan->nodes[n].types[t].definition;
-      if (!definition.latency.empty())
-        plan->analyses.push_back({n, t, sets.size(), definition.sets.size(), definition.port_index(definition.latency)});
-      for (std::uint32_t s = 0; s < definition.sets.size(); ++s) sets.push_back(compiled_set(*plan, registry, n, t, s));
-    }
-  plan->sets = SharedVector<SetPlan>(std::move(sets));
+  put_sets(*plan, [&](std::uint32_t n, std::uint32_t t, std::uint32_t s) { return compiled_set(*plan, registry, n, t, s); });
   (void)mark_served(*plan);
   plan->dependents = dependents_of(*plan);
   return plan;
