@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -100,10 +101,19 @@ template <class T, class Digest>
 class SharedList<T, Digest>::Draft {
  public:
   explicit Draft(SharedList base) : base_(std::move(base)), size_(base_.size()), open_(base_.leaf_count()) {}
-  /// With more items than `base`, which are still to be put, or with fewer.
-  Draft(SharedList base, std::size_t size) : base_(std::move(base)), size_(size), open_((size + kLeaf - 1) / kLeaf) {
-    // The last leaf ends elsewhere.
-    if (size != base_.size() && size % kLeaf != 0) open(size - 1);
+  /// Of the items of `base` in other places: item i is the one that stood at `origins[i]`, or is still to be put (kNone).
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  Draft(SharedList base, std::span<const std::uint32_t> origins)
+      : base_(std::move(base)), size_(origins.size()), open_((origins.size() + kLeaf - 1) / kLeaf) {
+    for (std::size_t l = 0; l < open_.size(); ++l) {
+      const std::size_t first = l * kLeaf, count = std::min(kLeaf, size_ - first);
+      bool stays = std::min(kLeaf, base_.size() - std::min(first, base_.size())) == count;
+      for (std::size_t k = 0; stays && k < count; ++k) stays = origins[first + k] == first + k;
+      if (stays) continue;
+      open_[l] = std::make_unique<OpenLeaf>();
+      for (std::size_t k = 0; k < count; ++k)
+        if (origins[first + k] != kNone) open_[l]->items[k] = base_.item(origins[first + k]);
+    }
   }
   /// Of items that nobody has seen yet.
   explicit Draft(std::vector<T>&& items) : size_(items.size()), open_((items.size() + kLeaf - 1) / kLeaf) {
@@ -139,13 +149,6 @@ class SharedList<T, Digest>::Draft {
       leaf.items[i % kLeaf] = std::move(copy);
     }
     return *own;
-  }
-  /// An item of a list, shared with it.
-  void share(std::size_t i, std::shared_ptr<const T> item) {
-    open(i);
-    OpenLeaf& leaf = *open_[i / kLeaf];
-    leaf.own[i % kLeaf] = nullptr;
-    leaf.items[i % kLeaf] = std::move(item);
   }
   void put(std::size_t i, T item) {
     open(i);

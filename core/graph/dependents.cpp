@@ -20,16 +20,31 @@ struct LinkEntries {
   std::vector<std::uint32_t> timed, broken;
 
   void add(const LinkPlan& link, std::uint32_t l) {
-    for (const PortRef& ref : link.targets) at.push_back({{ref.node, 0, 0}, l});
+    for (const PortRef& ref : link.targets)
+      if (at.empty() || at.back() != LinkLists::Entry{{ref.node, 0, 0}, l}) at.push_back({{ref.node, 0, 0}, l});
     if (!link.is_enabled) return;
     if (link.error) {
       broken.push_back(l);
       return;
     }
-    for (const auto& refs : link.reads)
-      for (const PortRef& ref : refs)
-        if (ref.type != PortRef::kNodeId) reading.push_back({ref, l});
+    const auto first = static_cast<std::ptrdiff_t>(reading.size());
+    add_reads(link, End::from, l);
+    const auto middle = static_cast<std::ptrdiff_t>(reading.size());
+    add_reads(link, End::to, l);
+    std::inplace_merge(reading.begin() + first, reading.begin() + middle, reading.end());
     if (link.definition->reads_time) timed.push_back(l);
+  }
+
+ private:
+  // In ascending order, as the nodes of an end are.
+  void add_reads(const LinkPlan& link, End end, std::uint32_t l) {
+    for (std::size_t i = 0; i < link.nodes[static_cast<std::size_t>(end)].size(); ++i) {
+      const auto first = static_cast<std::ptrdiff_t>(reading.size());
+      for (std::size_t r = 0; r < link.reads.size(); ++r)
+        if (link.definition->reads[r].end == end && link.reads[r][i].type != PortRef::kNodeId)
+          reading.push_back({link.reads[r][i], l});
+      if (reading.size() - static_cast<std::size_t>(first) > 1) std::sort(reading.begin() + first, reading.end());
+    }
   }
 };
 
@@ -153,16 +168,13 @@ std::span<const std::uint32_t> LinkLists::operator[](const PortRef& port) const 
 
 void LinkLists::append(const LinkLists& from, std::uint32_t first, std::uint32_t last, std::span<const std::uint32_t> places) {
   if (first >= last) return;
-  // Nodes that have no lists yet have none.
-  const auto start = [&](std::uint32_t node) { return from.starts_[std::min<std::size_t>(node, from.starts_.size() - 1)]; };
-  const auto begin = static_cast<std::ptrdiff_t>(start(first)), end = static_cast<std::ptrdiff_t>(start(last));
-  const std::size_t before = links_.size();
+  const std::uint32_t begin = from.start(first), end = from.start(last);
+  const auto before = static_cast<std::uint32_t>(links_.size());
   ports_.insert(ports_.end(), from.ports_.begin() + begin, from.ports_.begin() + end);
   links_.insert(links_.end(), from.links_.begin() + begin, from.links_.begin() + end);
   if (!places.empty())
     for (std::size_t i = before; i < links_.size(); ++i) links_[i] = places[links_[i]];
-  for (std::uint32_t n = first; n < last; ++n)
-    starts_.push_back(static_cast<std::uint32_t>(before) + start(n + 1) - static_cast<std::uint32_t>(begin));
+  for (std::uint32_t n = first; n < last; ++n) starts_.push_back(before + from.start(n + 1) - begin);
 }
 
 LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places,
@@ -177,27 +189,29 @@ LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::spa
   lists.links_.reserve(ports_.size() + more.size());
   std::uint32_t done = 0;
   auto gone = less.begin(), fresh = more.begin();
+  const auto put = [&](std::uint32_t port, std::uint32_t link) {
+    lists.ports_.push_back(port);
+    lists.links_.push_back(link);
+  };
   while (gone != less.end() || fresh != more.end()) {
     // Nodes up to the next one at which a list differs stay as they are.
-    std::uint32_t n = static_cast<std::uint32_t>(nodes);
+    auto n = static_cast<std::uint32_t>(nodes);
     if (gone != less.end()) n = gone->port.node;
     if (fresh != more.end()) n = std::min(n, fresh->port.node);
     lists.append(*this, done, n, places);
-    const auto put = [&](std::uint32_t port, std::uint32_t link) {
-      lists.ports_.push_back(port);
-      lists.links_.push_back(link);
-    };
-    for (std::size_t i = n + 1 < starts_.size() ? starts_[n] : ports_.size(); n + 1 < starts_.size() && i < starts_[n + 1]; ++i) {
-      if (gone != less.end() && gone->port.node == n && key_of(gone->port) == ports_[i] && gone->link == links_[i]) {
+    for (std::uint32_t i = start(n), end = start(n + 1); i < end; ++i) {
+      const std::uint32_t port = ports_[i];
+      if (gone != less.end() && gone->link == links_[i] && gone->port.node == n && key_of(gone->port) == port) {
         ++gone;
         continue;
       }
       const std::uint32_t link = places.empty() ? links_[i] : places[links_[i]];
-      for (; fresh != more.end() && fresh->port.node == n &&
-             std::pair(key_of(fresh->port), fresh->link) < std::pair(ports_[i], link);
-           ++fresh)
-        put(key_of(fresh->port), fresh->link);
-      put(ports_[i], link);
+      for (; fresh != more.end() && fresh->port.node == n; ++fresh) {
+        const std::uint32_t key = key_of(fresh->port);
+        if (key > port || (key == port && fresh->link > link)) break;
+        put(key, fresh->link);
+      }
+      put(port, link);
     }
     for (; fresh != more.end() && fresh->port.node == n; ++fresh) put(key_of(fresh->port), fresh->link);
     lists.starts_.push_back(static_cast<std::uint32_t>(lists.ports_.size()));
@@ -207,43 +221,55 @@ LinkLists LinkLists::edited(std::size_t nodes, std::vector<Entry> less, std::spa
   return lists;
 }
 
-std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
+namespace {
+
+std::shared_ptr<const SetDependents> set_dependents_of(const Plan& plan) {
   SetDependents index;
   std::uint32_t ports = 0;
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
     index.first_type.push_back(static_cast<std::uint32_t>(index.first_port.size()));
     bool is_timed = false;
-    for (const TypePlan& type : plan.nodes[n].types) {
+    for (const TypificationDefinition* type : plan.forms->types_of(n)) {
       index.first_port.push_back(ports);
-      ports += static_cast<std::uint32_t>(type.definition->ports.size());
-      is_timed |= type.definition->evaluate && type.definition->sets.empty() && type.definition->reads_time;
+      ports += static_cast<std::uint32_t>(type->ports.size());
+      is_timed |= type->evaluate && type->sets.empty() && type->reads_time;
     }
     if (is_timed) index.timed_nodes.push_back(n);
   }
   add_groups(plan, index, ports);
-  LinkEntries entries;
-  for (std::uint32_t l = 0; l < plan.links.size(); ++l) entries.add(plan.links[l], l);
-  return std::make_shared<const Dependents>(Dependents{std::make_shared<const SetDependents>(std::move(index)),
-                                                       edited({}, plan.nodes.size(), {}, {}, std::move(entries))});
+  return std::make_shared<const SetDependents>(std::move(index));
 }
 
-std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits) {
-  if (edits.empty()) return before.dependents;
-  LinkEntries less, more;
+}  // namespace
+
+std::shared_ptr<const Dependents> dependents_of(const Plan& plan) {
+  LinkEntries entries;
+  for (std::uint32_t l = 0; l < plan.links.size(); ++l) entries.add(plan.links[l], l);
+  return std::make_shared<const Dependents>(
+      Dependents{set_dependents_of(plan), edited({}, plan.nodes.size(), {}, {}, std::move(entries))});
+}
+
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const ItemEdit> edits,
+                                                     bool has_other_sets) {
+  if (edits.empty() && !has_other_sets) return before.dependents;
   bool differs = false, is_renumbered = false;
-  for (const LinkEdit& edit : edits) {
-    if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
-    if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+  for (const ItemEdit& edit : edits) {
     const bool stays = !edit.is_added() && !edit.is_removed();
     differs |= !stays || !has_same_entries(before.links[edit.before], plan.links[edit.now]);
     is_renumbered |= !stays;
   }
   std::shared_ptr<const LinkDependents> links = before.dependents->links;
   if (differs) {
+    LinkEntries less, more;
+    for (const ItemEdit& edit : edits) {
+      if (!edit.is_added()) less.add(before.links[edit.before], edit.before);
+      if (!edit.is_removed()) more.add(plan.links[edit.now], edit.now);
+    }
     const auto places = is_renumbered ? places_after(before.links.size(), edits) : std::vector<std::uint32_t>();
     links = edited(*links, plan.nodes.size(), std::move(less), places, std::move(more));
   }
-  return std::make_shared<const Dependents>(Dependents{before.dependents->sets, std::move(links)});
+  return std::make_shared<const Dependents>(
+      Dependents{has_other_sets ? set_dependents_of(plan) : before.dependents->sets, std::move(links)});
 }
 
 }  // namespace bl

@@ -1,13 +1,14 @@
 // Who has to be asked again when a port of a plan changes: links, sets and typifications, found by port and by node.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "core/graph/link_edits.h"
+#include "core/graph/item_edits.h"
 #include "core/graph/port_ref.h"
 
 namespace bl {
@@ -45,6 +46,8 @@ class LinkLists {
                    std::vector<Entry> more) const;
 
  private:
+  // Where the lists of a node begin. Nodes that have no lists yet have none.
+  std::uint32_t start(std::uint32_t node) const { return starts_[std::min<std::size_t>(node, starts_.size() - 1)]; }
   // Appends the lists of the nodes [first, last) of another one as they are, but for new numbers.
   void append(const LinkLists& from, std::uint32_t first, std::uint32_t last, std::span<const std::uint32_t> places);
 
@@ -86,14 +89,15 @@ struct LinkDependents {
   std::vector<std::uint32_t> broken;  ///< that cannot run: what they said last may stand, whatever their targets are now
 };
 
-/// Plans of the same Dependents have the same nodes, typifications, sets and links; values may differ.
+/// Plans of the same Dependents have the same nodes, names, tags, typifications, sets and links; other values may differ.
 struct Dependents {
-  std::shared_ptr<const SetDependents> sets;  ///< shared with plans that are amended in links
+  std::shared_ptr<const SetDependents> sets;  ///< shared with plans that are amended and have the same sets
   std::shared_ptr<const LinkDependents> links;
 };
 
 std::shared_ptr<const Dependents> dependents_of(const Plan& plan);
-/// The same for a plan of the same nodes and sets as `before`, from that of `before`; `edits` of its links ascend.
-std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const LinkEdit> edits);
+/// The same for a plan of nodes with the same typifications as in `before`, from that of `before`; `edits` of its links ascend.
+std::shared_ptr<const Dependents> amended_dependents(const Plan& before, const Plan& plan, std::span<const ItemEdit> edits,
+                                                     bool has_other_sets);
 
 }  // namespace bl

@@ -104,26 +104,37 @@ std::vector<LinkCompiler::Wanted> LinkCompiler::wanted_at(const LinkDefinition& 
                                                           std::span<const Value> values) const {
   std::vector<Wanted> list;
   for (const LinkRead& read : definition.reads)
-    if (read.end == end) list.push_back({{plan_, actual_path(definition, read.path, values)}, &read.unit});
+    if (read.end == end) list.push_back({actual_path(definition, read.path, values), &read.unit});
   for (const LinkWrite& write : definition.proposes)
-    if (write.end == end) list.push_back({{plan_, actual_path(definition, write.path, values)}, &write.unit});
+    if (write.end == end) list.push_back({actual_path(definition, write.path, values), &write.unit});
   return list;
 }
 
 // The nodes of an end that have all the ports. A query leaves out those that lack one; a named node must have them.
 Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link, const Selection& selection, End end,
                                                            std::span<const Value> values) const {
-  std::vector<Wanted> wanted = wanted_at(*link.definition, end, values);
-  std::vector<std::uint32_t> nodes;
-  for (const std::uint32_t node : selected_nodes(plan_, registry_, selection)) {
-    const auto missing = std::find_if(wanted.begin(), wanted.end(), [&](Wanted& one) { return !one.finder.at(node); });
-    if (missing == wanted.end()) {
-      nodes.push_back(node);
-      if (auto unit = check_units(node, wanted); !unit) return unit.error().within(name_of(end));
-    } else if (!selection.is_query()) {
-      return lack_of(*link.definition, node, missing->finder.path(), end);
+  const std::vector<Wanted> wanted = wanted_at(*link.definition, end, values);
+  enum class Fit : std::uint8_t { unknown, fits, fits_by_unit, lacks };
+  std::vector<Fit> fits(plan_.forms->types.size());
+  std::vector<std::uint32_t> nodes = selected_nodes(plan_, registry_, selection);
+  std::size_t kept = 0;
+  for (const std::uint32_t node : nodes) {
+    Fit& fit = fits[plan_.forms->of[node]];
+    if (fit == Fit::unknown || fit == Fit::fits_by_unit) {
+      const auto missing =
+          std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& one) { return !plan_.find(node, one.path); });
+      if (missing == wanted.end()) {
+        const auto unit = check_units(node, wanted);
+        if (!unit) return unit.error().within(name_of(end));
+        fit = *unit ? Fit::fits_by_unit : Fit::fits;
+      } else {
+        if (!selection.is_query()) return lack_of(*link.definition, node, missing->path, end);
+        fit = Fit::lacks;
+      }
     }
+    if (fit != Fit::lacks) nodes[kept++] = node;
   }
+  nodes.resize(kept);
   if (nodes.empty())
     return Error{ErrorCode::not_found, std::string(name_of(end)), "no node fits this end; the link does nothing"};
   return nodes;
@@ -143,17 +154,19 @@ std::string LinkCompiler::nearest_port(const PortPath& path) const {
   return type->find_port(path.port) != nullptr ? "" : did_you_mean(path.port, port_ids(*type));
 }
 
-Result<void> LinkCompiler::check_units(std::uint32_t node, std::vector<Wanted>& wanted) const {
-  for (Wanted& one : wanted) {
-    if (!one.unit->has_value()) continue;
-    const Unit found = unit_at(one.finder.at(node));
-    if (same_dimension(found, **one.unit)) continue;
-    const PortPath& path = one.finder.path();
+Result<bool> LinkCompiler::check_units(std::uint32_t node, std::span<const Wanted> wanted) const {
+  bool depends_on_node = false;
+  for (const auto& [path, unit] : wanted) {
+    if (!unit->has_value()) continue;
+    const auto ref = plan_.find(node, path);
+    const Unit found = unit_at(ref);
+    depends_on_node |= ref->type != PortRef::kNodeId && !plan_.port(*ref).unit_from.empty();
+    if (same_dimension(found, **unit)) continue;
     return Error{ErrorCode::wrong_unit, "",
                  "`" + plan_.nodes[node].id + "." + path.typification + "." + path.port + "` is in " +
-                     std::string(info(found).name) + "s, the link works in " + std::string(info(**one.unit).name) + "s"};
+                     std::string(info(found).name) + "s, the link works in " + std::string(info(**unit).name) + "s"};
   }
-  return {};
+  return depends_on_node;
 }
 
 Unit LinkCompiler::unit_at(std::optional<PortRef> ref) const {
@@ -165,9 +178,8 @@ Unit LinkCompiler::unit_at(std::optional<PortRef> ref) const {
 }
 
 std::vector<Unit> LinkCompiler::units_at(const std::vector<std::uint32_t>& nodes, const PortPath& path) const {
-  PortFinder finder(plan_, path);
   std::vector<Unit> units;
-  for (const std::uint32_t node : nodes) units.push_back(unit_at(finder.at(node)));
+  for (const std::uint32_t node : nodes) units.push_back(unit_at(plan_.find(node, path)));
   return units;
 }
 
@@ -197,33 +209,31 @@ Result<void> LinkCompiler::resolve_ports(LinkPlan& link, std::span<const Value> 
   const LinkDefinition& definition = *link.definition;
   if (auto units = check_same_units(link, values); !units) return units;
   for (const LinkRead& read : definition.reads) {
-    auto& refs = link.reads.emplace_back();
-    PortFinder finder(plan_, actual_path(definition, read.path, values));
-    for (const std::uint32_t node : link.nodes[static_cast<int>(read.end)]) {
-      const PortRef ref = *finder.at(node);
-      if (ref.type != PortRef::kNodeId && !read.is_lock)
-        if (auto kind = check_kind(plan_, ref, read.kind, read.made, "link reads"); !kind) return kind;
-      refs.push_back(ref);
-    }
+    auto refs = ports_at(plan_, link.nodes[static_cast<int>(read.end)], actual_path(definition, read.path, values),
+                         [&](PortRef ref) -> Result<void> {
+                           if (ref.type == PortRef::kNodeId || read.is_lock) return {};
+                           return check_kind(plan_, ref, read.kind, read.made, "link reads");
+                         });
+    if (!refs) return refs.error();
+    link.reads.push_back(std::move(*refs));
   }
   std::vector<std::vector<PortRef>> write_refs;
   for (const LinkWrite& write : definition.proposes) {
-    auto& refs = write_refs.emplace_back();
-    PortFinder finder(plan_, actual_path(definition, write.path, values));
-    for (const std::uint32_t node : link.nodes[static_cast<int>(write.end)]) {
-      const PortRef ref = *finder.at(node);
-      if (ref.type == PortRef::kNodeId || plan_.port(ref).rule == CombineRule::none)
-        return Error{ErrorCode::conflict, "", "`" + plan_.path_text(ref) + "` cannot be changed by links"};
-      if (auto kind = check_kind(plan_, ref, write.kind, {}, "link proposes"); !kind) return kind;
-      refs.push_back(ref);
-      link.targets.push_back(ref);
-    }
+    auto refs = ports_at(plan_, link.nodes[static_cast<int>(write.end)], actual_path(definition, write.path, values),
+                         [&](PortRef ref) -> Result<void> {
+                           if (ref.type == PortRef::kNodeId || plan_.port(ref).rule == CombineRule::none)
+                             return Error{ErrorCode::conflict, "", "`" + plan_.path_text(ref) + "` cannot be changed by links"};
+                           return check_kind(plan_, ref, write.kind, {}, "link proposes");
+                         });
+    if (!refs) return refs.error();
+    link.targets.insert(link.targets.end(), refs->begin(), refs->end());
+    write_refs.push_back(std::move(*refs));
   }
   if (!std::is_sorted(link.targets.begin(), link.targets.end())) std::sort(link.targets.begin(), link.targets.end());
   link.targets.erase(std::unique(link.targets.begin(), link.targets.end()), link.targets.end());
-  for (const PortRef& ref : link.targets) link.target_ports.push_back(&plan_.port(ref));
   for (const auto& refs : write_refs) {
     auto& indices = link.writes.emplace_back();
+    indices.reserve(refs.size());
     // The nodes of an end ascend, and so do their ports.
     std::uint32_t at = 0;
     for (const PortRef& ref : refs) {

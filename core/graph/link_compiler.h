@@ -25,7 +25,7 @@ class LinkCompiler {
  private:
   // A declared path at an end, and the unit in which the link works there.
   struct Wanted {
-    PortFinder finder;
+    PortPath path;
     const std::optional<Unit>* unit = nullptr;
   };
 
@@ -35,7 +35,8 @@ class LinkCompiler {
                                                std::span<const Value> values) const;
   Error lack_of(const LinkDefinition& definition, std::uint32_t node, const PortPath& path, End end) const;
   std::string nearest_port(const PortPath& path) const;
-  Result<void> check_units(std::uint32_t node, std::vector<Wanted>& wanted) const;
+  // Whether other nodes of the same form have to be looked at as well: each of them chooses a unit.
+  Result<bool> check_units(std::uint32_t node, std::span<const Wanted> wanted) const;
   Unit unit_at(std::optional<PortRef> ref) const;
   std::vector<Unit> units_at(const std::vector<std::uint32_t>& nodes, const PortPath& path) const;
   Result<void> check_same_units(const LinkPlan& link, std::span<const Value> values) const;

@@ -77,7 +77,7 @@ std::vector<Voice> LinkRun::voices(const std::vector<Voice>& last) {
   for (std::size_t i = 0; i < collected_.size(); ++i) {
     const std::size_t index = targets_.empty() ? i : targets_[i];
     const PortRef target = plan_.targets[index];
-    const PortDefinition& port = *plan_.target_ports[index];
+    const PortDefinition& port = frozen_.plan->port(target);
     bool is_missing = collected_[i].count == 0 && has_failed_[i];
     if (collected_[i].count > 0) {
       // Means of numbers that are finite may be none, and zeros may get a sign.
@@ -174,7 +174,7 @@ Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
       if (const auto& value = writes_.values[w][i]) {
         const std::uint32_t target = plan_.writes[w][first + i];
         if (const std::size_t slot = slot_of(target); slot != kNone)
-          collected_[slot].add(*value, plan_.target_ports[target]->rule);
+          collected_[slot].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
       }
   }
   return {};

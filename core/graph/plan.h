@@ -27,19 +27,27 @@ struct NodePlan {
   std::vector<TypePlan> types;  ///< ascending typification id
 };
 
+/// Which typifications the nodes carry. Nodes that carry the same ones have the same form: what follows from it is found out once
+/// for all of them, and read without a look at the nodes themselves.
+struct NodeForms {
+  std::vector<std::vector<const TypificationDefinition*>> types;  ///< by form, as in NodePlan::types
+  std::vector<std::uint32_t> of;                                  ///< by node: its form
+
+  const std::vector<const TypificationDefinition*>& types_of(std::uint32_t node) const { return types[of[node]]; }
+};
+
 struct LinkPlan {
   std::string id;
   const LinkDefinition* definition = nullptr;  ///< nullptr for ghosts
   bool is_enabled = true, is_muted = false;
   double strength = 1;
   std::shared_ptr<const void> parameters;
-  std::vector<std::uint32_t> nodes[2];              ///< node indices of the ends, ascending
-  bool is_symmetric = false;                        ///< both ends are the same nodes: each unordered pair once
-  std::vector<std::vector<PortRef>> reads;          ///< per declared read: one for each node of its end
-  std::vector<PortRef> targets;                     ///< distinct ports proposed to, ascending
-  std::vector<const PortDefinition*> target_ports;  ///< their declarations
-  std::vector<std::vector<std::uint32_t>> writes;   ///< per declared proposal: index into `targets` for each node of its end
-  std::optional<Error> error;                       ///< why the link cannot run
+  std::vector<std::uint32_t> nodes[2];             ///< node indices of the ends, ascending
+  bool is_symmetric = false;                       ///< both ends are the same nodes: each unordered pair once
+  std::vector<std::vector<PortRef>> reads;         ///< per declared read: one for each node of its end
+  std::vector<PortRef> targets;                    ///< distinct ports proposed to, ascending
+  std::vector<std::vector<std::uint32_t>> writes;  ///< per declared proposal: index into `targets` for each node of its end
+  std::optional<Error> error;                      ///< why the link cannot run
 };
 
 struct SetPlan {
@@ -60,21 +68,24 @@ struct Plan {
   Scene scene;  ///< the compiled scene; definitions and ids refer to it, and it keeps its scripts alive
   Settings settings;
   SharedItems<NodePlan> nodes;                   ///< ascending id
+  std::shared_ptr<const NodeForms> forms;        ///< of the nodes
   SharedItems<LinkPlan> links;                   ///< ascending id
   SharedVector<SetPlan> sets;                    ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;            ///< ascending node id, then typification
-  std::shared_ptr<const Dependents> dependents;  ///< shared with plans that are amended from this one and have the same links
+  std::shared_ptr<const Dependents> dependents;  ///< shared with plans that are amended from this one in plain values
   /// Shared with the plans that are amended from this one: their nodes, typifications and ports have the same indices.
   std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 
   /// Index of a node, or nodes.size().
   std::uint32_t node_index(std::string_view id) const;
   std::optional<PortRef> find(std::uint32_t node, const PortPath& path) const;
-  const PortDefinition& port(PortRef ref) const { return nodes[ref.node].types[ref.type].definition->ports[ref.port]; }
+  const PortDefinition& port(PortRef ref) const { return forms->types_of(ref.node)[ref.type]->ports[ref.port]; }
   /// "typification.port" of a reference.
   std::string path_text(PortRef ref) const;
 };
 
+/// In the order in which the forms are met.
+std::shared_ptr<const NodeForms> forms_of(const SharedItems<NodePlan>& nodes);
 /// Links that cannot run are kept with the reason; none is left out. `registry`: the types of the program.
 std::shared_ptr<const Plan> compile(const Scene& scene, const Registry& registry);
 

@@ -19,26 +19,19 @@ TagPort tag_port(const Registry& registry) {
   return {base, base == nullptr ? 0 : base->port_index("tags")};
 }
 
-const TypePlan* type_of(const NodePlan& node, const TypificationDefinition* definition) {
-  for (const TypePlan& type : node.types)
-    if (type.definition == definition) return &type;
-  return nullptr;
-}
-
 }  // namespace
 
 std::optional<PortRef> PortFinder::at(std::uint32_t node) {
-  const std::vector<TypePlan>& types = plan_->nodes[node].types;
-  const bool is_alike = !searched_.empty() &&
-                        std::equal(types.begin(), types.end(), searched_.begin(), searched_.end(),
-                                   [](const TypePlan& type, const auto* definition) { return type.definition == definition; });
-  if (!is_alike) {
-    searched_.clear();
-    for (const TypePlan& type : types) searched_.push_back(type.definition);
-    found_ = plan_->find(node, path_);
+  const std::uint32_t form = plan_->forms->of[node];
+  if (searched_.empty() || searched_[last_].form != form) {
+    last_ = static_cast<std::size_t>(
+        std::find_if(searched_.begin(), searched_.end(), [&](const Searched& one) { return one.form == form; }) -
+        searched_.begin());
+    if (last_ == searched_.size()) searched_.push_back({form, plan_->find(node, path_)});
   }
-  if (found_) found_->node = node;
-  return found_;
+  std::optional<PortRef> found = searched_[last_].found;
+  if (found) found->node = node;
+  return found;
 }
 
 PortPath actual_path(const TypeDefinition& definition, const PortPath& path, std::span<const Value> values) {
@@ -56,13 +49,20 @@ std::vector<std::uint32_t> selected_nodes(const Plan& plan, const Registry& regi
     for (const std::string& id : resolve(plan.scene, registry, selection)) nodes.push_back(plan.node_index(id));
     return nodes;
   }
+  // By form: where its tags are, or kNone where its nodes are not meant.
+  constexpr std::size_t kNone = ~std::size_t{0};
+  std::vector<std::size_t> tagged;
+  for (const auto& types : plan.forms->types) {
+    const auto base = std::find(types.begin(), types.end(), tags.base);
+    const bool is_meant = (type == nullptr || std::find(types.begin(), types.end(), type) != types.end()) &&
+                          (selection.tag.empty() || base != types.end());
+    tagged.push_back(is_meant ? static_cast<std::size_t>(base - types.begin()) : kNone);
+  }
   for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
-    const NodePlan& node = plan.nodes[n];
-    if (type != nullptr && type_of(node, type) == nullptr) continue;
+    const std::size_t base = tagged[plan.forms->of[n]];
+    if (base == kNone) continue;
     if (!selection.tag.empty()) {
-      const TypePlan* base = type_of(node, tags.base);
-      if (base == nullptr) continue;
-      const auto& list = *std::get<Shared<std::vector<std::string>>>(base->set_values[tags.port]);
+      const auto& list = *std::get<Shared<std::vector<std::string>>>(plan.nodes[n].types[base].set_values[tags.port]);
       if (std::find(list.begin(), list.end(), selection.tag) == list.end()) continue;
     }
     nodes.push_back(n);

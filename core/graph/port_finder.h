@@ -10,7 +10,27 @@
 
 namespace bl {
 
-/// Finds one path at node after node. Nodes of the same typifications answer alike, so that most are not searched.
+/// Where a path leads at each of the nodes, all of which have such a port. `check(ref)`, a Result<void>, is asked once for each
+/// of their forms.
+template <class Check>
+Result<std::vector<PortRef>> ports_at(const Plan& plan, std::span<const std::uint32_t> nodes, const PortPath& path,
+                                      const Check& check) {
+  std::vector<std::optional<PortRef>> found(plan.forms->types.size());
+  std::vector<PortRef> ports;
+  ports.reserve(nodes.size());
+  for (const std::uint32_t node : nodes) {
+    std::optional<PortRef>& port = found[plan.forms->of[node]];
+    if (!port) {
+      port = plan.find(node, path);
+      if (auto done = check(*port); !done) return done.error();
+    }
+    port->node = node;
+    ports.push_back(*port);
+  }
+  return ports;
+}
+
+/// Finds one path at node after node. Nodes of the same form answer alike: one of each is searched.
 class PortFinder {
  public:
   PortFinder(const Plan& plan, PortPath path) : plan_(&plan), path_(std::move(path)) {}
@@ -21,8 +41,12 @@ class PortFinder {
  private:
   const Plan* plan_;
   PortPath path_;
-  std::vector<const TypificationDefinition*> searched_;  // the typifications of the node that was searched last
-  std::optional<PortRef> found_;                         // and what was found there
+  struct Searched {
+    std::uint32_t form = 0;
+    std::optional<PortRef> found;  // at some node of that form
+  };
+  std::vector<Searched> searched_;
+  std::size_t last_ = 0;
 };
 
 /// The path of a declaration; where a parameter chooses it, the one that the values of the parameters name.

@@ -137,6 +137,21 @@ std::uint64_t hash_of(const Scene& scene) {
   return hash.value();
 }
 
+bool selects(const Registry& registry, const Selection& selection, const std::string& id, const NodeRecord& node) {
+  if (!selection.is_query()) return std::find(selection.ids.begin(), selection.ids.end(), id) != selection.ids.end();
+  if (!selection.typification.empty()) {
+    const TypificationDefinition* type = registry.typification(selection.typification);
+    if (!node.types.contains(type ? type->id : selection.typification)) return false;
+  }
+  if (selection.tag.empty()) return true;
+  const auto base = node.types.find(std::string(kBaseNode));
+  if (base == node.types.end()) return false;
+  const auto tags = base->second.find("tags");
+  if (tags == base->second.end()) return false;
+  const auto& list = *std::get<Shared<std::vector<std::string>>>(tags->second);
+  return std::find(list.begin(), list.end(), selection.tag) != list.end();
+}
+
 std::vector<std::string> resolve(const Scene& scene, const Registry& registry, const Selection& selection) {
   std::vector<std::string> ids;
   if (!selection.is_query()) {
@@ -146,20 +161,8 @@ std::vector<std::string> resolve(const Scene& scene, const Registry& registry, c
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return ids;
   }
-  const TypificationDefinition* type = registry.typification(selection.typification);
-  const std::string type_id = type ? type->id : selection.typification;
-  for (const auto& [id, node] : scene.nodes) {
-    if (!selection.typification.empty() && !node.types.contains(type_id)) continue;
-    if (!selection.tag.empty()) {
-      const auto base = node.types.find(std::string(kBaseNode));
-      if (base == node.types.end()) continue;
-      const auto tags = base->second.find("tags");
-      if (tags == base->second.end()) continue;
-      const auto& list = *std::get<Shared<std::vector<std::string>>>(tags->second);
-      if (std::find(list.begin(), list.end(), selection.tag) == list.end()) continue;
-    }
-    ids.push_back(id);
-  }
+  for (const auto& [id, node] : scene.nodes)
+    if (selects(registry, selection, id, node)) ids.push_back(id);
   return ids;
 }
 

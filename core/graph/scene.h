@@ -65,6 +65,8 @@ struct Scene {
 Settings settings_of(const Scene& scene);
 /// A hash of everything but `view`.
 std::uint64_t hash_of(const Scene& scene);
+/// Is the node among those that the selection means?
+bool selects(const Registry& registry, const Selection& selection, const std::string& id, const NodeRecord& node);
 /// The nodes of a selection in ascending id; unknown ids are left out (check_scene reports them).
 std::vector<std::string> resolve(const Scene& scene, const Registry& registry, const Selection& selection);
 /// The value of a port in `values`, else its default, or the scene's setting where the port stands for one.

@@ -187,6 +187,12 @@ NodeState carried_node(const NodePlan& before, const NodeState& old, const NodeP
   return fresh;
 }
 
+void carry_analyses(const State& old, State& state) {
+  for (std::size_t a = 0; a < state.analyses.size(); ++a)
+    for (std::size_t o = 0; o < old.analyses.size(); ++o)
+      if (analysis_name(*state.plan, a) == analysis_name(*old.plan, o)) state.analyses[a] = old.analyses[o];
+}
+
 }  // namespace
 
 State carry(const State& old, std::shared_ptr<const Plan> plan, const Placed& placed) {
@@ -208,9 +214,7 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const Placed& pl
     if (o == old.plan->links.size() || old.plan->links[o].id != link.id) continue;
     if (is_same_kind(old.plan->links[o], link)) carry_link(old, o, *state.plan, draft.links.edit(l));
   }
-  for (std::size_t a = 0; a < state.analyses.size(); ++a)
-    for (std::size_t o = 0; o < old.analyses.size(); ++o)
-      if (analysis_name(*state.plan, a) == analysis_name(*old.plan, o)) state.analyses[a] = old.analyses[o];
+  carry_analyses(old, state);
   State carried = std::move(draft).publish();
   carried.hash = hash_of(carried);
   return carried;
@@ -227,9 +231,9 @@ void carry_links(const State& old, const Amended& amended, StateDraft& draft) {
   const auto places = places_after(old.links.size(), amended.links);
   std::vector<std::uint32_t> again;
   for (const std::uint32_t link : due.links)
-    if (places[link] != LinkEdit::kNone) again.push_back(places[link]);
-  draft.links = moved_links(old.links, amended.plan->links.size(), amended.links);
-  for (const LinkEdit& edit : amended.links) {
+    if (places[link] != ItemEdit::kNone) again.push_back(places[link]);
+  draft.links = LinkStates::Draft(old.links, origins_of(amended.plan->links.size(), amended.links));
+  for (const ItemEdit& edit : amended.links) {
     if (!edit.is_removed()) again.push_back(edit.now);
     if (edit.is_added()) {
       draft.links.put(edit.now, {});
@@ -256,7 +260,40 @@ void merge_from(std::size_t first, std::vector<PortRef>& ports) {
 
 }  // namespace
 
-State carry_amended(const State& old, const Amended& amended, const Placed& placed) {
+namespace {
+
+// The state under a plan in which nodes have come or gone: those that stay are shared. Its hash is not made yet.
+State moved_state(const State& old, const MovedPlan& moved) {
+  StateDraft draft(old);
+  State& state = draft.state;
+  state.plan = moved.plan;
+  state.calm = 0;
+  state.largest_move = state.largest_change = state.largest_residual = 0;
+  state.restless = {};
+  state.due = DueWork();
+  std::vector<std::uint32_t> origins(moved.plan->nodes.size(), ItemEdit::kNone);
+  for (std::uint32_t n = 0; n < moved.places.size(); ++n)
+    if (moved.places[n] != ItemEdit::kNone) origins[moved.places[n]] = n;
+  draft.nodes = NodeStates::Draft(old.nodes, origins);
+  for (std::uint32_t n = 0; n < origins.size(); ++n)
+    if (origins[n] == ItemEdit::kNone) draft.nodes.put(n, fresh_node(moved.plan->nodes[n]));
+  const auto moves = [&](const Voice& voice) { return moved.places[voice.target.node] != voice.target.node; };
+  for (std::size_t l = 0; l < old.links.size(); ++l) {
+    if (std::none_of(old.links[l].voices.begin(), old.links[l].voices.end(), moves)) continue;
+    std::vector<Voice>& voices = draft.links.edit(l).voices;
+    std::erase_if(voices, [&](const Voice& voice) { return moved.places[voice.target.node] == ItemEdit::kNone; });
+    for (Voice& voice : voices) voice.target.node = moved.places[voice.target.node];
+  }
+  state.analyses.assign(moved.plan->analyses.size(), {});
+  carry_analyses(old, state);
+  return std::move(draft).publish();
+}
+
+}  // namespace
+
+State carry_amended(const State& from, const Amended& amended, const Placed& placed) {
+  const std::optional<State> moved = amended.moved ? std::optional(moved_state(from, *amended.moved)) : std::nullopt;
+  const State& old = moved ? *moved : from;
   StateDraft draft(old);
   State& state = draft.state;
   state.plan = amended.plan;
@@ -284,6 +321,10 @@ State carry_amended(const State& old, const Amended& amended, const Placed& plac
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }
+  // A set with other members or ports is asked by its settings; so are those that write to the same ports.
+  for (const auto& [n, t] : amended.sets)
+    for (std::uint16_t p = 0; p < state.plan->nodes[n].types[t].set_values.size(); ++p)
+      state.due.replied.push_back({n, static_cast<std::uint16_t>(t), p});
   merge_from(changed, state.due.changed);
   merge_from(replied, state.due.replied);
   std::sort(state.due.nodes.begin(), state.due.nodes.end());

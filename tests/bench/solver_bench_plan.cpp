@@ -52,7 +52,11 @@ std::vector<EditCase> edit_cases(const Scene& scene) {
            [=](Scene& s) {
              s.nodes.edit(node).types["node"]["position"] = Vector3{1, 2, 3};
            }},
-          {"a volume added", [=](Scene& s) { s.nodes.emplace("another", another); }}};
+          {"a volume tagged",
+           [=](Scene& s) { s.nodes.edit(node).types["node"]["tags"] = Shared<std::vector<std::string>>({"public"}); }},
+          {"a volume renamed", [=](Scene& s) { s.nodes.edit(node).name = "Tower"; }},
+          {"a volume added", [=](Scene& s) { s.nodes.emplace("another", another); }},
+          {"a volume removed", [=](Scene& s) { s.nodes.erase(node); }}};
 }
 
 Result<void> time_edits(const SolverBench& bench, int count, BenchTable& table) {

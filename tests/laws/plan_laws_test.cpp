@@ -2,6 +2,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,17 +51,45 @@ void edit_some_link(Scene& scene, Random& random) {
   }
 }
 
+// Of any port, also of one that names other nodes or ports, or a unit.
+void set_some_value(Scene& scene, const std::string& id, Random& random) {
+  auto& types = scene.nodes.edit(id).types;
+  const std::string name = some_name(types, random);
+  const TypificationDefinition* type = full_registry().typification(name);
+  if (type == nullptr || type->ports.empty()) return;
+  const PortDefinition& port = type->ports[random.below(type->ports.size())];
+  if (port.is_computed) return;
+  types[name][port.id] =
+      port.kind == ValueKind::selection ? Value(Shared<Selection>(some_end(scene, random))) : random_value(port, random);
+}
+
+void set_some_tag(Scene& scene, const std::string& id, Random& random) {
+  std::vector<std::string> tags;
+  for (const auto& [other, link] : scene.links)
+    for (const Selection* end : {&link.from, &link.to})
+      if (!end->tag.empty()) tags.push_back(end->tag);
+  const std::string tag = tags.empty() ? "public" : tags[random.below(tags.size())];
+  PortValues& values = scene.nodes.edit(id).types["node"];
+  if (!values.erase("tags")) values["tags"] = Shared<std::vector<std::string>>({tag});
+}
+
 void edit_some_node(Scene& scene, Random& random, const std::string& fresh) {
   const std::string id = some_name(scene.nodes, random);
-  switch (random.below(8)) {
+  switch (random.below(12)) {
     case 0: scene.nodes.edit(id).name = fresh; break;
-    case 1: scene.nodes.edit(id).types["node"]["tags"] = Shared<std::vector<std::string>>({"public"}); break;
+    case 1: set_some_tag(scene, id, random); break;
     case 2: scene.nodes.emplace(fresh, scene.nodes.at(id)); break;
     case 3:
       if (scene.nodes.size() > 2) scene.nodes.erase(id);
       break;
-    case 4: scene.nodes.edit(id).locked.insert("node.position"); break;
+    case 4:
+      if (!scene.nodes.edit(id).locked.erase("node.position")) scene.nodes.edit(id).locked.insert("node.position");
+      break;
     case 5: scene.nodes.edit(id).types["control"]; break;
+    case 6: set_some_tag(scene, id, random); break;
+    case 7:
+    case 8:
+    case 9: set_some_value(scene, id, random); break;
     default: scene.nodes.edit(id).types["node"]["position"] = Vector3{random.uniform(-9, 9), random.uniform(-9, 9), 1};
   }
 }
@@ -73,7 +102,7 @@ void edit(Scene& scene, Random& random, int number) {
     link.kind = "attract";
     link.from = link.to = {{some_name(scene.nodes, random)}, "", ""};
   }
-  switch (random.below(6)) {
+  switch (random.below(8)) {
     case 0: {
       LinkRecord link = scene.links.at(some_name(scene.links, random));
       if (random.below(2) == 0) link.from = some_end(scene, random);
@@ -81,7 +110,9 @@ void edit(Scene& scene, Random& random, int number) {
       break;
     }
     case 1: scene.links.erase(some_name(scene.links, random)); break;
-    case 2: edit_some_node(scene, random, fresh); break;
+    case 2:
+    case 3:
+    case 4: edit_some_node(scene, random, fresh); break;
     default: edit_some_link(scene, random);
   }
 }
@@ -140,7 +171,7 @@ TEST(PlanLaws, EditsOfAllScenesAmendThePlanToTheOneThatCompilingGives) {
     expect_amended_as_compiled(project_file(path), path.starts_with("scenes/studies/") ? 6 : 20, path.size(), tally);
   }
   EXPECT_GT(tally.amended, 500);
-  EXPECT_GT(tally.compiled, 200) << "other nodes, names, tags and locks have to be compiled";
+  EXPECT_GT(tally.compiled, 50) << "other typifications have to be compiled";
 }
 
 TEST(PlanLaws, SoTheyDoInRandomScenes) {

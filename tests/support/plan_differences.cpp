@@ -83,6 +83,8 @@ std::string plan_difference(const Plan& a, const Plan& b) {
   if (a.nodes.size() != b.nodes.size() || a.links.size() != b.links.size() || a.sets.size() != b.sets.size()) return "size";
   for (std::size_t n = 0; n < a.nodes.size(); ++n)
     if (!is_same(a.nodes[n], b.nodes[n])) return "node " + a.nodes[n].id;
+  for (std::uint32_t n = 0; n < a.nodes.size(); ++n)
+    if (a.forms->types_of(n) != b.forms->types_of(n)) return "form of " + a.nodes[n].id;
   for (std::size_t l = 0; l < a.links.size(); ++l)
     if (!is_same(a.links[l], b.links[l])) return "link " + a.links[l].id;
   for (std::size_t s = 0; s < a.sets.size(); ++s)

@@ -1,6 +1,10 @@
 // Lists that share: what a draft edits is copied, what it leaves alone is the same object, and the list before stays as it was.
 #include "core/base/shared_list.h"
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace bl {
@@ -47,10 +51,12 @@ TEST(SharedList, HoldsWhatItWasGiven) {
   }
 }
 
-TEST(SharedList, ADraftOfAnotherSizeSharesWhatStays) {
+TEST(SharedList, ADraftOfItemsInOtherPlacesSharesThem) {
   const Items before = numbers(100);
   for (const std::size_t size : {0u, 31u, 32u, 64u, 70u, 99u, 101u, 128u, 129u}) {
-    Items::Draft draft(before, size);
+    std::vector<std::uint32_t> origins(size, Items::Draft::kNone);
+    std::iota(origins.begin(), origins.begin() + static_cast<std::ptrdiff_t>(std::min(size, before.size())), 0u);
+    Items::Draft draft(before, origins);
     for (std::size_t i = before.size(); i < size; ++i) draft.put(i, {static_cast<int>(i), 0});
     const Items after = published(std::move(draft));
     ASSERT_EQ(after.size(), size);
@@ -59,13 +65,15 @@ TEST(SharedList, ADraftOfAnotherSizeSharesWhatStays) {
     for (std::size_t leaf = 0; leaf < after.leaf_count(); ++leaf) sum += after.digest(leaf).of_numbers;
     EXPECT_EQ(sum, static_cast<int>(size) * (static_cast<int>(size) - 1) / 2) << size;
     for (std::size_t i = 0; i < std::min(size, before.size()); ++i) EXPECT_EQ(after.item(i), before.item(i));
+    for (std::size_t leaf = 0; leaf < std::min(size, before.size()) / 32; ++leaf) EXPECT_TRUE(after.shares_leaf(before, leaf));
   }
-  // Moved by one place: the items are those of the list before.
-  Items::Draft draft(before, 99);
-  for (std::size_t i = 40; i < 99; ++i) draft.share(i, before.item(i + 1));
-  const Items after = published(std::move(draft));
+  // One item in the middle is gone: those behind it move by one place.
+  std::vector<std::uint32_t> origins(99);
+  for (std::uint32_t i = 0; i < 99; ++i) origins[i] = i < 40 ? i : i + 1;
+  const Items after = published(Items::Draft(before, origins));
   EXPECT_TRUE(after.shares_leaf(before, 0));
   EXPECT_EQ(after.item(39), before.item(39));
+  EXPECT_EQ(after.item(40), before.item(41));
   EXPECT_EQ(after.item(98), before.item(99));
 }
 

@@ -75,7 +75,7 @@ TEST(LiveSession, AnEditOutlivesATickThatCannotBegin) {
   session.settle();
   Trap::fails_to_begin = true;
   ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"7"}})).ok());
-  ASSERT_TRUE(session.submit(command<RenameNode>({"a", "Anna"})).ok());  // a name asks for a new plan
+  ASSERT_TRUE(session.submit(command<LockPort>({"b", {"control.value"}})).ok());  // its links are made anew
   session.step(1);
   session.settle();
   EXPECT_NE(session.moment()->failure, "");
