@@ -103,7 +103,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"districts", 2},
                                                {"study", 3},
                                                {"tick", 30},
-                                               {"plan", 9},
+                                               {"plan", 12},
                                                {"past", 1},
                                                {"load", 1},
                                                {"tick_growth", 1}}));
