@@ -12,6 +12,9 @@ namespace bl {
 
 namespace {
 
+// Some tenths of a second.
+constexpr std::size_t kMostQuestions = 1'000'000;
+
 // Sets of nodes, tags, and texts that name ports decide about indices; so does what names a unit or is chosen by a set.
 bool is_plain(const TypificationDefinition& type, const std::string& id) {
   const PortDefinition* port = type.find_port(id);
@@ -214,6 +217,8 @@ std::optional<Amended> amend(const Plan& plan, const Scene& scene, const Registr
   std::vector<NodeDifference> found;
   std::copy_if(nodes->begin(), nodes->end(), std::back_inserter(found),
                [](const NodeDifference& one) { return one.is_other_to_find; });
+  // Every link and set is asked about each of these nodes: of many, compiling everything takes less.
+  if (found.size() * (scene.links.size() + plan.sets.size()) > kMostQuestions) return std::nullopt;
   // Definitions belong to the scripts of the scene that was compiled: the copies keep these, which say the same.
   const Registry& registry = before.scripts.types(program);
   Amended amended;

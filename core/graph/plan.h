@@ -73,7 +73,7 @@ struct Plan {
   SharedVector<SetPlan> sets;                    ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;            ///< ascending node id, then typification
   std::shared_ptr<const Dependents> dependents;  ///< shared with plans that are amended from this one in plain values
-  /// Shared with the plans that are amended from this one: their nodes, typifications and ports have the same indices.
+  /// Shared with plans that are amended from this one while no node comes or goes: nodes, types and ports have the same indices.
   std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 
   /// Index of a node, or nodes.size().

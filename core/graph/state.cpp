@@ -289,6 +289,11 @@ State moved_state(const State& old, const MovedPlan& moved) {
   return std::move(draft).publish();
 }
 
+bool has_rivals(const SetDependents& sets) {
+  return std::any_of(sets.groups.begin(), sets.groups.end(),
+                     [](const SetGroup& group) { return group.rivals != SetGroup::kNone; });
+}
+
 }  // namespace
 
 State carry_amended(const State& from, const Amended& amended, const Placed& placed) {
@@ -321,7 +326,9 @@ State carry_amended(const State& from, const Amended& amended, const Placed& pla
     state.due.nodes.push_back(n);
     draft.nodes.put(n, std::move(after));
   }
-  // A set with other members or ports is asked by its settings; so are those that write to the same ports.
+  // A set with other members or ports is asked by its settings; so are those that write to the same ports now. Who did so before
+  // may no longer be found as one of them.
+  if (!amended.sets.empty() && has_rivals(*from.plan->dependents->sets)) state.due.is_everything = true;
   for (const auto& [n, t] : amended.sets)
     for (std::uint16_t p = 0; p < state.plan->nodes[n].types[t].set_values.size(); ++p)
       state.due.replied.push_back({n, static_cast<std::uint16_t>(t), p});

@@ -38,6 +38,14 @@ TEST(RivalLaws, WhoComesFirstIsFoundOutAsIfAllWereAskedInEveryTick) {
     });
 }
 
+TEST(RivalLaws, WhoIsLeftAloneIsAskedAgain) {
+  for (const int at : {6, 70})
+    expect_the_same_states(contested_volumes(), at + 12, 1, [at](World& world, int tick) {
+      if (tick == at) (void)world.submit(set("a", "smart_volumes_solver.members", {{"tag", "none"}}));
+      if (tick == at + 6) (void)world.submit(set("a", "smart_volumes_solver.members", {{"typification", "smart_volume"}}));
+    });
+}
+
 TEST(RivalLaws, AtRestNobodyIsAsked) {
   World world = World::from_text(contested_volumes());
   world.tick(60);

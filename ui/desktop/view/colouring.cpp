@@ -209,10 +209,8 @@ Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, con
 
 // They follow from the roles that nodes have, not from values.
 const std::vector<ColourChoice>& ColourMemo::choices(const SceneFacts& facts) {
-  const bool is_same =
-      chosen_from_ && chosen_from_->plan->dependents == facts.state->plan->dependents && nodes_ == facts.columns.node;
-  if (is_same) return choices_;
-  chosen_from_ = facts.state;
+  if (chosen_from_ && chosen_from_ == facts.state->plan->dependents && nodes_ == facts.columns.node) return choices_;
+  chosen_from_ = facts.state->plan->dependents;
   nodes_ = facts.columns.node;
   return choices_ = colour_choices(facts);
 }

@@ -93,7 +93,7 @@ class ColourMemo {
   bool is_dark_ = false;
   std::uint64_t uses_revision_ = 0;
   Colouring colouring_;
-  std::shared_ptr<const State> chosen_from_;  ///< what `choices_` are of, and the nodes of its volumes
+  std::shared_ptr<const Dependents> chosen_from_;  ///< of the plan that `choices_` are of, and the nodes of its volumes
   std::vector<std::uint32_t> nodes_;
   std::vector<ColourChoice> choices_;
 };
