@@ -167,6 +167,27 @@ TEST_F(ViewGpu, DrawsVolumesWhereTheyStand) {
   EXPECT_LT(at(2, h - 3)[0], 90) << "a corner is not";
 }
 
+// Around what is chosen there is an outline, and nobody is chosen here: numbers of volumes have room beside the flags.
+TEST_F(ViewGpu, OutlinesNobodyElseAmongManyVolumes) {
+  ViewScene scene;
+  std::vector<ViewVolume> volumes(20000, {0, ball_cell({0, 0, 10}, 5), 0xff3030e0u, 0, 0, ViewVolume::plain});
+  for (std::uint32_t k = 0; k < volumes.size(); ++k) volumes[k].node = k;
+  volumes.back().cell = ball_cell({0, 0, 10}, 10);
+  scene.colours.chosen = scene.colours.hovered = 0xff00ff00u;
+  scene.camera.fit({0, 0, 10}, 20, 1);
+  const auto outlined = [&] {
+    scene.volumes = listed(volumes);
+    EXPECT_NE(renderer_->draw(scene, 64, 64), 0u);
+    const std::vector<std::uint8_t> pixels = renderer_->pixels();
+    int count = 0;
+    for (std::size_t k = 0; k + 3 < pixels.size(); k += 4) count += pixels[k + 1] > pixels[k] + 100 ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(outlined(), 0);
+  volumes.back().flags |= ViewVolume::chosen;
+  EXPECT_GT(outlined(), 20);
+}
+
 // Two wide, translucent lines that go on as each other, seen from above: what the picture has at the place of the bend.
 TEST_F(ViewGpu, FillsTheCornersOfLinesAndPaintsThemOnce) {
   ViewScene scene;

@@ -40,7 +40,7 @@ Matrix box_matrix(const ViewScene& scene, const Vector3& towards, double reach) 
 
 GlRenderer::GlRenderer()
     : programs_(std::make_unique<Programs>()),
-      picture_({{GL_RGBA8, GL_NEAREST}, {GL_R16UI, GL_NEAREST}}, GL_DEPTH24_STENCIL8),
+      picture_({{GL_RGBA8, GL_NEAREST}, {GL_R32UI, GL_NEAREST}}, GL_DEPTH24_STENCIL8),
       final_({{GL_RGBA8, GL_LINEAR}}, 0),
       shadow_({}, GL_DEPTH_COMPONENT24, true),
       heights_({{GL_RG16F, GL_LINEAR}}, 0),
@@ -247,6 +247,7 @@ void GlRenderer::draw_volumes(const ViewScene& scene) {
     program.set("is_parallel", scene.camera.is_parallel ? 1.0f : 0.0f);
   }
   program.set("pixel", pixel_);
+  program.set("half_height", 0.5f * static_cast<float>(picture_.height()));
   program.set("with_edges", scene.layers.edges ? 1.0f : 0.0f);
   program.set("with_storeys", scene.layers.storeys ? 1.0f : 0.0f);
   volumes_.draw(program, depth_);

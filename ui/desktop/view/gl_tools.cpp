@@ -134,10 +134,10 @@ bool GlTarget::resize(int width, int height) {
   };
   std::vector<GLenum> drawn;
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const bool is_integer = planes_[k].format == GL_R16UI;
+    const bool is_integer = planes_[k].format == GL_R32UI;
     const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(k);
     textures_.push_back(texture(planes_[k].format, is_integer ? GL_RED_INTEGER : GL_RGBA,
-                                is_integer ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, planes_[k].filter, attachment));
+                                is_integer ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE, planes_[k].filter, attachment));
     drawn.push_back(attachment);
   }
   if (drawn.empty()) drawn.push_back(GL_NONE);

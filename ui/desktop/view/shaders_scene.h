@@ -167,7 +167,8 @@ void main() {
 }
 )";
 
-// Outlines where one volume ends before another, softened; and a bright one around what is chosen or pointed at.
+// Outlines where one volume ends before another, softened; and a bright one around what is chosen or pointed at. A label has two
+// bits for these, three for how much of its lines the volume carries, and the volume's number above them; 0 is no volume.
 inline constexpr const char* kFinishFragment = R"(
 uniform sampler2D picture;
 uniform usampler2D labels;
@@ -177,6 +178,7 @@ uniform int reach;
 in vec2 at;
 layout(location = 0) out vec4 colour;
 
+float fineness_of(uint label) { return float((label >> 2) & 7u) / 7.0; }
 uint label_at(ivec2 p, ivec2 size) { return texelFetch(labels, clamp(p, ivec2(0), size - 1), 0).r; }
 
 void main() {
@@ -193,18 +195,20 @@ void main() {
     if (((other | own) & 1u) != 0u) hovered += 1.0;
   }
   // Most of the picture is no outline. A loop without turns is left at once, also where branches are not: in software.
-  float others = 0.0;
+  float others = 0.0, fineness = fineness_of(own);
   vec3 sum = vec3(0.0);
   int turns = differing > 0.0 ? 9 : 0;
   for (int k = 0; k < turns; ++k) {
     ivec2 at_neighbour = clamp(here + ivec2(k % 3 - 1, k / 3 - 1), ivec2(0), size - 1);
-    if (texelFetch(labels, at_neighbour, 0).r == own) continue;
+    uint other = texelFetch(labels, at_neighbour, 0).r;
+    if (other == own) continue;
     others += 1.0;
+    if (own == 0u) fineness = max(fineness, fineness_of(other));
     sum += texelFetch(picture, at_neighbour, 0).rgb;
   }
   if (others > 0.0) {
     shown = mix(shown, sum / others, min(0.5, others / 12.0));
-    if (with_edges > 0.5) shown = mix(shown, edge_colour.rgb, 0.62 * clamp(others / 5.0, 0.0, 1.0));
+    if (with_edges > 0.5) shown = mix(shown, edge_colour.rgb, 0.62 * fineness * clamp(others / 5.0, 0.0, 1.0));
   }
   shown = mix(shown, hovered_colour.rgb, clamp(hovered / 3.0, 0.0, 1.0));
   shown = mix(shown, chosen_colour.rgb, clamp(chosen / 3.0, 0.0, 1.0));

@@ -96,12 +96,24 @@ void main() {
 
 inline constexpr const char* kVolumeVertex = R"(
 uniform mat4 matrix;
+uniform float half_height, pixel;
 out vec3 world, flat_place;
 out float centre_weight;
 flat out vec3 facet_normal;
 flat out int number;
+flat out float fineness;
+
+// How much of its lines a volume carries, from 0 to 1: one of a few pixels would be nothing but lines. The matrix's second row is
+// as long as a metre is high in the picture, before the division by the depth.
+float fineness_of(vec4 ball) {
+  float row = length(vec3(matrix[0].y, matrix[1].y, matrix[2].y));
+  float depth = max((matrix * vec4(ball.xyz, 1.0)).w, 1e-6);
+  return smoothstep(2.5, 9.0, ball.w * row * half_height / depth / pixel);
+}
+
 void main() {
   Divided d = divided();
+  fineness = fineness_of(d.ball);
   world = d.ball.xyz + d.place;
   flat_place = d.flat_place;
   centre_weight = d.centre_weight;
@@ -227,6 +239,7 @@ in vec3 world, flat_place;
 in float centre_weight;
 flat in vec3 facet_normal;
 flat in int number;
+flat in float fineness;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
 
@@ -239,7 +252,7 @@ void main() {
   vec4 paint = texelFetch(records, 3 * number + 1);
   vec4 storey = texelFetch(records, 3 * number + 2);
   int flags = int(paint.w);
-  label = uint(4 * (number + 1) + (flags & 3));
+  label = uint(32 * (number + 1) + 4 * int(7.0 * fineness + 0.5) + (flags & 3));
   float reach = length(flat_place);
   bool is_round = reach > ball.w;
   vec3 normal = is_round ? normalize(world - ball.xyz) : facet_normal;
@@ -293,7 +306,7 @@ void main() {
     float crease = abs(reach - ball.w) / max(fwidth(reach), 1e-6);
     float edge = is_round ? 0.0 : line(rim, 0.55 * pixel);
     edge = max(edge, 0.6 * line(crease, 0.45 * pixel));
-    shown = mix(shown, edge_colour.rgb, 0.62 * edge * (1.0 - 0.6 * faint));
+    shown = mix(shown, edge_colour.rgb, 0.62 * fineness * edge * (1.0 - 0.6 * faint));
   }
   colour = vec4(shown, 1.0);
 }
