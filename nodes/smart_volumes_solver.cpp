@@ -181,12 +181,6 @@ struct SmartVolumesSolver {
                  "the boundary " + found + " has no shape: see its own error, or make it simpler where it has none"};
   }
 
-  // What is kept from tick to tick.
-  struct Kept {
-    geometry::VolumeTick::Cache cache;
-    std::vector<std::string> names;
-  };
-
   // The members as the geometry has them.
   struct Volumes {
     std::vector<geometry::PowerSite> sites;
@@ -195,28 +189,47 @@ struct SmartVolumesSolver {
     geometry::FitState last;
   };
 
+  // What is kept from tick to tick.
+  struct Kept {
+    geometry::VolumeTick::Cache cache;
+    std::vector<std::string> names;
+    Volumes volumes;                                // of the members as they were read
+    std::vector<double> volume, floor_area, error;  // of each member, as they came out
+    bool is_known = false;                          // do these belong to the last run?
+  };
+
   static geometry::Standing rule_of(const std::string& standing) {
     return standing == "ground"   ? geometry::Standing::ground
            : standing == "bridge" ? geometry::Standing::bridge
                                   : geometry::Standing::stack;
   }
 
-  static Volumes volumes_of(const In& in, std::span<const Member> members) {
-    Volumes volumes;
+  static void take_member(const Member& member, std::size_t i, Volumes& volumes) {
+    volumes.sites[i] = {member.position, member.weight};
+    volumes.wanted[i] = std::max(std::min(member.demand, member.limit), member.least);
+    volumes.storey_heights[i] = member.storey_height;
+    volumes.standing[i] = rule_of(member.standing);
+    volumes.last.previous_move[i] = member.last_step;
+    volumes.last.direction[i] = member.last_direction;
+  }
+
+  // Those that have changed, or all.
+  static void take_members(const In& in, const Watched<Member>& members, bool is_anew, Volumes& volumes) {
     volumes.last.momentum = std::max(1.0, in.last.momentum);
     volumes.last.problem = std::strtoull(in.last.problem.c_str(), nullptr, 16);
     volumes.last.residual = in.last.residual;
     volumes.last.share = in.last.share;
     volumes.last.least_ratio = in.last.least_ratio;
-    for (const Member& member : members) {
-      volumes.sites.push_back({member.position, member.weight});
-      volumes.wanted.push_back(std::max(std::min(member.demand, member.limit), member.least));
-      volumes.storey_heights.push_back(member.storey_height);
-      volumes.standing.push_back(rule_of(member.standing));
-      volumes.last.previous_move.push_back(member.last_step);
-      volumes.last.direction.push_back(member.last_direction);
+    if (!is_anew) {
+      for (const std::uint32_t i : members.changed) take_member(members.all[i], i, volumes);
+      return;
     }
-    return volumes;
+    const std::size_t count = members.all.size();
+    volumes.sites.resize(count);
+    volumes.standing.resize(count);
+    for (auto* numbers : {&volumes.wanted, &volumes.storey_heights, &volumes.last.previous_move, &volumes.last.direction})
+      numbers->resize(count);
+    for (std::size_t i = 0; i < count; ++i) take_member(members.all[i], i, volumes);
   }
 
   // Below this share of what is asked for a volume has nothing, whatever the limits say that it should aim at.
@@ -230,10 +243,9 @@ struct SmartVolumesSolver {
   }
 
   // Of what the fit and the cell of one member come to.
-  static Reply reply_of(std::uint32_t i, const Volumes& volumes, const geometry::VolumeTick::Outcome& done,
+  static Reply reply_of(std::uint32_t i, double wanted, double weight, const geometry::VolumeTick::Outcome& done,
                         std::span<const Member> members, std::span<const std::string> names) {
     const geometry::CellMeasure& cell = done.cells[i];
-    const double wanted = volumes.wanted[i], weight = volumes.sites[i].weight;
     const std::int32_t on = done.stances[i].stands_on;
     Table neighbours{{"node", "area"}, {}};
     neighbours.rows.reserve(cell.facets.size());
@@ -271,16 +283,29 @@ struct SmartVolumesSolver {
     return reply;
   }
 
-  static void add_up(const geometry::VolumeTick::Outcome& done, const Volumes& volumes, std::span<const Member> members, Out& out) {
+  // What came out of those that were answered, or of all.
+  static void take_outcome(const geometry::VolumeTick::Outcome& done, std::span<const Member> members,
+                           std::span<const std::uint32_t> answered, bool is_anew, Kept& kept) {
+    const auto take = [&](std::size_t i) {
+      kept.volume[i] = done.cells[i].volume;
+      kept.floor_area[i] = done.cells[i].floor_area;
+      kept.error[i] = error_of(members[i], kept.volumes.wanted[i], done.cells[i].volume);
+    };
+    for (auto* numbers : {&kept.volume, &kept.floor_area, &kept.error}) numbers->resize(members.size());
+    if (is_anew)
+      for (std::size_t i = 0; i < members.size(); ++i) take(i);
+    else
+      for (const std::uint32_t i : answered) take(i);
+  }
+
+  static void add_up(const Kept& kept, std::span<const Member> members, Out& out) {
     for (std::size_t i = 0; i < members.size(); ++i) {
-      const geometry::CellMeasure& cell = done.cells[i];
-      out.count += cell.volume > 0 ? 1 : 0;
-      out.total_demand += volumes.wanted[i];
-      out.total_volume += cell.volume;
-      out.total_floor_area += cell.floor_area;
-      const double error = error_of(members[i], volumes.wanted[i], cell.volume);
-      if (error <= out.largest_error) continue;
-      out.largest_error = error;
+      out.count += kept.volume[i] > 0 ? 1 : 0;
+      out.total_demand += kept.volumes.wanted[i];
+      out.total_volume += kept.volume[i];
+      out.total_floor_area += kept.floor_area[i];
+      if (kept.error[i] <= out.largest_error) continue;
+      out.largest_error = kept.error[i];
       out.worst = members[i].id;
     }
     out.fill = out.total_volume / out.boundary_volume;
@@ -308,7 +333,12 @@ struct SmartVolumesSolver {
       kept.names.clear();
       for (const Member& member : members) kept.names.push_back(member.id);
     }
-    Volumes volumes = volumes_of(in, members);
+    // Nobody tells what a recall has changed for the evaluation after it.
+    const bool is_anew = sets.members.is_anew || tick.is_recall || !kept.is_known || kept.error.size() != members.size();
+    kept.is_known = false;
+    take_members(in, sets.members, is_anew, kept.volumes);
+    const Volumes& volumes = kept.volumes;
+    std::vector<geometry::PowerSite> sites = volumes.sites;
     const geometry::VolumeTick now{.metric = in.metric,
                                    .samples = in.resolution,
                                    .method = in.method,
@@ -319,14 +349,17 @@ struct SmartVolumesSolver {
                                    .storey_heights = volumes.storey_heights,
                                    .standing = volumes.standing,
                                    .pool = tick.pool};
-    const auto done = now.run(**found, volumes.sites, volumes.wanted, volumes.last, kept.cache);
+    const auto done = now.run(**found, sites, volumes.wanted, volumes.last, kept.cache);
     if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, names)};
-    add_up(*done, volumes, members, out);
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
                    std::back_inserter(answered));
+    take_outcome(*done, members, answered, is_anew, kept);
+    add_up(kept, members, out);
+    kept.is_known = !tick.is_recall;
     out.replies.replies.reserve(answered.size());
-    for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(i, volumes, *done, members, names));
+    for (const std::uint32_t i : answered)
+      out.replies.replies.push_back(reply_of(i, volumes.wanted[i], sites[i].weight, *done, members, names));
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);
     if (!done->note.empty()) out.message += (out.message.empty() ? "" : "; ") + geometry::with_names(done->note, names);

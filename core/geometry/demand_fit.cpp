@@ -56,14 +56,17 @@ Result<FitReport> WeightFit::run() {
     auto measured = diagram.update(sites_, cells);
     if (!measured) return measured.error();
     if (step == 0) {
-      targets_.grant(*measured, domain_.volume, out_of_reach(domain_, sites_));
+      std::vector<std::uint8_t> is_lost = out_of_reach(domain_, sites_);
+      for (std::size_t i = 0; diagram.has_coincident() && i < is_lost.size(); ++i)
+        if ((*measured)[i].state == SiteState::coincident) is_lost[i] = 1;
+      targets_.grant(diagram.volumes(), domain_.volume, is_lost);
       if (start_full()) measured = diagram.update(sites_, cells);
       if (!measured) return measured.error();
     }
     report_.steps = step + 1;
-    judge(*measured);
-    report_.evaluated.clear();
-    for (const PowerSite& site : sites_) report_.evaluated.push_back(site.weight);
+    judge(diagram.volumes());
+    report_.evaluated.resize(sites_.size());
+    for (std::size_t i = 0; i < sites_.size(); ++i) report_.evaluated[i] = sites_[i].weight;
     if (report_.is_met) break;
     if (step == 0 && has_lost_cells(*measured)) {
       begin_evenly();
@@ -72,7 +75,9 @@ Result<FitReport> WeightFit::run() {
     move(*measured);
     keep_in_bounds();
   }
+  report_.weights.reserve(sites_.size());
   for (const PowerSite& site : sites_) report_.weights.push_back(site.weight);
+  report_.demands.reserve(targets_.size());
   for (std::size_t k = 0; k < targets_.size(); ++k) report_.demands.push_back(targets_.aim(k));
   report_.infeasible = targets_.infeasible();
   report_.losses = targets_.losses();
@@ -104,7 +109,9 @@ void WeightFit::recognise(std::span<const PowerSite> sites) {
 
 // Sites without a weight yet: all of them alike where no site has one, else each by its own demand.
 void WeightFit::start_fresh_sites() {
-  const bool all_fresh = std::none_of(sites_.begin(), sites_.end(), [](const PowerSite& s) { return s.weight > 0; });
+  const auto has_weight = [](const PowerSite& site) { return site.weight > 0; };
+  if (std::all_of(sites_.begin(), sites_.end(), has_weight)) return;
+  const bool all_fresh = std::none_of(sites_.begin(), sites_.end(), has_weight);
   std::vector<double> parts(sites_.size(), 0), start;
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     if (targets_.owner(i) != FitTargets::kNone) parts[i] = targets_.part(i);
@@ -162,21 +169,25 @@ bool WeightFit::start_full() {
 }
 
 void WeightFit::keep_in_bounds() {
+  // Within these bounds every weight is within its own, which asks for its distance from the middle.
+  const double sure = std::min(kLargestWeight, kMostReach * domain_.size() * (kMostReach * domain_.size()));
   for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (sites_[i].weight >= 0 && sites_[i].weight <= sure) continue;
     const double reach = kMostReach * (domain_.size() + distance(sites_[i].position, domain_.centroid));
     if (targets_.owner(i) == FitTargets::kNone) continue;
     sites_[i].weight = std::clamp(sites_[i].weight, 0.0, std::min(kLargestWeight, reach * reach));
   }
 }
 
-void WeightFit::judge(std::span<const CellMeasure> cells) {
-  targets_.measure(cells);
-  report_.volumes.resize(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) report_.volumes[i] = cells[i].volume;
+void WeightFit::judge(std::span<const double> volumes) {
+  targets_.measure(volumes);
+  report_.volumes.assign(volumes.begin(), volumes.end());
   report_.error = 0;
   report_.worst_site = 0;
+  missed_.clear();
   for (std::uint32_t k = 0; k < targets_.size(); ++k) {
     const double error = targets_.error(k);
+    if (error > options_.tolerance) missed_.push_back(k);
     if (!(error > report_.error)) continue;
     report_.error = error;
     report_.worst_site = k;

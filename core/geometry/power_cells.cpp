@@ -51,6 +51,7 @@ Error failure(const std::exception& problem) {
 struct PowerDiagram::Workshop {
   CellWorkshop workshop;
   std::vector<CellMeasure> cells;
+  std::vector<double> volumes;  // the same as in the cells, side by side
   std::vector<std::vector<std::uint32_t>> borders, faces;
   std::vector<std::vector<ShapeMeasure>> shapes;  // of cells that are to be completed
   std::vector<std::uint32_t> changed, made, completed, empty, unlimited;
@@ -93,10 +94,12 @@ struct PowerDiagram::Workshop {
     });
   }
 
+  // Whole cells have none.
   void find_limits(std::span<const PowerSite> sites, const CellOptions& options) {
-    limits.resize(sites.size());
     unlimited.clear();
     largest_limit = 0;
+    if (options.with_shape) return;
+    limits.resize(sites.size());
     for (std::uint32_t i = 0; i < sites.size(); ++i) {
       limits[i] = workshop.limit_of(sites[i].weight, options);
       if (!std::isfinite(limits[i])) {
@@ -149,7 +152,7 @@ struct PowerDiagram::Workshop {
     }
     // Nothing else borders them: whole cells that have appeared out of nothing may have swallowed everything.
     find_limits(sites, options);
-    if (made.size() == done && !unlimited.empty() && done < sites.size()) return false;
+    if (made.size() == done && (options.with_shape || !unlimited.empty()) && done < sites.size()) return false;
     for (const std::uint32_t site : empty) mark(site);
     for (std::size_t k = 0; k < done && !options.with_shape; ++k) {
       mark_reached(before[k], options);
@@ -172,10 +175,19 @@ struct PowerDiagram::Workshop {
     return {};
   }
 
+  // Cells that were empty are made anew in every update that makes any.
+  void note_made() {
+    empty.clear();
+    volumes.resize(cells.size());
+    for (const std::uint32_t i : made) {
+      volumes[i] = cells[i].volume;
+      is_complete[i] = 0;
+      if (!(cells[i].volume > 0)) empty.push_back(i);
+    }
+  }
+
   Result<void> update(std::span<const PowerSite> sites, const CellOptions& options) {
     if (workshop.domain().pieces.empty()) return Error{ErrorCode::missing, "", "the power diagram has no domain yet"};
-    if (auto checked = check_sites(sites); !checked) return checked.error();
-    if (auto checked = check_options(sites, workshop.domain(), options); !checked) return checked.error();
     const bool comparable = is_whole && workshop.sites().size() == sites.size();
     bool same_places = comparable;
     changed.clear();
@@ -184,6 +196,11 @@ struct PowerDiagram::Workshop {
       changed.push_back(i);
       same_places = same_places && sites[i].position == workshop.sites()[i].position;
     }
+    // The others have been checked before.
+    for (const std::uint32_t i : changed)
+      if (auto checked = check_site(i, sites[i]); !checked) return checked.error();
+    if (auto checked = comparable ? Result<void>{} : check_sites(sites); !checked) return checked.error();
+    if (auto checked = check_options(sites, workshop.domain(), options); !checked) return checked.error();
     const bool is_same = asks_the_same(last, options) && std::equal(storey_heights.begin(), storey_heights.end(),
                                                                     options.storey_heights.begin(), options.storey_heights.end());
     const bool is_local =
@@ -192,11 +209,7 @@ struct PowerDiagram::Workshop {
     if (!is_local || !update_locally(sites, options)) {
       if (auto done = update_all(sites, options, same_places); !done) return done.error();
     }
-    empty.clear();
-    for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      if (!(cells[i].volume > 0)) empty.push_back(i);
-    }
-    for (const std::uint32_t i : made) is_complete[i] = 0;
+    if (!made.empty() || cells.empty()) note_made();
     last = options;
     storey_heights.assign(options.storey_heights.begin(), options.storey_heights.end());
     is_whole = !is_stop_wished();
@@ -234,12 +247,15 @@ Result<void> PowerDiagram::set_domain(const Domain& domain) {
   if (workshop_->is_whole && workshop_->workshop.domain() == domain) return {};
   workshop_->workshop.set_domain(domain);
   workshop_->cells.clear();
+  workshop_->volumes.clear();
   workshop_->is_whole = false;
   return {};
 }
 
 const Domain& PowerDiagram::domain() const { return workshop_->workshop.domain(); }
 std::span<const CellMeasure> PowerDiagram::cells() const { return workshop_->cells; }
+std::span<const double> PowerDiagram::volumes() const { return workshop_->volumes; }
+bool PowerDiagram::has_coincident() const { return workshop_->workshop.has_twins(); }
 std::span<const std::uint32_t> PowerDiagram::made() const { return workshop_->made; }
 std::span<const std::uint32_t> PowerDiagram::completed() const { return workshop_->completed; }
 

@@ -111,6 +111,10 @@ class PowerDiagram {
   Result<std::span<const CellMeasure>> complete(const CellOptions& options);
   /// The measures of the last update.
   std::span<const CellMeasure> cells() const;
+  /// Their volumes alone, which take less to be read than the records.
+  std::span<const double> volumes() const;
+  /// Does any site lie where another one does?
+  bool has_coincident() const;
   /// The sites whose cells the last update has computed anew; the other cells cannot have changed.
   std::span<const std::uint32_t> made() const;
   /// The sites whose cells the last complete() has completed; the other cells have not changed since the one before.

@@ -35,30 +35,55 @@ SetValues read_set(const StateDraft& draft, const SetPlan& plan) {
   return set;
 }
 
+void KeptSets::read_all(const StateDraft& draft, std::span<const SetPlan> plans) {
+  structure_ = draft.state.plan->dependents->sets;
+  sets_.clear();
+  seen_.clear();
+  for (const SetPlan& plan : plans) {
+    sets_.push_back(read_set(draft, plan));
+    auto& seen = seen_.emplace_back(plan.members.size());
+    for (std::size_t m = 0; m < seen.size(); ++m) seen[m].node = draft.nodes.item(plan.members[m]);
+  }
+}
+
+// Nodes, ascending: all others are the same objects as in the state that the tick of the last reading went out from, and neither
+// that tick nor this one has written to them.
+std::vector<std::uint32_t> KeptSets::may_differ(const StateDraft& draft) const {
+  std::vector<std::uint32_t> nodes = written_;
+  const std::vector<std::uint32_t> own = draft.nodes.own_items();
+  nodes.insert(nodes.end(), own.begin(), own.end());
+  each_difference(nodes_, draft.state.nodes, [&](std::uint32_t n) { nodes.push_back(n); });
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 std::span<SetValues> KeptSets::read(const StateDraft& draft, const SetGroup& group, bool is_anew) {
   const auto plans = sets_of(*draft.state.plan, group);
   // Until all is written: an exception on the way leaves replies that nobody has got.
   const bool was_complete = std::exchange(is_complete_, false);
-  if (is_anew || !was_complete || structure_ != draft.state.plan->dependents->sets) {
-    structure_ = draft.state.plan->dependents->sets;
-    sets_.clear();
-    seen_.clear();
-    for (const SetPlan& plan : plans) {
-      sets_.push_back(read_set(draft, plan));
-      auto& seen = seen_.emplace_back(plan.members.size());
-      for (std::size_t m = 0; m < seen.size(); ++m) seen[m].node = draft.nodes.item(plan.members[m]);
-    }
+  if (is_anew || !was_complete || structure_ != draft.state.plan->dependents->sets || nodes_.size() != draft.nodes.size()) {
+    read_all(draft, plans);
+    nodes_ = draft.state.nodes;
     return sets_;
   }
+  const std::vector<std::uint32_t> nodes = may_differ(draft);
+  nodes_ = draft.state.nodes;
   for (std::size_t s = 0; s < plans.size(); ++s) {
     SetValues& set = sets_[s];
     set.is_anew = false;
     set.changed.clear();
     set.answered.reset();
     set.writes.clear();
-    for (std::uint32_t m = 0; m < seen_[s].size(); ++m) {
+    const std::vector<std::uint32_t>& members = plans[s].members;
+    auto at = members.begin();
+    for (const std::uint32_t n : nodes) {
+      at = std::lower_bound(at, members.end(), n);
+      if (at == members.end()) break;
+      if (*at != n) continue;
+      const auto m = static_cast<std::uint32_t>(at - members.begin());
       Seen& seen = seen_[s][m];
-      const auto& now = draft.nodes.item(plans[s].members[m]);
+      const auto& now = draft.nodes.item(n);
       const bool is_other = now != seen.node;
       if (!is_other && !seen.may_differ) continue;
       // What is another node may have lost its replies, whatever is read of it.
@@ -73,11 +98,11 @@ void KeptSets::note_written(const StateDraft& draft, const SetGroup& group, bool
   is_complete_ = is_complete;
   if (!is_complete) return;
   const auto plans = sets_of(*draft.state.plan, group);
-  const std::vector<std::uint32_t> own = draft.nodes.own_items();
+  written_ = draft.nodes.own_items();
   for (std::size_t s = 0; s < plans.size(); ++s) {
     const std::vector<std::uint32_t>& members = plans[s].members;
     auto at = members.begin();
-    for (const std::uint32_t n : own) {
+    for (const std::uint32_t n : written_) {
       at = std::lower_bound(at, members.end(), n);
       if (at == members.end()) break;
       if (*at == n) seen_[s][static_cast<std::size_t>(at - members.begin())] = {draft.nodes.item(n), true};

@@ -24,6 +24,9 @@ class KeptSets {
   void note_written(const StateDraft& draft, const SetGroup& group, bool is_complete);
 
  private:
+  void read_all(const StateDraft& draft, std::span<const SetPlan> plans);
+  std::vector<std::uint32_t> may_differ(const StateDraft& draft) const;
+
   struct Seen {
     std::shared_ptr<const NodeState> node;  ///< as it was when all was written; held, so that no other one gets its address
     bool may_differ = false;                ///< from what was read: it was written to afterwards
@@ -32,6 +35,8 @@ class KeptSets {
   std::shared_ptr<const SetDependents> structure_;  ///< of the plans that have these sets
   std::vector<SetValues> sets_;
   std::vector<std::vector<Seen>> seen_;  ///< by set and member
+  NodeStates nodes_;                     ///< of the state that the tick of the last reading went out from
+  std::vector<std::uint32_t> written_;   ///< nodes that this tick has written to; ascending
   bool is_complete_ = false;
 };
 

@@ -1,22 +1,15 @@
-// Phase 6: solvers over sets of nodes, within the tick or beside it, and their replies.
+// Phase 6: solvers over sets of nodes, within the tick or beside it.
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 
 #include "core/graph/phases.h"
+#include "core/graph/set_replies.h"
 #include "core/graph/sums_of_now.h"
 
 namespace bl {
 
 namespace {
-
-struct Reply {
-  PortRef target;
-  Value value;
-  std::uint32_t node = 0, type = 0;  // who wrote it
-};
 
 // One typification with all of its sets, and what it reads, gathered before any of them writes.
 struct SetCase {
@@ -93,12 +86,6 @@ std::vector<bool> due_groups(const TickWork& work) {
 
 SetMemo& memo_of(SetMemos& memos, const Plan& plan, const SetGroup& group) {
   return memos[{plan.nodes[group.node].id, plan.nodes[group.node].types[group.type].definition->id}];
-}
-
-void write_reply(StateDraft& next, PortRef target, Value&& value) {
-  if (next.value(target) == value) return;
-  next.edit(target) = std::move(value);
-  next.state.due.replied.push_back(target);
 }
 
 // Whether all that it replies can be written. What nobody else writes to is written at once.
@@ -259,69 +246,6 @@ void advance_analysis(TickWork& work, const SetGroup& group, std::optional<SetCa
     analysis.seen = inputs;
   }
   hand_on();
-}
-
-bool has_rivals(const SetDependents& dependents, const std::vector<Reply>& replies) {
-  std::vector<bool> is_written(dependents.groups_writing.keys());
-  for (const Reply& reply : replies) {
-    const std::size_t port = dependents.port_index(reply.target);
-    if (is_written[port]) return true;
-    is_written[port] = true;
-  }
-  return false;
-}
-
-// Where two write to one port the first one has it, and the other one says so.
-void write_replies(StateDraft& next, std::vector<Reply>& replies) {
-  if (replies.empty()) return;
-  const Plan& plan = *next.state.plan;
-  if (!has_rivals(*plan.dependents->sets, replies)) {
-    for (Reply& reply : replies) write_reply(next, reply.target, std::move(reply.value));
-    return;
-  }
-  std::vector<std::size_t> order(replies.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return replies[a].target != replies[b].target ? replies[a].target < replies[b].target : a < b;
-  });
-  std::vector<std::pair<std::size_t, std::size_t>> late;  // replies that came too late, and those before them
-  for (std::size_t first = 0, at = 0; at < order.size(); ++at) {
-    Reply& reply = replies[order[at]];
-    if (at > 0 && reply.target == replies[order[first]].target) {
-      late.emplace_back(order[at], order[first]);
-      continue;
-    }
-    first = at;
-    write_reply(next, reply.target, std::move(reply.value));
-  }
-  std::sort(late.begin(), late.end());
-  for (const auto& [at, before] : late) {
-    const Reply& reply = replies[at];
-    next.edit(reply.node, reply.type).error =
-        Error{ErrorCode::conflict, place_of(plan, reply.node, reply.type),
-              "`" + plan.nodes[reply.target.node].id + "` already belongs to `" + plan.nodes[replies[before].node].id +
-                  "`; a node can be a member of one such set only"};
-  }
-}
-
-bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
-
-// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either. Recipes see
-// to that, and nothing is made for it.
-void keep_shapes(StateDraft& next, const SetGroup& group) {
-  for (const SetPlan& plan : sets_of(*next.state.plan, group))
-    for (const PortRef& ref : plan.writes) {
-      const auto* mesh = std::get_if<MeshPointer>(&next.value(ref));
-      if (mesh == nullptr || !*mesh || mesh->has_recipe()) continue;
-      const bool is_plain = std::none_of((*mesh)->vertices.begin(), (*mesh)->vertices.end(), [](const Point3& p) {
-        return is_negative_zero(p.x) || is_negative_zero(p.y) || is_negative_zero(p.z);
-      });
-      if (is_plain) continue;
-      auto plain = std::make_shared<Mesh>(**mesh);
-      for (Point3& vertex : plain->vertices) vertex += Point3{0, 0, 0};  // -0 + 0 is 0
-      next.edit(ref) = MeshPointer(std::move(plain));
-      next.state.due.replied.push_back(ref);
-    }
 }
 
 }  // namespace

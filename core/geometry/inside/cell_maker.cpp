@@ -36,8 +36,9 @@ void CellInput::set_domain(const Domain& given) {
 }
 
 double CellInput::limit_of(double weight, bool whole) const {
+  if (whole) return kUnlimited;
   const double radius = std::sqrt(std::max(0.0, weight));
-  return whole || radius > kLargeBall * domain.size() ? kUnlimited : radius;
+  return radius > kLargeBall * domain.size() ? kUnlimited : radius;
 }
 
 Result<void> CellInput::set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants) {

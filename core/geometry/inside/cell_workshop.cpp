@@ -146,7 +146,13 @@ bool is_out_of_reach(const Domain& domain, const Point3& position) {
 
 std::vector<std::uint8_t> out_of_reach(const Domain& domain, std::span<const PowerSite> sites) {
   std::vector<std::uint8_t> flags(sites.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) flags[i] = is_out_of_reach(domain, sites[i].position);
+  // Whoever is that near along each axis needs no look at the distance itself.
+  const double near = 0.5 * kFarthest * domain.size();
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Vector3 way = sites[i].position - domain.centroid;
+    if (std::abs(way.x) < near && std::abs(way.y) < near && std::abs(way.z) < near) continue;
+    flags[i] = is_out_of_reach(domain, sites[i].position);
+  }
   return flags;
 }
 
@@ -380,20 +386,23 @@ void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> c
   make(others, options, cells, lists);
 }
 
-Result<void> check_sites(std::span<const PowerSite> sites) {
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const PowerSite& site = sites[i];
-    if (!is_finite(site.position) || !std::isfinite(site.weight)) {
-      return Error{ErrorCode::not_finite, "", "site " + std::to_string(i) + " has a position or weight that is not a number"};
-    }
-    const Point3& p = site.position;
-    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate) {
-      return Error{ErrorCode::out_of_range, "", "site " + std::to_string(i) + " lies more than 1e8 m from the origin"};
-    }
-    if (std::abs(site.weight) > kLargestWeight) {
-      return Error{ErrorCode::out_of_range, "", "the weight of site " + std::to_string(i) + " exceeds 1e18 m²"};
-    }
+Result<void> check_site(std::size_t number, const PowerSite& site) {
+  if (!is_finite(site.position) || !std::isfinite(site.weight)) {
+    return Error{ErrorCode::not_finite, "", "site " + std::to_string(number) + " has a position or weight that is not a number"};
   }
+  const Point3& p = site.position;
+  if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate) {
+    return Error{ErrorCode::out_of_range, "", "site " + std::to_string(number) + " lies more than 1e8 m from the origin"};
+  }
+  if (std::abs(site.weight) > kLargestWeight) {
+    return Error{ErrorCode::out_of_range, "", "the weight of site " + std::to_string(number) + " exceeds 1e18 m²"};
+  }
+  return {};
+}
+
+Result<void> check_sites(std::span<const PowerSite> sites) {
+  for (std::size_t i = 0; i < sites.size(); ++i)
+    if (auto checked = check_site(i, sites[i]); !checked) return checked;
   return {};
 }
 

@@ -59,6 +59,7 @@ class CellWorkshop {
   }
   /// Per site: the site it coincides with, or 0xffffffff; an absent site is named by itself.
   std::span<const std::uint32_t> twins() const { return twin_; }
+  bool has_twins() const { return has_twins_; }
   /// Sites in the order in which they lie in memory: nearby cells are made one after the other.
   std::span<const std::uint32_t> order() const { return ground_.grid.order(); }
 
@@ -98,6 +99,7 @@ class CellWorkshop {
 };
 
 /// Fails on what cannot be computed with: numbers that are not finite or absurd.
+Result<void> check_site(std::size_t number, const PowerSite& site);
 Result<void> check_sites(std::span<const PowerSite> sites);
 
 }  // namespace bl::geometry

@@ -86,6 +86,7 @@ FitTargets::FitTargets(const FitProblem& problem) : first_(1, 0), owner_(problem
       members_.push_back(site);
       owner_[site] = k;
     }
+    has_groups_ = has_groups_ || demand.sites.size() > 1;
     first_.push_back(static_cast<std::uint32_t>(members_.size()));
   }
   total_.assign(least_.size(), 0);
@@ -102,19 +103,17 @@ bool FitTargets::is_plain() const {
   return true;
 }
 
-void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume, std::span<const std::uint8_t> out_of_reach) {
+void FitTargets::grant(std::span<const double> volumes, double domain_volume, std::span<const std::uint8_t> is_lost) {
   const std::vector<double> asked = least_;
   double wanted = 0, taken = 0;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (owner_[i] == kNone) taken += cells[i].volume;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (owner_[i] == kNone) taken += volumes[i];
   }
   for (std::size_t k = 0; k < size(); ++k) {
     const auto members = sites(k);
-    const bool is_lost = std::all_of(members.begin(), members.end(), [&](std::uint32_t i) {
-      return cells[i].state == SiteState::coincident || (!out_of_reach.empty() && out_of_reach[i]);
-    });
-    if (!members.empty() && is_lost) least_[k] = most_[k] = 0;
-    if (!members.empty()) wanted += least_[k];
+    if (members.empty()) continue;
+    if (std::all_of(members.begin(), members.end(), [&](std::uint32_t i) { return is_lost[i] != 0; })) least_[k] = most_[k] = 0;
+    wanted += least_[k];
   }
   const double room = std::max(0.0, domain_volume - taken);
   double share = 1;
@@ -134,10 +133,10 @@ void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume,
   is_full_ = std::min(wanted, room) >= (1 - kFullShare) * room && taken == 0;
 }
 
-void FitTargets::measure(std::span<const CellMeasure> cells) {
+void FitTargets::measure(std::span<const double> volumes) {
   for (std::size_t k = 0; k < size(); ++k) {
     double sum = 0;
-    for (const std::uint32_t i : sites(k)) sum += cells[i].volume;
+    for (const std::uint32_t i : sites(k)) sum += volumes[i];
     total_[k] = sum;
     if (sites(k).empty()) continue;
     const bool is_exact = least_[k] == most_[k];

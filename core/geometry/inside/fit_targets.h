@@ -42,16 +42,20 @@ class FitTargets {
     return aim_[k] / static_cast<double>(first_[k + 1] - first_[k]);
   }
 
-  /// What can be granted: coincident sites and those out of reach (one flag for each site, or none) bring nothing, and all
-  /// demands are scaled alike where their least sum exceeds what the others (locked, or of no demand) leave of the domain.
-  void grant(std::span<const CellMeasure> cells, double domain_volume, std::span<const std::uint8_t> out_of_reach = {});
+  /// Does any demand have several sites?
+  bool has_groups() const { return has_groups_; }
+
+  /// What can be granted: lost sites, such as coincident ones and those out of reach (one flag for each site), bring nothing, and
+  /// all demands are scaled alike where their least sum exceeds what the others (locked, or of no demand) leave of the domain.
+  /// Volumes are per site here and below.
+  void grant(std::span<const double> volumes, double domain_volume, std::span<const std::uint8_t> is_lost);
   const std::string& infeasible() const { return infeasible_; }
   const std::vector<DemandLoss>& losses() const { return losses_; }
   /// Do the demands take the whole domain, so that no surface is left free?
   bool is_full() const { return is_full_; }
 
   /// Sums volumes per demand, and finds what each aims at: the nearer bound where it is out of bounds.
-  void measure(std::span<const CellMeasure> cells);
+  void measure(std::span<const double> volumes);
   double total(std::size_t target) const { return total_[target]; }
   double aim(std::size_t target) const { return aim_[target]; }
   /// Has its weights to move: it is out of bounds, or at one of them.
@@ -64,7 +68,7 @@ class FitTargets {
   std::vector<std::uint8_t> is_active_;
   std::string infeasible_;
   std::vector<DemandLoss> losses_;
-  bool is_full_ = false;
+  bool is_full_ = false, has_groups_ = false;
 };
 
 }  // namespace bl::geometry

@@ -1,6 +1,8 @@
 // Newton: all weights follow the exact response of all volumes, and every step is judged by what it led to.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/geometry/inside/careful_growth.h"
 #include "core/geometry/inside/fit_numbers.h"
@@ -39,10 +41,13 @@ void WeightFit::move_together(std::span<const CellMeasure> cells) {
   std::vector<std::uint32_t> offenders;
   for (std::uint32_t k = 0; k < targets_.size(); ++k) {
     if (targets_.sites(k).empty() || !(targets_.aim(k) > 0)) continue;
-    const double error = targets_.total(k) - targets_.aim(k), part = targets_.total(k) / targets_.aim(k);
+    const double error = targets_.total(k) - targets_.aim(k);
     // Of many, those within the tolerance stay as they are and are no part of what a step has to bring down.
     const double counted = is_local() ? std::max(0.0, std::abs(error) - options_.tolerance * targets_.aim(k)) : error;
-    squares += counted * counted / targets_.aim(k);
+    if (counted != 0) squares += counted * counted / targets_.aim(k);
+    // Who has enough is never the emptiest, nor an offender.
+    if (error >= 0 && state.least_ratio <= 1) continue;
+    const double part = targets_.total(k) / targets_.aim(k);
     ratio = std::min(ratio, part);
     if (part < state.least_ratio) offenders.push_back(k);
   }
@@ -78,6 +83,7 @@ void WeightFit::take_back(double share) {
 // The weights of a group all move as that of its lightest member that moves at all: otherwise they would drift apart in r³, and
 // what the group becomes would depend on the way.
 void WeightFit::move_groups_alike(std::span<const double> from) {
+  if (!targets_.has_groups()) return;
   for (std::uint32_t k = 0; k < targets_.size(); ++k) {
     const auto members = targets_.sites(k);
     if (members.size() < 2 || !(targets_.most(k) > 0)) continue;
@@ -131,9 +137,12 @@ void WeightFit::repair(std::span<const CellMeasure> cells) {
 // all others stay as they are, bit for bit. Empty where all have to move.
 WeightFit::Step WeightFit::local_step(std::span<const CellMeasure> cells) {
   movers_.assign(targets_.size(), 0);
-  for (std::uint32_t k = 0; k < targets_.size(); ++k) movers_[k] = is_missed(k);
-  const auto most = static_cast<std::ptrdiff_t>(kFewMovers * static_cast<double>(targets_.size()));
-  for (int round = 0; std::count(movers_.begin(), movers_.end(), 1) <= most; ++round) {
+  for (const std::uint32_t k : missed_) movers_[k] = 1;
+  moving_ = missed_;
+  totals_.resize(targets_.size());
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) totals_[k] = targets_.total(k);
+  const auto most = static_cast<std::size_t>(kFewMovers * static_cast<double>(targets_.size()));
+  for (int round = 0; moving_.size() <= most; ++round) {
     Step step = solve(cells);
     if (round == kMostRounds || !add_movers(cells, step)) return step;
   }
@@ -141,49 +150,63 @@ WeightFit::Step WeightFit::local_step(std::span<const CellMeasure> cells) {
   return {};
 }
 
-// Adds those who would come to miss their demands by a step to those who take part in it. Is there one?
+// Adds those who would come to miss their demands by a step to those who take part in it. Is there one? Only those are looked at
+// who border the sites of the step.
 bool WeightFit::add_movers(std::span<const CellMeasure> cells, const Step& step) {
-  std::vector<double> totals(targets_.size());
-  for (std::uint32_t k = 0; k < targets_.size(); ++k) totals[k] = targets_.total(k);
-  for (const std::uint32_t i : step.sites) {
+  std::vector<std::uint32_t> touched;
+  for (std::size_t s = 0; s < step.sites.size(); ++s) {
+    const std::uint32_t i = step.sites[s];
     for (const FacetArea& facet : cells[i].facets) {
       const std::uint32_t k = facet.kind == FacetArea::Kind::site ? targets_.owner(facet.index) : FitTargets::kNone;
       if (k == FitTargets::kNone || movers_[k]) continue;
-      totals[k] -= step.change[targets_.owner(i)] * facet.area / (2 * distance(sites_[i].position, sites_[facet.index].position));
+      if (totals_[k] == targets_.total(k)) touched.push_back(k);
+      totals_[k] -= step.change[s] * facet.area / (2 * distance(sites_[i].position, sites_[facet.index].position));
     }
   }
-  bool has_added = false;
-  for (std::uint32_t k = 0; k < targets_.size(); ++k) {
-    if (movers_[k] || totals[k] == targets_.total(k) || !(targets_.most(k) > 0) || !targets_.is_active(k)) continue;
-    if (std::abs(totals[k] - targets_.aim(k)) <= kStayShare * options_.tolerance * targets_.aim(k)) continue;
+  const std::size_t before = moving_.size();
+  for (const std::uint32_t k : touched) {
+    const double total = std::exchange(totals_[k], targets_.total(k));
+    if (total == targets_.total(k) || !(targets_.most(k) > 0) || !targets_.is_active(k)) continue;
+    if (std::abs(total - targets_.aim(k)) <= kStayShare * options_.tolerance * targets_.aim(k)) continue;
     movers_[k] = 1;
-    has_added = true;
+    moving_.push_back(k);
   }
-  return has_added;
+  std::sort(moving_.begin(), moving_.end());
+  return moving_.size() > before;
 }
 
-WeightFit::Step WeightFit::solve(std::span<const CellMeasure> cells) const {
+// Of those who take part alone: nothing in it is as long as the list of all sites.
+WeightFit::Step WeightFit::solve(std::span<const CellMeasure> cells) {
   Step step;
-  std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
-  std::vector<std::uint8_t> fitted(cells.size());
-  for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    fitted[i] = moves(i);
-    if (!fitted[i]) continue;
-    unknown[i] = targets_.owner(i);
-    step.sites.push_back(i);
+  unknown_of_.resize(sites_.size(), ResponseSystem::kStays);
+  std::vector<std::uint32_t> all;
+  if (movers_.empty()) {
+    all.resize(targets_.size());
+    std::iota(all.begin(), all.end(), 0u);
   }
-  step.change =
-      ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+  const std::vector<std::uint32_t>& targets = movers_.empty() ? all : moving_;
+  for (std::uint32_t u = 0; u < targets.size(); ++u)
+    for (const std::uint32_t i : targets_.sites(targets[u])) {
+      if (!moves(i)) continue;
+      unknown_of_[i] = u;
+      step.sites.push_back(i);
+    }
+  if (!std::is_sorted(step.sites.begin(), step.sites.end())) std::sort(step.sites.begin(), step.sites.end());
+  const std::vector<double> change = ResponseSystem(sites_, cells, step.sites, unknown_of_)
+                                         .solve(wanted_changes(targets), std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+  step.change.reserve(step.sites.size());
+  for (const std::uint32_t i : step.sites) step.change.push_back(change[std::exchange(unknown_of_[i], ResponseSystem::kStays)]);
   return step;
 }
 
-// What the linear response is asked for, per demand [m³].
-std::vector<double> WeightFit::wanted_changes() const {
-  std::vector<double> demands(targets_.size(), 0), volumes(targets_.size(), 0);
-  for (std::size_t k = 0; k < targets_.size(); ++k) {
-    if (targets_.sites(k).empty() || !targets_.is_active(k) || (!movers_.empty() && !movers_[k])) continue;
-    demands[k] = targets_.aim(k);
-    volumes[k] = targets_.total(k);
+// What the linear response is asked for, of some demands [m³].
+std::vector<double> WeightFit::wanted_changes(std::span<const std::uint32_t> targets) const {
+  std::vector<double> demands(targets.size(), 0), volumes(targets.size(), 0);
+  for (std::size_t u = 0; u < targets.size(); ++u) {
+    const std::uint32_t k = targets[u];
+    if (targets_.sites(k).empty() || !targets_.is_active(k)) continue;
+    demands[u] = targets_.aim(k);
+    volumes[u] = targets_.total(k);
   }
   return changes_towards(demands, volumes, report_.error > kFarError);
 }
@@ -202,8 +225,9 @@ void WeightFit::step_together(std::span<const CellMeasure> cells, double residua
   state.direction.assign(cells.size(), 0);
   state.previous_move.assign(cells.size(), 0);
   std::vector<double> from(cells.size(), 0);
-  for (const std::uint32_t i : step.sites) {
-    const double change = step.change[targets_.owner(i)];
+  for (std::size_t s = 0; s < step.sites.size(); ++s) {
+    const std::uint32_t i = step.sites[s];
+    const double change = step.change[s];
     const bool counts = cells[i].volume > 0 && (is_local_step || !is_idle(cells, i, std::abs(change)));
     if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change;
     from[i] = cube_of_radius(sites_[i].weight);

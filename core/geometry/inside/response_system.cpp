@@ -18,10 +18,12 @@ constexpr double kPin = 1e-9;
 }  // namespace
 
 ResponseSystem::ResponseSystem(std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
-                               std::span<const std::uint8_t> is_free)
-    : first_(1, 0) {
-  const auto is_unknown = [&](std::size_t i) { return is_free[i] && cells[i].volume > 0 && cells[i].volume_by_own_weight > 0; };
-  for (std::uint32_t i = 0; i < sites.size(); ++i) {
+                               std::span<const std::uint32_t> free, std::span<const std::uint32_t> unknown_of)
+    : first_(1, 0), unknown_of_(unknown_of) {
+  const auto is_unknown = [&](std::size_t i) {
+    return unknown_of[i] != kStays && cells[i].volume > 0 && cells[i].volume_by_own_weight > 0;
+  };
+  for (const std::uint32_t i : free) {
     if (!is_unknown(i)) continue;
     sites_.push_back(i);
     diagonal_.push_back(cells[i].volume_by_own_weight * (1 + kPin));
@@ -44,9 +46,7 @@ void ResponseSystem::multiply(const std::vector<double>& x, std::vector<double>&
   }
 }
 
-std::vector<double> ResponseSystem::solve(std::span<const double> wanted, std::span<const std::uint32_t> unknown_of,
-                                          double tolerance) {
-  unknown_of_ = unknown_of;
+std::vector<double> ResponseSystem::solve(std::span<const double> wanted, double tolerance) {
   // The diagonal of the summed system; bonds within one unknown count into it.
   std::vector<double> scale(wanted.size(), 0);
   for (std::size_t r = 0; r < sites_.size(); ++r) {

@@ -13,14 +13,17 @@ namespace bl::geometry {
 /// spherical area / (2 radius). Symmetric and positive definite while some shape has a free surface.
 class ResponseSystem {
  public:
-  /// `is_free` says per site whether its weight is an unknown; sites without volume take no part.
-  ResponseSystem(std::span<const PowerSite> sites, std::span<const CellMeasure> cells, std::span<const std::uint8_t> is_free);
+  static constexpr std::uint32_t kStays = 0xffffffffu;
 
-  /// Changes of weight [m²] per unknown for wanted changes of volume [m³]. `unknown_of` gives, per site, the unknown that its
-  /// weight moves with: several sites may share one, and the sum of their volumes changes as wanted. Conjugate gradients,
-  /// preconditioned by the diagonal, until the scaled residual has shrunk by `tolerance`. Sequential, so the result depends on
-  /// the arguments alone.
-  std::vector<double> solve(std::span<const double> wanted, std::span<const std::uint32_t> unknown_of, double tolerance);
+  /// `free`: the sites whose weights are unknowns, ascending. `unknown_of` gives, per site, the unknown that its weight moves
+  /// with, or kStays. Several sites may share one, and the sum of their volumes changes as wanted. Sites without volume take no
+  /// part.
+  ResponseSystem(std::span<const PowerSite> sites, std::span<const CellMeasure> cells, std::span<const std::uint32_t> free,
+                 std::span<const std::uint32_t> unknown_of);
+
+  /// Changes of weight [m²] per unknown for wanted changes of volume [m³]. Conjugate gradients, preconditioned by the diagonal,
+  /// until the scaled residual has shrunk by `tolerance`. Sequential, so the result depends on the arguments alone.
+  std::vector<double> solve(std::span<const double> wanted, double tolerance);
 
  private:
   void multiply(const std::vector<double>& x, std::vector<double>& result);

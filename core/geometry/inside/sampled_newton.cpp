@@ -30,6 +30,12 @@ constexpr double kSampledSettled = 0.1;
 
 double reach_of(const Domain& domain, const PowerSite& site) { return domain.size() + distance(site.position, domain.centroid); }
 
+std::vector<double> volumes_of(std::span<const CellMeasure> cells) {
+  std::vector<double> volumes;
+  for (const CellMeasure& cell : cells) volumes.push_back(cell.volume);
+  return volumes;
+}
+
 }  // namespace
 
 SampledNewton::SampledNewton(const Domain& domain, const SampledDiagram& diagram, std::span<const PowerSite> sites,
@@ -123,7 +129,9 @@ Result<void> SampledNewton::measure() {
   auto measured = diagram_.measure(sites_, options);
   if (!measured) return measured.error();
   if (evaluations_ == 0) {
-    targets_.grant(measured->cells, domain_.volume);
+    std::vector<std::uint8_t> is_lost;
+    for (const CellMeasure& cell : measured->cells) is_lost.push_back(cell.state == SiteState::coincident);
+    targets_.grant(volumes_of(measured->cells), domain_.volume, is_lost);
     if (start_full()) measured = diagram_.measure(sites_, options);
     if (!measured) return measured.error();
   }
@@ -140,7 +148,7 @@ double SampledNewton::resolution(std::size_t target) const {
 }
 
 void SampledNewton::judge() {
-  targets_.measure(cells_.cells);
+  targets_.measure(volumes_of(cells_.cells));
   error_ = 0;
   worst_ = 0;
   is_met_ = is_settled_ = true;

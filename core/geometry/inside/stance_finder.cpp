@@ -1,11 +1,14 @@
-// Contacts first, then who carries whom, from all that stand until no further one is found; at last the way down of each.
+// Contacts first, then who carries whom, as far as that may be otherwise than before; at last the way down of each.
 #include "core/geometry/inside/stance_finder.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <queue>
+#include <utility>
 
 #include "core/geometry/touching_balls.h"
 
@@ -28,11 +31,18 @@ double share_aside() { return std::sqrt(1 - kLeastSteepness * kLeastSteepness) *
 // In place of a holder: two or more hold a bridge, and none of them is below it.
 constexpr std::int32_t kHeldBetween = -3;
 
+// In place of a round: those that stand before the first one, and those that never stand.
+constexpr std::int32_t kStandsAtOnce = -1, kStandsNever = 0x7fffffff;
+
+// Rounds and sites, the first ones first.
+using Coming = std::pair<std::int32_t, std::uint32_t>;
+using Queue = std::priority_queue<Coming, std::vector<Coming>, std::greater<>>;
+
 // Beyond this share of changed balls all that look around are measured again.
 constexpr double kManyBalls = 0.25;
 
-// Marks of a site: its cell was made, its position or weight is another one, its stance has to be measured.
-constexpr std::uint8_t kCellMade = 1, kSiteChanged = 2, kToMeasure = 4;
+// Marks of a site: its cell was made, its neighbours were judged anew, its stance has to be measured.
+constexpr std::uint8_t kCellMade = 1, kJudged = 2, kToMeasure = 4;
 
 // Comparing numbers is not enough: zeros of both signs are equal, and what is kept must be what would be found anew.
 bool same_bits(const Point3& a, const Point3& b) {
@@ -43,15 +53,14 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 
 double ball_of(const PowerSite& site) { return std::sqrt(std::max(0.0, site.weight)); }
 
-void put(std::vector<std::uint64_t>& bits, std::uint32_t i) { bits[i / 64] |= std::uint64_t{1} << (i % 64); }
-
 }  // namespace
 
 void StanceFinder::update(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
                           std::span<const Standing> rules, std::span<const std::uint32_t> made) {
   differing_.clear();
   measured_ = 0;
-  may_carry_otherwise_ = is_domain_new_ = false;
+  is_domain_new_ = false;
+  loose_.clear();
   const bool is_start = sites.size() != bodies_.size();
   if (is_start) {
     start(sites.size());
@@ -63,7 +72,7 @@ void StanceFinder::update(const Domain& domain, std::span<const PowerSite> sites
   if (made_.empty() && changed_.empty() && std::equal(rules.begin(), rules.end(), rules_.begin(), rules_.end())) return;
   marks_.assign(sites.size(), 0);
   for (const std::uint32_t i : made_) marks_[i] |= kCellMade | kToMeasure;
-  for (const std::uint32_t i : changed_) marks_[i] |= kSiteChanged | kToMeasure;
+  for (const std::uint32_t i : changed_) marks_[i] |= kToMeasure;
   take_rules(rules);
   mark_who_look_around(sites, cells);
   take_sites(sites);
@@ -79,11 +88,12 @@ void StanceFinder::start(std::size_t count) {
   sites_.assign(count, {});
   rules_.assign(count, Standing::stack);
   bodies_.assign(count, {});
+  namers_.assign(count, {});
   holders_.assign(count, Stance::kNothing);
+  rounds_.assign(count, kStandsNever);
   stances_.assign(count, {});
   buckets_.reset();
   looking_around_ = 0;
-  may_carry_otherwise_ = true;
   made_.resize(count);
   std::iota(made_.begin(), made_.end(), 0u);
 }
@@ -107,7 +117,7 @@ void StanceFinder::find_changed(std::span<const PowerSite> sites) {
 void StanceFinder::take_rules(std::span<const Standing> rules) {
   for (std::size_t i = 0; i < rules.size(); ++i) {
     if (rules_[i] == rules[i]) continue;
-    may_carry_otherwise_ = true;
+    loose_.push_back(static_cast<std::uint32_t>(i));
     marks_[i] |= kToMeasure;
     rules_[i] = rules[i];
   }
@@ -149,26 +159,34 @@ void StanceFinder::take_sites(std::span<const PowerSite> sites) {
   }
 }
 
+// Of those whose cells stay, the ones that have moved, and those who have one that has moved among their neighbours.
 void StanceFinder::take_cells(std::span<const CellMeasure> cells) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (marks_[i] & kCellMade) {
-      take_neighbours(i, cells[i]);
-    } else if ((marks_[i] & kSiteChanged) || has_changed_neighbour(i)) {
-      marks_[i] |= kToMeasure;
-      judge_neighbours(i);
-    } else {
-      continue;
-    }
-    Body& body = bodies_[i];
-    const bool is_on_ground = body.is_there() && (body.touches_underside || body.bottom <= body.ground + kGroundReach);
-    may_carry_otherwise_ = may_carry_otherwise_ || is_on_ground != body.is_on_ground;
-    body.is_on_ground = is_on_ground;
+  for (const std::uint32_t i : made_) {
+    take_neighbours(i, cells[i]);
+    find_ground(i);
+  }
+  const auto judge = [&](std::uint32_t i) {
+    if (marks_[i] & (kCellMade | kJudged)) return;
+    marks_[i] |= kJudged | kToMeasure;
+    judge_neighbours(i);
+    find_ground(i);
+  };
+  for (const std::uint32_t i : changed_) {
+    judge(i);
+    for (const std::uint32_t namer : namers_[i]) judge(namer);
   }
 }
 
-void StanceFinder::take_neighbours(std::size_t i, const CellMeasure& cell) {
+void StanceFinder::find_ground(std::uint32_t i) {
   Body& body = bodies_[i];
-  may_carry_otherwise_ = may_carry_otherwise_ || body.is_there() != (cell.volume > 0);
+  const bool is_on_ground = body.is_there() && (body.touches_underside || body.bottom <= body.ground + kGroundReach);
+  if (is_on_ground != body.is_on_ground) loose_.push_back(i);
+  body.is_on_ground = is_on_ground;
+}
+
+void StanceFinder::take_neighbours(std::uint32_t i, const CellMeasure& cell) {
+  Body& body = bodies_[i];
+  if (body.is_there() != (cell.volume > 0)) loose_.push_back(i);
   body.volume = cell.volume;
   body.bottom = cell.bottom;
   body.touches_underside = false;
@@ -179,67 +197,114 @@ void StanceFinder::take_neighbours(std::size_t i, const CellMeasure& cell) {
     if (facet.kind == FaceKind::site) found_.push_back({facet.index, is_below(facet.index, i)});
   }
   if (found_ == body.neighbours) return;
-  may_carry_otherwise_ = true;
+  loose_.push_back(i);
+  name_neighbours(i);
   body.neighbours.assign(found_.begin(), found_.end());
 }
 
-bool StanceFinder::has_changed_neighbour(std::size_t i) const {
-  return !changed_.empty() && std::any_of(bodies_[i].neighbours.begin(), bodies_[i].neighbours.end(),
-                                          [&](const Neighbour& n) { return (marks_[n.site] & kSiteChanged) != 0; });
+// Tells the sites of the facets who names them: those that site `i` had so far, and those that it has now. Both ascend.
+void StanceFinder::name_neighbours(std::uint32_t i) {
+  const std::vector<Neighbour>& before = bodies_[i].neighbours;
+  const auto is_before = [](const Neighbour& a, const Neighbour& b) { return a.site < b.site; };
+  for (const Neighbour& neighbour : before)
+    if (!std::binary_search(found_.begin(), found_.end(), neighbour, is_before)) std::erase(namers_[neighbour.site], i);
+  for (const Neighbour& neighbour : found_)
+    if (!std::binary_search(before.begin(), before.end(), neighbour, is_before)) namers_[neighbour.site].push_back(i);
 }
 
-void StanceFinder::judge_neighbours(std::size_t i) {
+void StanceFinder::judge_neighbours(std::uint32_t i) {
   for (Neighbour& neighbour : bodies_[i].neighbours) {
     const bool below = is_below(neighbour.site, i);
-    may_carry_otherwise_ = may_carry_otherwise_ || below != neighbour.is_below;
+    if (below != neighbour.is_below) loose_.push_back(i);
     neighbour.is_below = below;
   }
 }
 
-// In rounds in the order of the sites, in which only those are looked at who have a neighbour that has come to stand since. Who
-// comes to stand first is the holder of those above, so that the rounds run from the beginning.
+// Who stands is found in rounds, each in the order of the sites: who comes to stand carries those above from then on. A site that
+// follows comes to stand in the same round, one that comes before it in the next one. This says when each of them does; there is
+// one answer only, from which those that may be carried otherwise are put right, and whoever depends on them.
 void StanceFinder::find_carried() {
-  if (!may_carry_otherwise_) return;
-  holders_before_.swap(holders_);
-  holders_.resize(bodies_.size());
-  const std::size_t words = (bodies_.size() + 63) / 64;
-  round_.assign(words, 0);
-  next_.assign(words, 0);
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    holders_[i] = bodies_[i].is_on_ground ? Stance::kGround : Stance::kNothing;
-    if (bodies_[i].is_there() && !bodies_[i].is_on_ground) put(round_, i);
+  std::sort(loose_.begin(), loose_.end());
+  loose_.erase(std::unique(loose_.begin(), loose_.end()), loose_.end());
+  std::vector<std::uint32_t> changed = let_go();
+  raise(changed);
+  const auto hold = [&](std::uint32_t i) {
+    const std::int32_t holder = holder_of(i);
+    if (holder == holders_[i]) return;
+    holders_[i] = holder;
+    marks_[i] |= kToMeasure;
+  };
+  for (const std::uint32_t i : loose_) hold(i);
+  for (const std::uint32_t i : changed) {
+    hold(i);
+    for (const std::uint32_t namer : namers_[i]) hold(namer);
   }
-  for (bool has_next = true; has_next; round_.swap(next_)) {
-    has_next = false;
-    for (std::size_t word = 0; word < words; ++word)
-      while (round_[word] != 0) {
-        const auto i = static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(round_[word])));
-        round_[word] &= round_[word] - 1;
-        if (holders_[i] != Stance::kNothing || !finds_holders(i)) continue;
-        for (const Neighbour& n : bodies_[i].neighbours) {
-          if (holders_[n.site] != Stance::kNothing || !bodies_[n.site].is_there()) continue;
-          has_next = has_next || n.site < i;
-          put(n.site > i ? round_ : next_, n.site);
-        }
-      }
-  }
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (holders_[i] != holders_before_[i]) marks_[i] |= kToMeasure;
 }
 
-// Do those who stand carry it, as far as is known?
-bool StanceFinder::finds_holders(std::uint32_t i) {
-  int around = 0;
-  for (const Neighbour& neighbour : bodies_[i].neighbours) {
-    if (holders_[neighbour.site] == Stance::kNothing) continue;
-    ++around;
-    if (!neighbour.is_below) continue;
-    holders_[i] = static_cast<std::int32_t>(neighbour.site);
-    return true;
+// Takes those down that have lost what they came to stand by, in the order in which they came to stand; who they are.
+std::vector<std::uint32_t> StanceFinder::let_go() {
+  std::vector<std::uint32_t> fallen;
+  Queue queue;
+  for (const std::uint32_t i : loose_)
+    if (rounds_[i] != kStandsNever) queue.push({rounds_[i], i});
+  while (!queue.empty()) {
+    const auto [round, i] = queue.top();
+    queue.pop();
+    if (rounds_[i] == kStandsNever || round_of(i) <= round) continue;
+    rounds_[i] = kStandsNever;
+    fallen.push_back(i);
+    for (const std::uint32_t namer : namers_[i])
+      if (rounds_[namer] != kStandsNever && rounds_[namer] >= 0) queue.push({rounds_[namer], namer});
   }
-  if (rules_[i] != Standing::bridge || around < 2) return false;
-  holders_[i] = kHeldBetween;
-  return true;
+  return fallen;
+}
+
+// Lets those stand that can, or sooner than they did, the first ones first; adds them to those that have changed.
+void StanceFinder::raise(std::vector<std::uint32_t>& changed) {
+  Queue queue;
+  const auto look_at = [&](std::uint32_t i) {
+    if (const std::int32_t round = round_of(i); round < rounds_[i]) queue.push({round, i});
+  };
+  for (const auto* some : {&loose_, &changed})
+    for (const std::uint32_t i : *some) look_at(i);
+  while (!queue.empty()) {
+    const auto [round, i] = queue.top();
+    queue.pop();
+    if (round >= rounds_[i]) continue;
+    rounds_[i] = round;
+    changed.push_back(i);
+    for (const std::uint32_t namer : namers_[i]) look_at(namer);
+  }
+}
+
+// In which round `lower` can carry `upper` for the first time.
+std::int32_t StanceFinder::round_after(std::uint32_t lower, std::uint32_t upper) const {
+  const std::int32_t round = rounds_[lower];
+  return round == kStandsNever ? kStandsNever : round == kStandsAtOnce ? 0 : round + (lower > upper ? 1 : 0);
+}
+
+// In which round it comes to stand, as far as is known of the others.
+std::int32_t StanceFinder::round_of(std::uint32_t i) const {
+  if (!bodies_[i].is_there()) return kStandsNever;
+  if (bodies_[i].is_on_ground) return kStandsAtOnce;
+  std::int32_t below = kStandsNever, first = kStandsNever, second = kStandsNever;
+  for (const Neighbour& neighbour : bodies_[i].neighbours) {
+    if (neighbour.site == i) continue;
+    const std::int32_t round = round_after(neighbour.site, i);
+    if (neighbour.is_below) below = std::min(below, round);
+    second = std::min(second, std::max(first, round));
+    first = std::min(first, round);
+  }
+  return rules_[i] == Standing::bridge ? std::min(below, second) : below;
+}
+
+// The first one below that stands before it does.
+std::int32_t StanceFinder::holder_of(std::uint32_t i) const {
+  if (rounds_[i] == kStandsNever) return Stance::kNothing;
+  if (rounds_[i] == kStandsAtOnce) return Stance::kGround;
+  for (const Neighbour& neighbour : bodies_[i].neighbours)
+    if (neighbour.is_below && round_after(neighbour.site, i) <= rounds_[i]) return static_cast<std::int32_t>(neighbour.site);
+  return kHeldBetween;
 }
 
 void StanceFinder::measure_marked() {

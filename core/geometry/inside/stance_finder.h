@@ -52,11 +52,16 @@ class StanceFinder {
   void mark_near(const Point3& centre, double radius);
   void take_sites(std::span<const PowerSite> sites);
   void take_cells(std::span<const CellMeasure> cells);
-  void take_neighbours(std::size_t i, const CellMeasure& cell);
-  bool has_changed_neighbour(std::size_t i) const;
-  void judge_neighbours(std::size_t i);
+  void take_neighbours(std::uint32_t i, const CellMeasure& cell);
+  void name_neighbours(std::uint32_t i);
+  void judge_neighbours(std::uint32_t i);
+  void find_ground(std::uint32_t i);
   void find_carried();
-  bool finds_holders(std::uint32_t i);
+  std::vector<std::uint32_t> let_go();
+  void raise(std::vector<std::uint32_t>& changed);
+  std::int32_t round_after(std::uint32_t lower, std::uint32_t upper) const;
+  std::int32_t round_of(std::uint32_t i) const;
+  std::int32_t holder_of(std::uint32_t i) const;
   void measure_marked();
   Stance measure(std::size_t i);
   void look_around(std::size_t i, Stance& stance);
@@ -71,8 +76,10 @@ class StanceFinder {
   std::vector<PowerSite> sites_;
   std::vector<Standing> rules_;
   std::vector<Body> bodies_;
+  std::vector<std::vector<std::uint32_t>> namers_;  // per site: those who have it among their neighbours, in no order
   // Who carries a site: a site, Stance::kGround, kNothing, or two of whom none is below.
-  std::vector<std::int32_t> holders_, holders_before_;
+  std::vector<std::int32_t> holders_;
+  std::vector<std::int32_t> rounds_;  // per site: in which round it comes to stand, see the source
   std::vector<Stance> stances_;
   std::optional<PlanBuckets> buckets_;  // as soon as one looks around
   std::size_t looking_around_ = 0;      // how many do
@@ -82,9 +89,8 @@ class StanceFinder {
   std::vector<std::uint8_t> marks_;            // per site, see the source
   std::vector<std::uint32_t> differing_;
   std::vector<Neighbour> found_;
-  std::vector<std::uint64_t> round_, next_;  // a bit per site
+  std::vector<std::uint32_t> loose_;  // who may be carried otherwise than before
   bool is_domain_new_ = true;
-  bool may_carry_otherwise_ = true;
   std::size_t measured_ = 0;
 };
 

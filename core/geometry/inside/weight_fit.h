@@ -35,7 +35,6 @@ class WeightFit {
   double missing(Cells cells, std::size_t i) const;
   /// Few sites are fitted together at little cost, and come out more exactly.
   bool is_local() const { return options_.is_local && sites_.size() >= kLeastForLocal; }
-  bool is_missed(std::size_t target) const { return targets_.error(target) > options_.tolerance; }
 
   // Start and judgement.
   void recognise(std::span<const PowerSite> sites);
@@ -44,7 +43,7 @@ class WeightFit {
   void begin_evenly();
   bool start_full();
   void keep_in_bounds();
-  void judge(Cells cells);
+  void judge(std::span<const double> volumes);
   double repaired_weight(std::size_t i) const;
   void move(Cells cells);
 
@@ -62,12 +61,12 @@ class WeightFit {
   /// What the linear response asks for.
   struct Step {
     std::vector<std::uint32_t> sites;  ///< that take part
-    std::vector<double> change;        ///< of weight [m²], per target
+    std::vector<double> change;        ///< of weight [m²], of each of them
   };
   Step local_step(Cells cells);
   bool add_movers(Cells cells, const Step& step);
-  Step solve(Cells cells) const;
-  std::vector<double> wanted_changes() const;
+  Step solve(Cells cells);
+  std::vector<double> wanted_changes(std::span<const std::uint32_t> targets) const;
   void step_together(Cells cells, double residual);
   bool is_idle(Cells cells, std::size_t i, double change) const;
   void follow(std::size_t i, double from);
@@ -78,7 +77,11 @@ class WeightFit {
   FitTargets targets_;
   FitReport report_;
   std::vector<double> even_;          // weights that rays have left for better ones
-  std::vector<std::uint8_t> movers_;  // per target: does it take part in the next step? Empty: all do
+  std::vector<std::uint32_t> missed_;      // targets that are missed by more than the tolerance, ascending
+  std::vector<std::uint8_t> movers_;       // per target: does it take part in the next step? Empty: all do
+  std::vector<std::uint32_t> moving_;      // the targets that do where not all do, ascending
+  std::vector<double> totals_;             // per target: what a step of some may lead to; what targets_ has between two of them
+  std::vector<std::uint32_t> unknown_of_;  // per site, of the linear response; between two solutions all stay
 };
 
 }  // namespace bl::geometry
