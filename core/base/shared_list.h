@@ -6,12 +6,15 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "core/base/heap_bytes.h"
 
 namespace bl {
 
@@ -82,6 +85,32 @@ class SharedList {
   Iterator end() const { return {this, size_}; }
   const T& front() const { return (*this)[0]; }
   const T& back() const { return (*this)[size_ - 1]; }
+
+  /// About how much memory it takes that `before` does not: of each item of its own, `bytes_of(item)` beside the item itself.
+  template <class BytesOf>
+  std::size_t unshared_bytes(const SharedList& before, const BytesOf& bytes_of) const {
+    if (leaves_ == before.leaves_) return 0;
+    // Items may stand elsewhere in the other list. The addresses decide who is met, and nobody learns in which order.
+    std::vector<const T*> others;
+    for (std::size_t l = 0; l < before.leaf_count(); ++l)
+      for (std::size_t k = 0; !before.shares_leaf(*this, l) && k < kLeaf; ++k)
+        others.push_back((*before.leaves_)[l]->items[k].get());
+    std::sort(others.begin(), others.end(), std::less<>());
+    std::size_t bytes = kBytesOfBlock + leaf_count() * sizeof(std::shared_ptr<const Leaf>);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (i % kLeaf == 0) {
+        if (shares_leaf(before, i / kLeaf)) {
+          i += kLeaf - 1;
+          continue;
+        }
+        bytes += kBytesOfBlock + sizeof(Leaf);
+      }
+      const T& own = (*this)[i];
+      if (!std::binary_search(others.begin(), others.end(), &own, std::less<>()))
+        bytes += kBytesOfBlock + sizeof(T) + bytes_of(own);
+    }
+    return bytes;
+  }
 
   class Draft;
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/heap_bytes.h"
+
 namespace bl {
 
 /// A map in ascending names, read as a std::map. Copies share leaves of up to 64 records. Whoever writes gets a record of their
@@ -167,6 +169,27 @@ class SharedMap {
       if (!is_old) ++b;
     }
     return true;
+  }
+
+  /// About how much memory it takes that `before` does not: of each record of its own, `bytes_of(record, other)` beside the
+  /// record itself, where `other` is the one of that name in `before`, or nullptr.
+  template <class BytesOf>
+  std::size_t unshared_bytes(const SharedMap& before, const BytesOf& bytes_of) const {
+    if (leaves_ == before.leaves_) return 0;
+    std::size_t bytes = kBytesOfBlock + leaves_->size() * sizeof(std::shared_ptr<const Leaf>);
+    for (const auto& leaf : *leaves_) {
+      const Place first = before.place_of(leaf->front()->first);
+      if (first.leaf < before.leaves_->size() && (*before.leaves_)[first.leaf] == leaf) continue;
+      bytes += kBytesOfBlock + heap_bytes(*leaf);
+      for (const auto& record : *leaf) {
+        const Place place = before.place_of(record->first);
+        const auto* other = place.is_there ? (*(*before.leaves_)[place.leaf])[place.at].get() : nullptr;
+        if (other == record.get()) continue;
+        bytes += kBytesOfBlock + sizeof(value_type) + heap_bytes(record->first) +
+                 bytes_of(record->second, other != nullptr ? &other->second : nullptr);
+      }
+    }
+    return bytes;
   }
 
  private:

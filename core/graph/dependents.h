@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/heap_bytes.h"
 #include "core/graph/item_edits.h"
 #include "core/graph/port_ref.h"
 
@@ -22,6 +23,7 @@ class NumberLists {
     return std::span(numbers_).subspan(starts_[key], starts_[key + 1] - starts_[key]);
   }
   std::size_t keys() const { return starts_.size() - 1; }
+  std::size_t bytes() const { return heap_bytes(starts_) + heap_bytes(numbers_); }
   /// Pairs of a key below `keys` and a number, in ascending numbers; each list ascends and holds a number once.
   static NumberLists made(std::size_t keys, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 
@@ -44,6 +46,7 @@ class LinkLists {
   /// empty: they keep their numbers. `less` and `more` in any order.
   LinkLists edited(std::size_t nodes, std::vector<Entry> less, std::span<const std::uint32_t> places,
                    std::vector<Entry> more) const;
+  std::size_t bytes() const { return heap_bytes(starts_) + heap_bytes(ports_) + heap_bytes(links_); }
 
  private:
   // Where the lists of a node begin. Nodes that have no lists yet have none.
@@ -79,6 +82,10 @@ struct SetDependents {
   std::vector<std::uint32_t> timed_nodes;  ///< with a typification without sets that reads the time
 
   std::size_t port_index(const PortRef& ref) const { return first_port[first_type[ref.node] + ref.type] + ref.port; }
+  std::size_t bytes() const {
+    return sizeof(*this) + heap_bytes(first_port) + heap_bytes(first_type) + heap_bytes(groups) + groups_reading.bytes() +
+           groups_writing.bytes() + heap_bytes(timed_nodes);
+  }
 };
 
 /// What follows from its links.
@@ -87,12 +94,20 @@ struct LinkDependents {
   LinkLists at;                       ///< by node, as port {node, 0, 0}: links that may propose something to it
   std::vector<std::uint32_t> timed;   ///< that read the time
   std::vector<std::uint32_t> broken;  ///< that cannot run: what they said last may stand, whatever their targets are now
+
+  std::size_t bytes() const { return sizeof(*this) + reading.bytes() + at.bytes() + heap_bytes(timed) + heap_bytes(broken); }
 };
 
 /// Plans of the same Dependents have the same nodes, names, tags, typifications, sets and links; other values may differ.
 struct Dependents {
   std::shared_ptr<const SetDependents> sets;  ///< shared with plans that are amended and have the same sets
   std::shared_ptr<const LinkDependents> links;
+
+  /// About how much memory they take that `before` (nullptr: none) do not.
+  std::size_t unshared_bytes(const Dependents* before) const {
+    return sizeof(*this) + (before != nullptr && sets == before->sets ? 0 : kBytesOfBlock + sets->bytes()) +
+           (before != nullptr && links == before->links ? 0 : kBytesOfBlock + links->bytes());
+  }
 };
 
 std::shared_ptr<const Dependents> dependents_of(const Plan& plan);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shared_list.h"
+
 namespace bl {
 
 /// A node or link that was added, removed or changed, by its index in both plans.
@@ -51,6 +53,9 @@ class EditCount {
  private:
   std::uint32_t added_ = 0, removed_ = 0;
 };
+
+// Origins are handed to drafts of shared lists, which read in them what is still to be put.
+static_assert(SharedItems<char>::Draft::kNone == ItemEdit::kNone);
 
 /// By index now: the index before, or ItemEdit::kNone. `count`: how many there are now.
 inline std::vector<std::uint32_t> origins_of(std::size_t count, std::span<const ItemEdit> edits) {

@@ -1,6 +1,7 @@
 // The link kinds that people wrote for one scene: their texts and definitions, in addition to the types of the program.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -25,6 +26,8 @@ class Scripts {
   /// The types of the program and the kinds of these scripts. With no scripts it is `program` itself.
   const Registry& types(const Registry& program) const { return content_ ? content_->types : program; }
 
+  /// About how much memory they take that `before` do not.
+  std::size_t unshared_bytes(const Scripts& before) const;
   bool operator==(const Scripts& other) const { return content_ == other.content_ || texts() == other.texts(); }
 
  private:

@@ -5,6 +5,7 @@
 
 #include "core/base/stop_check.h"
 #include "core/graph/amend.h"
+#include "core/graph/carry.h"
 
 namespace bl {
 

@@ -202,13 +202,8 @@ struct SavedState {
 };
 SavedState save(const State& state);
 
-struct Amended;
 /// A state for `plan` at tick 0: settings as set, computed values at their defaults.
 State initial_state(std::shared_ptr<const Plan> plan);
-/// The parts of `old` that still fit a new plan; `placed` ports start again from their set values.
-State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed);
-/// The same under a plan that was amended from that of `old`: what was not amended is shared.
-State carry_amended(const State& old, const Amended& amended, const std::set<std::pair<std::string, std::string>>& placed);
 /// A saved state put over the initial one. Values for nodes or ports that are not there are errors with a place.
 Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan);
 

@@ -52,8 +52,10 @@ std::vector<Error> Host::recover(const std::vector<LogEntry>& entries) {
 }
 
 std::string Host::log_text() const {
+  session_->finish_rewind();  // until then nobody knows whether it takes place
   std::string text = log_header(start_);
-  for (const LogEntry& entry : session_->log()) text += log_line(entry, *registry_);
+  for (const LogEntry& entry : session_->log())
+    if (!entry.is_called_off) text += log_line(entry, *registry_);
   // A replay compares before it applies what was said in that tick: as the tick itself has left it.
   const State& state = *session_->moment()->ticked;
   return text + log_line(LogCheck{.tick = state.tick, .hash = hex_digits(state.hash), .is_end = true});

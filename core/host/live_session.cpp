@@ -51,20 +51,20 @@ Result<void> LiveSession::end_own_gestures(std::int64_t but) {
 
 Result<void> LiveSession::submit(const Command& command, std::int64_t gesture, const std::string& label) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   if (auto ended = end_own_gestures(gesture); !ended) return ended;
   return ledger_.submit({command, options_.author, gesture, {options_.origin}, label}, shared_->next_tick);
 }
 
 Result<void> LiveSession::submit(Submission submission) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   return ledger_.submit(std::move(submission), shared_->next_tick);
 }
 
 Result<void> LiveSession::show(const Command& command, std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   if (auto ended = end_own_gestures(gesture); !ended) return ended;
   return gestures_.show({command, options_.author, gesture, {options_.origin}, {}}, shared_->next_tick, shared_->clock.now());
 }
@@ -73,19 +73,19 @@ Result<void> LiveSession::keep_up() {
   gestures_.forget_past();
   if (!gestures_.is_waiting()) return {};
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   return gestures_.say_due(shared_->next_tick, shared_->clock.now());
 }
 
 Result<void> LiveSession::end_gesture(std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   return gestures_.end(gesture, shared_->next_tick);
 }
 
 void LiveSession::abandon(std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   gestures_.drop(gesture);
   // The ticks have seen what was said of it, so that the log keeps it and what takes it back.
   if (gesture != 0) (void)ledger_.abandon(options_.author, shared_->next_tick, gesture);
@@ -93,23 +93,34 @@ void LiveSession::abandon(std::int64_t gesture) {
 
 Result<TakenBack> LiveSession::undo(std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   if (auto ended = end_own_gestures(); !ended) return ended.error();
   return ledger_.undo(options_.author, shared_->next_tick, gesture, {options_.origin});
 }
 
 Result<TakenBack> LiveSession::redo() {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   if (auto ended = end_own_gestures(); !ended) return ended.error();
   return ledger_.redo(options_.author, shared_->next_tick, 0, {options_.origin});
 }
 
 Result<void> LiveSession::recover(LogEntry entry) {
   const std::lock_guard lock(shared_->mutex);
-  shared_->stir();
+  shared_->begin_to_hear();
   entry.tick = shared_->next_tick;
   return ledger_.replay(entry);
+}
+
+const std::vector<LogEntry>& LiveSession::log() const {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->call_off_failed_rewind();
+  return ledger_.log();
+}
+
+void LiveSession::finish_rewind() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->done.wait(lock, [this] { return !shared_->rewinds_to; });
 }
 
 std::size_t LiveSession::subscribe_moments(std::function<void(const std::shared_ptr<const Moment>&)> listener) {
@@ -192,13 +203,19 @@ void LiveSession::rewind(std::int64_t ticks) {
   Shared& shared = *shared_;
   shared.end_rest();
   // Who goes back further while a state is computed does not wait for that one.
-  if (!shared.rewinds_to) shared.wait_between_ticks(lock);
+  const bool is_under_way = shared.rewinds_to.has_value();
+  if (!is_under_way) shared.wait_between_ticks(lock);
+  shared.call_off_failed_rewind();
   (void)gestures_.say_due(shared.next_tick, kFarAhead);  // what fits no more is not shown any longer, either
   const auto tick = shared.tick_before(ticks);
   if (!tick) return;
   (void)ledger_.rewind(options_.author, shared.next_tick, *tick);  // it is before the next tick
+  if (!is_under_way) {
+    shared.first_rewind = ledger_.last_seq();
+    shared.tick_before_rewind = shared.next_tick;
+  }
   shared.next_tick = *tick;
-  if (auto state = shared.rewinds_to ? nullptr : shared.past.whole(*tick)) {
+  if (auto state = is_under_way ? nullptr : shared.past.whole(*tick)) {
     shared.go_on_from(std::move(state));
     shared.publish();
   } else {
@@ -212,6 +229,7 @@ std::shared_ptr<const State> LiveSession::coming_state() {
   Shared& shared = *shared_;
   shared.end_rest();
   shared.wait_between_ticks(lock);
+  shared.call_off_failed_rewind();
   (void)gestures_.say_due(shared.next_tick, kFarAhead);
   shared.gather_changes();
   return shared.pending ? shared.simulation.with_scene(*shared.pending, shared.pending_placed) : shared.simulation.state();

@@ -10,6 +10,7 @@
 
 #include "core/graph/simulation.h"
 #include "core/host/clock.h"
+#include "core/host/past.h"
 #include "core/session/open_gestures.h"
 
 namespace bl::host {
@@ -24,6 +25,8 @@ struct Moment {
   double tick_seconds = 0;  ///< duration of a tick, smoothed [s]
   double rate = 0;          ///< reached ticks per second, smoothed
   std::int64_t oldest = 0;  ///< the first tick that rewinding can reach
+  bool has_forgotten = false;              ///< ticks before `oldest` were given up: the history has reached its limit
+  std::size_t history_bytes = 0;           ///< about what the history takes
   std::shared_ptr<const TimeTable> times;  ///< where the time of the ticks goes, where somebody watches; a moment old at most
   std::string failure;  ///< why the ticks stopped: out of memory, or an error of the program; the state is the last good one
 
@@ -36,6 +39,7 @@ struct LiveSessionOptions {
   std::string origin = {};       ///< the origin of the holder's commands, such as `window`
   int threads = 1;               ///< of the ticks
   Clock* clock = &real_clock();  ///< must outlive the session
+  std::size_t most_history_bytes = Past::kMostBytes;  ///< beyond that the oldest ticks can no longer be returned to
 };
 
 class LiveSession {
@@ -53,7 +57,8 @@ class LiveSession {
   const Scene& scene() const { return gestures_.shown(); }
   /// The scene without them, as the log has it.
   const Scene& said() const { return ledger_.scene(); }
-  const std::vector<LogEntry>& log() const { return ledger_.log(); }
+  /// It only grows: a rewind that failed stays in it, called off.
+  const std::vector<LogEntry>& log() const;
   std::int64_t last_seq() const { return ledger_.last_seq(); }
   const Author& author() const { return options_.author; }
   /// Submits a command of the holder. Waiting values of a gesture of the holder are logged first, unless the command belongs to
@@ -107,8 +112,11 @@ class LiveSession {
   void serve(std::int64_t tick);
   /// Goes back to a tick that can still be reached, or to the oldest one; the scene stays the same. The rewind is an entry of the
   /// log, and what is said from now on belongs to that tick. The states of the last ticks are there at once; others the ticking
-  /// thread computes again.
+  /// thread computes again. Where that fails, as without memory, nothing was rewound: the entry is called off, and what was said
+  /// meanwhile belongs to the tick that stays.
   void rewind(std::int64_t ticks);
+  /// Waits until no rewind is being computed.
+  void finish_rewind();
   /// The state with which the next tick will begin; it belongs to the same moment as the logged scene. Logs the values of
   /// gestures first, and waits for the end of a running tick, also where the clock is late.
   std::shared_ptr<const State> coming_state();

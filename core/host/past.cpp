@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/graph/held_bytes.h"
+
 namespace bl::host {
 
 namespace {
@@ -23,10 +25,24 @@ std::size_t most_whole(const State& state) {
 
 }  // namespace
 
+// Of what is kept last, without the changes that no state has seen yet.
+const Plan* Past::last_plan() const {
+  if (!whole_.empty()) return whole_.back().state->plan.get();
+  return keys_.empty() ? nullptr : &keys_.back().plan();
+}
+
+const Scene* Past::last_scene() const {
+  const Plan* plan = last_plan();
+  return plan != nullptr ? &plan->scene : nullptr;
+}
+
 void Past::set_scene(std::int64_t tick, const Scene& scene, Placed placed) {
-  changes_.push_back({tick, scene, std::move(placed)});
+  const std::size_t bytes = held_bytes(scene, last_scene());
+  changes_.push_back({tick, scene, std::move(placed), bytes});
   // No tick reads it, and it is the only part that scenes do not share.
   changes_.back().scene.view.clear();
+  scene_bytes_ += bytes;
+  since_key_ += bytes;
 }
 
 void Past::add(std::shared_ptr<const State> state) {
@@ -34,23 +50,41 @@ void Past::add(std::shared_ptr<const State> state) {
   const bool is_made = !begins_anew_ && !is_set_over(tick);
   if (!begins_anew_ && stretches_.back().last == tick) {
     // The tick has failed and begins again.
-    whole_.back().state = std::move(state);
-    whole_.back().is_made = whole_.back().is_made && is_made;
+    Whole& again = whole_.back();
+    const std::size_t more = held_bytes(*state->plan, again.state->plan.get());
+    again.bytes += more;
+    whole_bytes_ += more;
+    again.state = std::move(state);
+    again.is_made = again.is_made && is_made;
     return;
   }
   const bool goes_on = !begins_anew_ && stretches_.back().last + 1 == tick;
   const std::int64_t since = tick - last_key_;
-  const bool is_key = !goes_on || since >= 2 * kPackedEvery || (since >= kPackedEvery && is_made);
   const std::size_t most = most_whole(*state);
-  whole_.push_back({std::move(state), is_key, is_made});
+  const std::size_t bytes = held_bytes(*state->plan, last_plan());
+  const std::size_t scene_bytes = begins_anew_ && !is_set_over(tick) ? held_bytes(state->plan->scene, last_scene()) : 0;
+  since_key_ += bytes + scene_bytes;
+  // What much has come about since can be given up in parts only where states are kept in between.
+  const bool is_key = !goes_on || since >= 2 * kPackedEvery || (since >= kPackedEvery && is_made) || since_key_ > most_bytes_ / 8;
+  whole_bytes_ += bytes + scene_bytes;
+  whole_.push_back({std::move(state), is_key, is_made, bytes, scene_bytes});
   begins_anew_ = false;
-  if (is_key) last_key_ = tick;
+  if (is_key) last_key_ = tick, since_key_ = 0;
   if (goes_on) stretches_.back().last = tick;
   else stretches_.push_back({tick, tick});
-  while (whole_.size() > most) {
-    if (whole_.front().is_key) keep(whole_.front());
-    whole_.pop_front();
+  while (true) {
+    const bool is_full = this->bytes() > most_bytes_;
+    if (whole_.size() > most) let_go_of_oldest_whole();
+    else if (keys_.size() > kMostPacked || (is_full && keys_.size() > 1)) give_up_oldest();
+    else if (is_full && whole_.size() > kLeastWhole) let_go_of_oldest_whole();
+    else break;
   }
+}
+
+void Past::let_go_of_oldest_whole() {
+  if (whole_.front().is_key) keep(whole_.front());
+  whole_bytes_ -= whole_.front().bytes + whole_.front().scene_bytes;
+  whole_.pop_front();
 }
 
 void Past::keep(const Whole& one) {
@@ -64,20 +98,21 @@ void Past::keep(const Whole& one) {
     key.whole = one.state;
     key.bytes = kBytesOfNode * unshared_nodes(state, last_kept_.get());
   }
+  key.bytes += one.scene_bytes + held_bytes(*state.plan, keys_.empty() ? nullptr : &keys_.back().plan());
   keys_.push_back(std::move(key));
   last_kept_ = one.state;
-  bytes_ += keys_.back().bytes;
-  while (keys_.size() > kMostPacked || (keys_.size() > 1 && bytes_ > kMostBytes)) give_up_oldest();
+  key_bytes_ += keys_.back().bytes;
 }
 
 void Past::give_up_oldest() {
-  // What the next one shares with it stays, and is little.
-  bytes_ -= keys_.front().bytes;
+  // What the next one shares with it stays, and is that of one state, plan and scene at most.
+  key_bytes_ -= keys_.front().bytes;
   keys_.pop_front();
+  has_given_up_ = true;
   const std::int64_t first = keys_.front().tick;
   while (stretches_.front().last < first) stretches_.pop_front();
   stretches_.front().first = std::max(stretches_.front().first, first);
-  while (!changes_.empty() && changes_.front().tick <= first) changes_.pop_front();
+  for (; !changes_.empty() && changes_.front().tick <= first; changes_.pop_front()) scene_bytes_ -= changes_.front().bytes;
 }
 
 std::int64_t Past::reachable(std::int64_t tick) const {
@@ -116,13 +151,13 @@ Result<void> Past::recompute(std::int64_t tick, Simulation& simulation) const {
 }
 
 void Past::forget_from(std::int64_t tick) {
-  while (!whole_.empty() && whole_.back().state->tick >= tick) whole_.pop_back();
-  while (!keys_.empty() && keys_.back().tick >= tick) {
-    bytes_ -= keys_.back().bytes;
-    keys_.pop_back();
+  for (; !whole_.empty() && whole_.back().state->tick >= tick; whole_.pop_back())
+    whole_bytes_ -= whole_.back().bytes + whole_.back().scene_bytes;
+  for (; !keys_.empty() && keys_.back().tick >= tick; keys_.pop_back()) {
+    key_bytes_ -= keys_.back().bytes;
     last_kept_ = nullptr;
   }
-  while (!changes_.empty() && changes_.back().tick >= tick) changes_.pop_back();
+  for (; !changes_.empty() && changes_.back().tick >= tick; changes_.pop_back()) scene_bytes_ -= changes_.back().bytes;
   while (!stretches_.empty() && stretches_.back().first >= tick) stretches_.pop_back();
   if (!stretches_.empty()) stretches_.back().last = std::min(stretches_.back().last, tick - 1);
   begins_anew_ = true;

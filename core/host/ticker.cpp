@@ -28,6 +28,8 @@ void LiveSession::Shared::publish() {
   moment->tick_seconds = tick_seconds;
   moment->rate = is_playing ? rate : 0;
   moment->oldest = past.empty() ? simulation.state()->tick : past.oldest();
+  moment->has_forgotten = past.has_given_up();
+  moment->history_bytes = past.bytes();
   moment->times = table_of_now();
   moment->failure = failure;
   published = std::move(moment);
@@ -120,6 +122,8 @@ void LiveSession::Shared::rewind(std::unique_lock<std::mutex>& lock) {
   if (earlier && is_last) go_on_from(std::move(earlier));
   if (!trouble.empty()) {
     rewinds_to.reset();
+    failed_rewind = first_rewind;
+    next_tick = tick_before_rewind;
     failure = std::move(trouble);
     is_playing = false;
     steps_due = 0;

@@ -22,6 +22,7 @@ struct LiveSession::Shared {
         ledger(the_ledger),
         gestures(the_gestures),
         simulation(registry, options.threads),
+        past(options.most_history_bytes),
         last_tick(clock.now()) {}
 
   Clock& clock;
@@ -37,6 +38,9 @@ struct LiveSession::Shared {
   int holds = 0;  // the holder waits for the pause between two ticks; no tick begins meanwhile
   bool is_playing = false, is_ending = false, is_ticking = false;
   std::optional<std::int64_t> rewinds_to;  // a tick whose state the ticking thread is to compute again, before anything else
+  std::int64_t first_rewind = 0;           // the entry of the first of the rewinds that lead there
+  std::int64_t tick_before_rewind = 0;     // the next tick where they fail
+  std::int64_t failed_rewind = 0;          // the first of those that failed, until the holder's thread calls them off; 0: none
   bool do_ticks_wait = false;              // for somebody who serves them
   std::int64_t served = -1;                // the last tick that was
   bool are_times_watched = false;
@@ -72,6 +76,15 @@ struct LiveSession::Shared {
   void stir() {
     end_rest();
     wake.notify_all();
+  }
+  // The same before anything is said, on the holder's thread.
+  void begin_to_hear() {
+    stir();
+    call_off_failed_rewind();
+  }
+  // The log is the holder's: the ticking thread cannot do it.
+  void call_off_failed_rewind() {
+    if (failed_rewind != 0) ledger.call_off_rewinds(std::exchange(failed_rewind, 0));
   }
   void end_rest();
   // The tick that a rewind by so many leads to; nothing where there is none.

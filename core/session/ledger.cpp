@@ -110,6 +110,15 @@ Result<void> Ledger::rewind(const Author& author, std::int64_t tick, std::int64_
   return apply_entry(std::move(entry));
 }
 
+void Ledger::call_off_rewinds(std::int64_t since) {
+  const auto first =
+      std::lower_bound(log_.begin(), log_.end(), since, [](const LogEntry& entry, std::int64_t seq) { return entry.seq < seq; });
+  for (auto entry = first; entry != log_.end(); ++entry) {
+    entry->tick = first->tick;
+    entry->is_called_off = entry->rewinds_to.has_value();
+  }
+}
+
 std::size_t Ledger::subscribe(std::function<void(const LogEntry&)> listener) {
   listeners_.emplace(++last_listener_, std::move(listener));
   return last_listener_;

@@ -52,6 +52,9 @@ class Ledger {
   /// Logs that the running state goes back from `tick` to an earlier one. The scene and the steps that can be undone stay the
   /// same. The rewind itself cannot be undone, since later states are discarded.
   Result<void> rewind(const Author& author, std::int64_t tick, std::int64_t to);
+  /// The rewinds from the entry with this number on could not take place. They are called off, and what was said since belongs to
+  /// the tick at which the first of them was said.
+  void call_off_rewinds(std::int64_t since);
   std::int64_t new_gesture() { return ++last_gesture_; }
   /// Undoes the author's last gesture, or the named one, by new entries. Later changes of other authors stay and are reported. A
   /// gesture of which nothing can be undone is skipped.

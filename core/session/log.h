@@ -31,6 +31,7 @@ struct LogEntry {
   bool is_abandoned = false;  ///< an undo for good: the gesture cannot be redone
   std::optional<std::int64_t> rewinds_to =
       {};  ///< the running state goes back to this tick, the scene stays; there is no command
+  bool is_called_off = false;  ///< a rewind that could not take place: it stays where it is, but no log file has it
 };
 
 /// A hash that was reached at a tick; a replay must reach the same one.

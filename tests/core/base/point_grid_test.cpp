@@ -69,5 +69,21 @@ TEST(PointGrid, NumbersBeyondAllCellsAreFoundAsWell) {
   EXPECT_TRUE(found.contains(0) && found.contains(1));
 }
 
+// Around the largest number of a cell that a processor knows, among so many points that cells are looked at and not all points.
+TEST(PointGrid, CellsGoOnWhereNumbersOfCellsEnd) {
+  std::vector<Point3> points;
+  for (int n = 0; n < 5000; ++n) points.push_back({10.0 * n, 0, 0});
+  const double last = 9223372036854774784.0;  // below 2^63
+  points.push_back({last, 0, 0});
+  points.push_back({-last, 0, 0});
+  const PointGrid grid(points, 1, true);
+  for (const std::uint32_t point : {5000u, 5001u}) {
+    std::set<std::uint32_t> found;
+    grid.visit_near(grid[point], 2048, [&](std::uint32_t at) { found.insert(at); });
+    EXPECT_TRUE(found.contains(point)) << point;
+    EXPECT_LT(found.size(), 5000u) << point;
+  }
+}
+
 }  // namespace
 }  // namespace bl

@@ -7,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/file/scene_file.h"
+#include "core/graph/carry.h"
 #include "core/graph/simulation.h"
 #include "tests/support/random_values.h"
 #include "tests/support/world.h"

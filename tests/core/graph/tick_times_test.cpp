@@ -81,8 +81,12 @@ TEST(TickTimes, AreHandedOnFromPlanToPlan) {
   world.tick(5);
   const TimeTable before = times.table();
   const std::string link = before.plan->links[0].id;
-  const std::string node = before.plan->nodes[0].id;
-  const auto role_of = [&](const TimeTable& table) { return table.roles[table.type_index(table.plan->node_index(node), 0)]; };
+  // A role that was evaluated: times of nobody would be the same under any plan.
+  std::uint32_t at = 0;
+  while (before.roles[before.type_index(at, before.plan->nodes[at].types.size() - 1)].evaluations == 0) ++at;
+  const std::string node = before.plan->nodes[at].id;
+  const std::size_t type = before.plan->nodes[at].types.size() - 1;
+  const auto role_of = [&](const TimeTable& table) { return table.roles[table.type_index(table.plan->node_index(node), type)]; };
   ASSERT_GT(link_of(before, link).evaluations, 0u);
   // Its id comes first, so that all others get another index.
   ASSERT_EQ(world.submit(command<AddNode>({"aaa", {R"({"position": [9, 9, 9], "types": {"smart_volume": {}}})"}})), "");

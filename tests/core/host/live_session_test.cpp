@@ -2,6 +2,7 @@
 #include "core/host/live_session.h"
 
 #include <atomic>
+#include <chrono>
 #include <new>
 #include <optional>
 #include <thread>
@@ -10,6 +11,7 @@
 
 #include "core/define/link_builder.h"
 #include "core/host/host.h"
+#include "tests/core/host/replays.h"
 #include "tests/support/world.h"
 
 namespace bl::host {
@@ -122,6 +124,110 @@ TEST(LiveSession, LogAroundAFailedTickCanBeRead) {
   const auto log = read_log(host->log_text(), registry_with_trap());
   ASSERT_TRUE(log.ok()) << log.error().text();
   EXPECT_EQ(log->entries.size(), 2u);
+}
+
+// A session at tick 90, in which something was said on the way to it, so that going back and coming again is not the same.
+std::unique_ptr<Host> host_at_ninety() {
+  auto host = trap_host();
+  LiveSession& session = host->session();
+  for (const char* value : {"1", "2", "3"}) {
+    EXPECT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {value}})).ok());
+    session.step(30);
+    session.settle();
+  }
+  EXPECT_EQ(session.moment()->ticked->tick, 90);
+  return host;
+}
+
+// Calls `meanwhile` while the ticking thread computes what the rewind asks for, which then fails.
+template <class Meanwhile>
+void fail_to_rewind(LiveSession& session, std::int64_t ticks, const Meanwhile& meanwhile) {
+  Trap::fails = Trap::waits = true;
+  const int begun = Trap::begun;
+  session.rewind(ticks);
+  while (Trap::begun == begun) std::this_thread::yield();
+  meanwhile();
+  Trap::waits = false;
+  session.settle();
+  Trap::disarm();
+}
+
+TEST(LiveSession, ARewindThatFailsIsInNoLog) {
+  const auto host = host_at_ninety();
+  LiveSession& session = host->session();
+  const std::uint64_t hash = session.moment()->ticked->hash;
+  fail_to_rewind(session, 55, [] {});
+  EXPECT_NE(session.moment()->failure.find("the rewind failed"), std::string::npos) << session.moment()->failure;
+  EXPECT_EQ(session.moment()->ticked->hash, hash);
+  test::expect_replays(*host, registry_with_trap());
+  ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"4"}})).ok());
+  EXPECT_EQ(session.log().back().tick, 90);
+  session.step(5);
+  session.settle();
+  EXPECT_EQ(session.moment()->failure, "");
+  EXPECT_EQ(session.moment()->ticked->tick, 95);
+  test::expect_replays(*host, registry_with_trap());
+  const auto log = read_log(host->log_text(), registry_with_trap());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->entries.size(), 4u);
+  for (const LogEntry& entry : log->entries) EXPECT_FALSE(entry.rewinds_to.has_value());
+  // The next one works, and those that took place stay.
+  session.rewind(60);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, 35);
+  session.step(3);
+  session.settle();
+  test::expect_replays(*host, registry_with_trap());
+  fail_to_rewind(session, 30, [] {});
+  session.step(3);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, 41);
+  test::expect_replays(*host, registry_with_trap());
+}
+
+TEST(LiveSession, WhatWasSaidMeanwhileBelongsToTheTickThatStaysWhereARewindFails) {
+  const auto host = host_at_ninety();
+  LiveSession& session = host->session();
+  const std::size_t before = session.log().size();
+  fail_to_rewind(session, 55, [&] {
+    ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"5"}})).ok());
+    EXPECT_EQ(session.log().back().tick, 35);
+    session.rewind(20);  // on from there
+    ASSERT_TRUE(session.submit(command<SetPort>({"b", {"control.value"}, {"6"}})).ok());
+    EXPECT_EQ(session.log().back().tick, 15);
+  });
+  ASSERT_EQ(session.log().size(), before + 4) << "whoever follows the log loses no place in it";
+  for (std::size_t i = before; i < session.log().size(); ++i) EXPECT_EQ(session.log()[i].tick, 90);
+  session.step(10);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, 100);
+  EXPECT_EQ(std::get<double>(value_in(*session.moment()->state, "a", "control.value")), 5);
+  EXPECT_EQ(std::get<double>(value_in(*session.moment()->state, "b", "control.value")), 6);
+  test::expect_replays(*host, registry_with_trap());
+  ASSERT_TRUE(session.undo().ok());
+  session.step(5);
+  session.settle();
+  test::expect_replays(*host, registry_with_trap());
+}
+
+// A log that is written while a rewind is computed waits for it: until then nobody knows whether it takes place.
+TEST(LiveSession, ALogWaitsForTheRewindInIt) {
+  const auto host = host_at_ninety();
+  LiveSession& session = host->session();
+  Trap::waits = true;
+  const int begun = Trap::begun;
+  session.rewind(55);
+  while (Trap::begun == begun) std::this_thread::yield();
+  std::thread opener([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    Trap::disarm();
+  });
+  const std::string text = host->log_text();
+  opener.join();
+  const auto log = read_log(text, registry_with_trap());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->last_tick, 35);
+  test::expect_replays(*host, registry_with_trap());
 }
 
 }  // namespace

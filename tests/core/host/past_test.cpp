@@ -1,15 +1,20 @@
 // Laws of what a rewind reaches: every tick, with the bits that it had, whatever people did meanwhile.
 #include "core/host/past.h"
 
+#include <malloc.h>
+
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/graph/held_bytes.h"
 #include "core/host/host.h"
 #include "tests/core/host/replays.h"
 #include "tests/support/hand_clock.h"
 #include "tests/support/random_commands.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/world.h"
 
 namespace bl::host {
@@ -146,6 +151,85 @@ TEST(Past, WhatIsGivenUpIsForgottenAndWhatFollowsStandsForItself) {
   past.add(other.state());
   EXPECT_EQ(past.reachable(700), 139);
   EXPECT_EQ(past.reachable(5000), 1140);
+}
+
+// Each edit is of a setting, after which the plan is compiled and shares nothing with the one before, and each record of the
+// scene is another one, as where a file is read anew.
+void expect_bounded(std::size_t limit, std::int64_t ticks) {
+  Past past(limit);
+  Simulation simulation(full_registry(), 1), again(full_registry(), 1);
+  Scene scene = read_scene(project_file("scenes/studies/sixty_volumes.json"), full_registry()).scene;
+  simulation.set_scene(scene);
+  std::map<std::int64_t, std::uint64_t> hashes;
+  std::size_t most = 0, of_all = 0;  // what is said of the history, and what all plans and scenes would take
+  for (int tick = 0; tick < 10; ++tick) simulation.step();  // what the simulation itself keeps
+  const std::size_t begin = mallinfo2().uordblks;
+  ticks += simulation.state()->tick;
+  for (std::int64_t tick = simulation.state()->tick; tick < ticks; ++tick) {
+    scene.settings["change_limit"] = 0.001 + 1e-9 * static_cast<double>(tick);
+    for (const auto& [id, node] : SharedMap(scene.nodes)) (void)scene.nodes.edit(id);
+    simulation.set_scene(scene);
+    past.set_scene(tick, scene, {});
+    of_all += held_bytes(*simulation.state()->plan, nullptr) + held_bytes(scene, nullptr);
+    past.add(simulation.state());
+    hashes[tick] = simulation.state()->hash;
+    most = std::max(most, past.bytes());
+    EXPECT_EQ(past.has_given_up(), past.oldest() > 10);
+    simulation.step();
+  }
+  EXPECT_GT(of_all, 4 * limit) << "the test is too small";
+  EXPECT_LT(most, limit + limit / 4);
+  EXPECT_GT(most, limit / 2);
+  // The last states are kept beside that: they are few.
+  constexpr std::size_t kStates = std::size_t{5} << 20;
+  if (!test::kIsSanitized) { EXPECT_LT(mallinfo2().uordblks - begin, limit + kStates); }
+  EXPECT_TRUE(past.has_given_up());
+  EXPECT_LT(past.oldest(), ticks - 5);
+  EXPECT_FALSE(past.recompute(past.oldest() - 1, again).ok());
+  EXPECT_EQ(past.reachable(0), past.oldest());
+  for (std::int64_t tick = past.oldest(); tick < ticks; tick += 7) {
+    ASSERT_TRUE(past.recompute(tick, again).ok());
+    ASSERT_EQ(again.state()->hash, hashes.at(tick)) << tick;
+  }
+  // What is forgotten from the other end is counted no more, either.
+  past.forget_from(past.oldest() + 1);
+  EXPECT_LT(past.bytes(), limit / 2);
+}
+
+TEST(Past, PlansAndScenesCountAndTheOldestAreGivenUp) { expect_bounded(std::size_t{24} << 20, 500); }
+// So much that the ticks between two states that would be kept anyway are too many.
+TEST(Past, MuchThatIsEditedAtOnceIsGivenUpInParts) { expect_bounded(std::size_t{2} << 20, 100); }
+
+// A session that has reached the limit of its history goes back as far as it can, and its log says so.
+TEST(Past, ARewindToATickThatIsForgottenLeadsToTheOldestAndReplays) {
+  test::HandClock clock;
+  auto started =
+      Host::start(full_registry(), read_scene(project_file("scenes/studies/sixty_volumes.json"), full_registry()).scene, nullptr,
+                  {.author = "anna", .clock = &clock, .most_history_bytes = std::size_t{4} << 20});
+  Host& host = **started;
+  LiveSession& session = host.session();
+  for (int edit = 0; edit < 120; ++edit) {
+    ASSERT_TRUE(host.submit({command<SetSetting>({"change_limit", {"0.001" + std::to_string(edit)}})}).ok());
+    session.step(2);
+    session.settle();
+  }
+  ASSERT_TRUE(session.moment()->has_forgotten) << session.moment()->history_bytes;
+  const std::int64_t oldest = session.moment()->oldest;
+  EXPECT_GT(oldest, 0);
+  EXPECT_LT(session.moment()->history_bytes, std::size_t{5} << 20);
+  session.rewind(1000);
+  session.settle();
+  EXPECT_EQ(session.moment()->failure, "");
+  EXPECT_EQ(session.moment()->ticked->tick, oldest);
+  EXPECT_EQ(session.log().back().rewinds_to, oldest);
+  test::expect_replays(host);
+  session.step(5);
+  session.settle();
+  test::expect_replays(host);
+  session.rewind(1000);
+  session.settle();
+  EXPECT_EQ(session.moment()->ticked->tick, oldest);
+  test::expect_replays(host);
 }
 
 TEST(Past, ARewindFartherThanWholeStatesIsComputedBesideTheHolder) {

@@ -9,10 +9,10 @@
 
 namespace bl::test {
 
-inline void expect_replays(const host::Host& host) {
-  const auto log = read_log(host.log_text(), full_registry());
+inline void expect_replays(const host::Host& host, const Registry& registry = full_registry()) {
+  const auto log = read_log(host.log_text(), registry);
   ASSERT_TRUE(log.ok()) << log.error().text();
-  const auto report = replay(*log, full_registry(), 1);
+  const auto report = replay(*log, registry, 1);
   ASSERT_TRUE(report.ok()) << report.error().text();
   EXPECT_EQ(report->checks, 1u);
   EXPECT_FALSE(report->first_mismatch.has_value());

@@ -26,9 +26,7 @@ using test::gzip_of, test::reason_of, test::rows_of;
 // Sanitizers make it up to twenty times as long.
 class Stopwatch {
  public:
-  double seconds() const {
-    return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC / (test::kIsSanitized ? 5 : 1);
-  }
+  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC / (test::kIsSanitized ? 5 : 1); }
 
  private:
   std::clock_t start_ = std::clock();

@@ -33,6 +33,14 @@ bool can_rewind(const Workbench& editor) {
   return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick;
 }
 
+std::string rewind_hint(const host::Moment& moment) {
+  std::string hint = "Rewind five seconds (Backspace)";
+  if (moment.has_forgotten)
+    hint += ".\nTicks before " + std::to_string(moment.oldest) + " are given up: the history takes " +
+            std::to_string(moment.history_bytes >> 20) + " MB and has reached its limit.";
+  return hint;
+}
+
 bool tool_button(Workbench& editor, const char* sign, const char* hint, bool is_on = false, bool is_possible = true) {
   const Colours& c = editor.theme.colours();
   ImGui::BeginDisabled(!is_possible);
@@ -90,7 +98,7 @@ void draw_standing(Workbench& editor) {
 void draw_clock(Workbench& editor) {
   const host::Moment& moment = *editor.moment;
   const Theme& theme = editor.theme;
-  if (tool_button(editor, icon::kRewind, "Rewind five seconds (Backspace)", false, can_rewind(editor))) rewind(editor);
+  if (tool_button(editor, icon::kRewind, rewind_hint(moment).c_str(), false, can_rewind(editor))) rewind(editor);
   if (tool_button(editor, moment.is_playing ? icon::kPause : icon::kPlay, moment.is_playing ? "Pause (P)" : "Play (P)",
                   moment.is_playing))
     toggle_play(editor);
