@@ -19,33 +19,15 @@ constexpr double kNothing = 1e-3;
 
 double share_missing(double asked, double had) { return asked > kNothing ? std::clamp((asked - had) / asked, 0.0, 1.0) : 0; }
 
-// Which use a volume counts for, and whether a brief speaks to it at all.
-struct BriefTargets {
-  std::map<std::uint32_t, std::string> use_by_node;  // by a demand link with a use of its own
-  std::set<std::uint32_t> nodes;
-};
-
-BriefTargets read_briefed(const State& state) {
-  BriefTargets briefed;
-  const Plan& plan = *state.plan;
-  for (const LinkPlan& link : plan.links) {
-    const auto demand = reading::parameters_of<reading::DemandParameters>(link);
-    if (!demand || !link.is_enabled || link.error) continue;
-    for (const std::uint32_t node : link.nodes[1]) {
-      if (!demand->use.empty()) briefed.use_by_node.emplace(node, demand->use);
-      if (!link.is_muted) briefed.nodes.insert(node);
-    }
-  }
-  return briefed;
-}
-
-VolumeAccount account_of(reading::Row<reading::VolumeFigures>&& row, const BriefTargets& briefed) {
+VolumeAccount account_of(reading::Row<reading::VolumeFigures>&& row, const BriefTargets& targets,
+                         const std::set<std::string_view>& uses_of_brief) {
   VolumeAccount account;
   account.node = row.node;
   account.figures = std::move(row.figures);
   const reading::VolumeFigures& figures = account.figures;
-  const auto other = briefed.use_by_node.find(account.node);
-  account.use = other != briefed.use_by_node.end() ? other->second : figures.use;
+  const auto other = targets.use_by_node.find(account.node);
+  account.use = other != targets.use_by_node.end() ? other->second : figures.use;
+  account.is_by_area = uses_of_brief.contains(account.use) && targets.nodes.contains(account.node);
   account.is_alive = figures.state == "alive";
   account.asked = std::max(figures.demand, figures.demand_min);
   // Before a solver has seen the volume nobody aims at anything yet: then its limits themselves are the next best word.
@@ -70,10 +52,18 @@ void finish_use(UseAccount& use) {
   use.is_by_area = true;
 }
 
-void note_worst(Accounts& accounts, double share, const std::string& who) {
+// `name` gives the name, which only the worst has to be asked for.
+template <class Name>
+void note_worst(Accounts& accounts, double share, const Name& name) {
   if (!(share > accounts.worst_short)) return;
   accounts.worst_short = share;
-  accounts.worst = who;
+  accounts.worst = name();
+}
+
+std::set<std::string_view> uses_of(const Brief& brief) {
+  std::set<std::string_view> uses;
+  for (const auto& [use, row] : brief) uses.insert(use);
+  return uses;
 }
 
 // Names by commas, the last by "and"; no more than four of them.
@@ -142,8 +132,8 @@ void Account::add(const Account& other) {
   floor_area += other.floor_area;
 }
 
-std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
-  std::vector<std::pair<std::string, BriefRow>> brief;
+Brief brief_of(const State& state) {
+  Brief brief;
   std::map<std::string, std::size_t> index;
   for (const auto& [node, programme] : reading::rows<reading::ProgrammeFigures>(state)) {
     const Table& table = *programme.rows;
@@ -160,54 +150,83 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
   return brief;
 }
 
+bool has_same_uses(const Brief& a, const Brief& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return x.first == y.first; });
+}
+
 double account_tolerance(const State& state) { return std::max(state.plan->settings.tolerance, 1e-6); }
 
-std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes) {
-  const BriefTargets briefed = read_briefed(state);
-  const auto brief = brief_of(state);
-  std::vector<VolumeAccount> accounts;
-  for (const std::uint32_t node : nodes) {
-    auto figures = reading::row_of<reading::VolumeFigures>(state, node);
-    if (!figures) continue;
-    VolumeAccount& account = accounts.emplace_back(account_of({node, std::move(*figures)}, briefed));
-    const bool is_in_programme =
-        std::any_of(brief.begin(), brief.end(), [&](const auto& row) { return row.first == account.use; });
-    account.is_by_area = is_in_programme && briefed.nodes.contains(node);
+BriefTargets brief_targets(const Plan& plan) {
+  BriefTargets targets;
+  for (const LinkPlan& link : plan.links) {
+    const auto demand = reading::parameters_of<reading::DemandParameters>(link);
+    if (!demand || !link.is_enabled || link.error) continue;
+    for (const std::uint32_t node : link.nodes[1]) {
+      if (!demand->use.empty()) targets.use_by_node.emplace(node, demand->use);
+      if (!link.is_muted) targets.nodes.insert(node);
+    }
   }
+  return targets;
+}
+
+std::size_t Accounts::row_of(std::uint32_t node) const {
+  const auto found = std::lower_bound(volumes.begin(), volumes.end(), node,
+                                      [](const VolumeAccount& volume, std::uint32_t n) { return volume.node < n; });
+  return found != volumes.end() && found->node == node ? static_cast<std::size_t>(found - volumes.begin()) : volumes.size();
+}
+
+std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes,
+                                               const BriefTargets& targets, const Brief& brief) {
+  const std::set<std::string_view> uses = uses_of(brief);
+  std::vector<VolumeAccount> accounts;
+  for (const std::uint32_t node : nodes)
+    if (auto figures = reading::row_of<reading::VolumeFigures>(state, node))
+      accounts.push_back(account_of({node, std::move(*figures)}, targets, uses));
   return accounts;
 }
 
-Accounts accounts_of(const State& state) {
-  Accounts accounts;
+namespace {
+
+// The volumes of each use, in ascending node. Neighbours in the list often have the same use.
+std::map<std::string_view, std::vector<const VolumeAccount*>> volumes_by_use(const std::vector<VolumeAccount>& volumes) {
+  std::map<std::string_view, std::vector<const VolumeAccount*>> members;
+  const std::string* last = nullptr;
+  std::vector<const VolumeAccount*>* of_last = nullptr;
+  for (const VolumeAccount& volume : volumes) {
+    if (last == nullptr || volume.use != *last) of_last = &members[volume.use];
+    last = &volume.use;
+    of_last->push_back(&volume);
+  }
+  return members;
+}
+
+}  // namespace
+
+void add_up(const State& state, const Brief& brief, Accounts& accounts) {
   accounts.tolerance = account_tolerance(state);
-  const BriefTargets briefed = read_briefed(state);
-  std::map<std::string, std::size_t> index;
-  const auto use_of = [&](const std::string& use) -> UseAccount& {
+  accounts.uses.clear();
+  accounts.all = {};
+  accounts.worst_short = 0;
+  accounts.worst.clear();
+  std::map<std::string, std::size_t, std::less<>> index;
+  const auto use_of = [&](std::string_view use) -> UseAccount& {
     const auto [found, is_new] = index.emplace(use, accounts.uses.size());
     if (is_new) accounts.uses.emplace_back().use = use;
     return accounts.uses[found->second];
   };
-  for (const auto& [use, row] : brief_of(state)) {
+  for (const auto& [use, row] : brief) {
     UseAccount& account = use_of(use);
     account.is_in_programme = true;
     account.brief_volume = row.volume;
     account.brief_area = row.area;
   }
-  std::map<std::string, std::vector<const VolumeAccount*>> members;
-  for (reading::Row<reading::VolumeFigures>& row : reading::rows<reading::VolumeFigures>(state))
-    accounts.volumes.push_back(account_of(std::move(row), briefed));
-  for (VolumeAccount& volume : accounts.volumes) {
-    const auto row = index.find(volume.use);
-    volume.is_by_area = briefed.nodes.contains(volume.node) && row != index.end() && accounts.uses[row->second].is_in_programme;
-  }
-  for (const VolumeAccount& volume : accounts.volumes) members[volume.use].push_back(&volume);
-  for (const auto& [use, volumes] : members) {
+  for (const auto& [use, volumes] : volumes_by_use(accounts.volumes)) {
     UseAccount& account = use_of(use);
     for (const VolumeAccount* volume : volumes) {
       account.add(*volume);
       ++account.volumes;
       account.short_volumes += volume->is_short(accounts.tolerance) ? 1 : 0;
-      note_worst(accounts, volume->short_share(), "volume " + state.plan->nodes[volume->node].name);
+      note_worst(accounts, volume->short_share(), [&] { return "volume " + state.plan->nodes[volume->node].name; });
     }
   }
   for (UseAccount& use : accounts.uses) {
@@ -218,10 +237,20 @@ Accounts accounts_of(const State& state) {
     accounts.all.short_volumes += use.short_volumes;
     accounts.all.brief_volume += use.brief_volume;
     accounts.all.brief_area += use.brief_area;
-    note_worst(accounts, use.short_share(), use.use.empty() ? "what has no use" : use.use);
+    note_worst(accounts, use.short_share(), [&] { return use.use.empty() ? "what has no use" : use.use; });
   }
   accounts.all.use = "all";
   accounts.all.is_by_area = accounts.all.is_in_programme;
+}
+
+Accounts accounts_of(const State& state) {
+  Accounts accounts;
+  const BriefTargets targets = brief_targets(*state.plan);
+  const Brief brief = brief_of(state);
+  const std::set<std::string_view> uses = uses_of(brief);
+  for (reading::Row<reading::VolumeFigures>& row : reading::rows<reading::VolumeFigures>(state))
+    accounts.volumes.push_back(account_of(std::move(row), targets, uses));
+  add_up(state, brief, accounts);
   return accounts;
 }
 

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph/state.h"
@@ -40,6 +42,7 @@ struct Account {
   bool is_short(double tolerance) const { return short_share() > tolerance; }
 
   void add(const Account& other);
+  bool operator==(const Account&) const = default;
 };
 
 struct VolumeAccount : Account {
@@ -47,6 +50,7 @@ struct VolumeAccount : Account {
   std::string use;        ///< the use that it counts for: its own, or the one that a demand link credits it to
   bool is_alive = false;  ///< it has a shape
   reading::VolumeFigures figures;
+  bool operator==(const VolumeAccount&) const = default;
 };
 
 struct UseAccount : Account {
@@ -54,6 +58,7 @@ struct UseAccount : Account {
   bool is_in_programme = false;
   std::size_t volumes = 0, short_volumes = 0;
   double brief_volume = 0, brief_area = 0;  ///< what programmes ask for [m³], [m²]
+  bool operator==(const UseAccount&) const = default;
 };
 
 struct Accounts {
@@ -65,20 +70,38 @@ struct Accounts {
   /// The largest missing share of a volume or a use, and its name: "housing", "volume Café".
   double worst_short = 0;
   std::string worst;
+
+  /// Among `volumes`; volumes.size() where the node is none.
+  std::size_t row_of(std::uint32_t node) const;
+  bool operator==(const Accounts&) const = default;
 };
+
+/// What programmes ask for a use: all of its rows and items together.
+struct BriefRow {
+  double volume = 0, area = 0;  ///< [m³], [m²]
+  bool operator==(const BriefRow&) const = default;
+};
+/// In the order of the rows, which is the order that people gave.
+using Brief = std::vector<std::pair<std::string, BriefRow>>;
+Brief brief_of(const State& state);
+/// The same uses in the same order; what they are asked for may differ.
+bool has_same_uses(const Brief& a, const Brief& b);
+
+/// To whom demand links speak for programmes. It follows from the links of the plan alone.
+struct BriefTargets {
+  std::map<std::uint32_t, std::string> use_by_node;  ///< by a link with a use of its own
+  std::set<std::uint32_t> nodes;
+};
+BriefTargets brief_targets(const Plan& plan);
 
 Accounts accounts_of(const State& state);
 /// As Accounts has it.
 double account_tolerance(const State& state);
 /// The same of these nodes alone, as far as they are volumes, in their order.
-std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes);
-
-/// What programmes ask for a use: all of its rows and items together.
-struct BriefRow {
-  double volume = 0, area = 0;  ///< [m³], [m²]
-};
-/// In the order of the rows, which is the order that people gave.
-std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state);
+std::vector<VolumeAccount> accounts_of_volumes(const State& state, const std::vector<std::uint32_t>& nodes,
+                                               const BriefTargets& targets, const Brief& brief);
+/// Of accounts whose volumes are read: tolerance, uses, all together, and the worst.
+void add_up(const State& state, const Brief& brief, Accounts& accounts);
 
 /// What holds a volume below its demand: "link `cap`", "people"; empty where nothing does.
 std::vector<std::string> who_limits(const State& state, const VolumeAccount& volume);

@@ -75,14 +75,17 @@ std::string voice_text(const State& state, const Voice& voice) {
 
 double severity_of(const State& state, PortRef ref, double tension) { return tension / size_of(state, ref); }
 
+void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePort>& tense) {
+  for (std::uint16_t t = 0; t < state.nodes[node].types.size(); ++t) {
+    const std::vector<double>& tension = state.nodes[node].types[t].tension;
+    for (std::uint16_t p = 0; p < tension.size(); ++p)
+      if (const PortRef ref{node, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
+  }
+}
+
 std::vector<TensePort> tense_ports(const State& state) {
   std::vector<TensePort> tense;
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
-      const std::vector<double>& tension = state.nodes[n].types[t].tension;
-      for (std::uint16_t p = 0; p < tension.size(); ++p)
-        if (const PortRef ref{n, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
-    }
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) add_tense_ports(state, n, tense);
   return tense;
 }
 
@@ -152,31 +155,71 @@ std::vector<PullerRow> pullers_of(const State& state, const std::vector<Conflict
   return rows;
 }
 
-void read_problems(const State& state, ReportModel& model) {
+bool has_error(const State& state, std::size_t link) { return state.links[link].error || state.plan->links[link].error; }
+
+std::vector<std::uint32_t> links_with_errors(const State& state) {
+  std::vector<std::uint32_t> links;
+  for (std::uint32_t l = 0; l < state.links.size(); ++l)
+    if (has_error(state, l)) links.push_back(l);
+  return links;
+}
+
+namespace {
+
+// Nodes that may have something to say: those that fail, and solvers.
+std::set<std::uint32_t> nodes_to_ask(const State& state, const std::vector<Row<SolverFigures>>& solvers) {
+  std::set<std::uint32_t> nodes;
+  for (const auto& solver : solvers) nodes.insert(solver.node);
+  for (std::size_t leaf = 0; leaf < state.nodes.leaf_count(); ++leaf) {
+    if (!state.nodes.digest(leaf).has_failure) continue;
+    const std::size_t end = std::min(state.nodes.size(), (leaf + 1) * NodeStates::kLeaf);
+    for (std::size_t n = leaf * NodeStates::kLeaf; n < end; ++n)
+      if (state.nodes[n].has_failure) nodes.insert(static_cast<std::uint32_t>(n));
+  }
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::uint32_t>& links) {
   const Plan& plan = *state.plan;
+  std::vector<ProblemRow> rows;
   std::set<std::pair<std::string, std::string>> said;
   const auto add = [&](ProblemRow row) {
-    if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
+    if (said.emplace(row.place, row.message).second) rows.push_back(std::move(row));
   };
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+  const std::vector<Row<SolverFigures>> solvers = reading::rows<SolverFigures>(state);
+  auto solver = solvers.begin();
+  for (const std::uint32_t n : nodes_to_ask(state, solvers)) {
     const std::string& id = plan.nodes[n].id;
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
       if (const auto& error = state.nodes[n].types[t].error)
         add({"node " + plan.nodes[n].name + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
-    if (const std::string message = reading::read<&reading::SolverFigures::message>(state, n); !message.empty())
-      add({"node " + plan.nodes[n].name, message, id, "", true});
+    if (solver == solvers.end() || solver->node != n) continue;
+    if (!solver->figures.message.empty()) add({"node " + plan.nodes[n].name, solver->figures.message, id, "", true});
+    ++solver;
   }
-  for (std::size_t l = 0; l < state.links.size(); ++l) {
+  for (const std::uint32_t l : links) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
-    if (error) add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
+    add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
   }
   // What has kept a node from running is its own error already.
   for (const SetPlan& set : plan.sets)
     if (set.error && !state.nodes[set.node].types[set.type].error)
       add({"node " + plan.nodes[set.node].name, set.error->text(), plan.nodes[set.node].id, "", false});
-  for (const PlaceProblem& problem : place_problems(state))
-    add({"node " + plan.nodes[plan.node_index(problem.nodes.front())].name, problem.sentence(), problem.nodes.front(), "", false,
-         true});
+  return rows;
+}
+
+void read_problems(const State& state, ReportModel& model) {
+  const Plan& plan = *state.plan;
+  model.problems = failures_of(state, links_with_errors(state));
+  std::set<std::pair<std::string, std::string>> said;
+  for (const ProblemRow& row : model.problems) said.emplace(row.place, row.message);
+  for (const PlaceProblem& problem : place_problems(state)) {
+    const std::string& first = problem.nodes.front();
+    ProblemRow row{"node " + plan.nodes[plan.node_index(first)].name, problem.sentence(), first, "", false, true};
+    if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
+  }
 }
 
 }  // namespace bl::reading

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "core/base/text.h"
@@ -15,50 +16,16 @@ namespace bl::reading {
 namespace {
 
 constexpr std::size_t kNamedVolumes = 4, kNamedLinks = 6;
+// Of more volumes that have moved, looking at all pairs anew takes less than looking at all others of each.
+constexpr std::size_t kMostMoved = 64;
 // [m] a tick: less lifts nobody that anybody sees.
 constexpr double kLeastLift = 0.005;
 
 using reading::NodePlace;
 using reading::VolumeFigures;
+using reading::VolumePlace;
 
 bool is_place(const State& state, PortRef port) { return reading::port_of<&NodePlace::position>(*state.plan, port.node) == port; }
-
-struct PlacedVolume {
-  std::uint32_t node = 0;
-  Point3 position;
-  double radius = 0;  // of a ball of the wanted volume [m]
-};
-
-std::vector<PlacedVolume> placed_volumes(const State& state) {
-  std::vector<PlacedVolume> volumes;
-  for (const auto& [node, volume] : reading::rows<VolumeFigures>(state))
-    volumes.push_back({node, volume.position, geometry::ball_radius(volume.wanted)});
-  return volumes;
-}
-
-// Volumes that are joined by pairs on one point carry the same number: the smallest index among them.
-std::vector<std::size_t> groups_on_one_point(const std::vector<PlacedVolume>& volumes) {
-  std::vector<std::size_t> group(volumes.size()), by_x(volumes.size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-  std::stable_sort(by_x.begin(), by_x.end(),
-                   [&](std::size_t a, std::size_t b) { return volumes[a].position.x < volumes[b].position.x; });
-  const auto head = [&](std::size_t i) {
-    while (group[i] != i) i = group[i];
-    return i;
-  };
-  for (std::size_t k = 0; k < by_x.size(); ++k)
-    for (std::size_t m = k + 1; m < by_x.size(); ++m) {
-      const PlacedVolume &a = volumes[by_x[k]], &b = volumes[by_x[m]];
-      // No pair is on one point that is further apart along x than what the left one allows.
-      if (b.position.x - a.position.x > kOnePoint * a.radius) break;
-      if (distance(a.position, b.position) > kOnePoint * std::min(a.radius, b.radius)) continue;
-      const std::size_t first = head(by_x[k]), second = head(by_x[m]);
-      group[std::max(first, second)] = std::min(first, second);
-    }
-  for (std::size_t i = 0; i < group.size(); ++i) group[i] = head(i);
-  return group;
-}
 
 // Does the link move its nodes away from the point? Then it is not what brought them there.
 bool is_parting(const State& state, std::size_t link, const std::vector<std::uint32_t>& nodes, const Point3& middle) {
@@ -146,7 +113,13 @@ std::string help_for(const State& state, std::uint32_t node) {
          (holding.lifting.size() == 1 ? " holds" : " hold") + " it up: weaken that, or let its `standing` allow it";
 }
 
-PlaceProblem hanging(const State& state, std::uint32_t node, const VolumeFigures& volume) {
+bool shares_all(const LinkStates& a, const LinkStates& b) {
+  bool is_shared = a.size() == b.size();
+  for (std::size_t leaf = 0; is_shared && leaf < a.leaf_count(); ++leaf) is_shared = a.shares_leaf(b, leaf);
+  return is_shared;
+}
+
+PlaceProblem hanging_volume(const State& state, std::uint32_t node, const VolumeFigures& volume) {
   const std::string &rule = volume.standing, &on = volume.stands_on;
   PlaceProblem problem;
   problem.nodes = {state.plan->nodes[node].id};
@@ -162,30 +135,127 @@ PlaceProblem hanging(const State& state, std::uint32_t node, const VolumeFigures
 
 }  // namespace
 
-std::vector<PlaceProblem> hanging_volumes(const State& state) {
+VolumePlaces::Volume VolumePlaces::volume_of(std::uint32_t node, const VolumePlace& place) {
+  return {node, place.position, geometry::ball_radius(place.wanted), place.hang};
+}
+
+void VolumePlaces::join(std::size_t a, std::size_t b) {
+  if (distance(volumes_[a].position, volumes_[b].position) > kOnePoint * std::min(volumes_[a].radius, volumes_[b].radius)) return;
+  on_one_point_.emplace(a, b);
+  on_one_point_.emplace(b, a);
+}
+
+void VolumePlaces::part(std::size_t row) {
+  auto pair = on_one_point_.lower_bound({row, 0});
+  while (pair != on_one_point_.end() && pair->first == row) {
+    on_one_point_.erase({pair->second, row});
+    pair = on_one_point_.erase(pair);
+  }
+}
+
+void VolumePlaces::find_all_pairs() {
+  on_one_point_.clear();
+  std::vector<std::size_t> by_x(volumes_.size());
+  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
+  std::stable_sort(by_x.begin(), by_x.end(),
+                   [&](std::size_t a, std::size_t b) { return volumes_[a].position.x < volumes_[b].position.x; });
+  for (std::size_t k = 0; k < by_x.size(); ++k)
+    for (std::size_t m = k + 1; m < by_x.size(); ++m) {
+      const Volume &a = volumes_[by_x[k]], &b = volumes_[by_x[m]];
+      // No pair is on one point that is further apart along x than what the left one allows.
+      if (b.position.x - a.position.x > kOnePoint * a.radius) break;
+      join(by_x[k], by_x[m]);
+    }
+}
+
+void VolumePlaces::read_changed(const State& state, const std::vector<std::uint32_t>& changed) {
+  std::vector<std::size_t> moved;
+  for (const std::uint32_t node : changed) {
+    const auto at =
+        std::lower_bound(volumes_.begin(), volumes_.end(), node, [](const Volume& v, std::uint32_t n) { return v.node < n; });
+    if (at == volumes_.end() || at->node != node) continue;
+    const Volume now = volume_of(node, *reading::row_of<VolumePlace>(state, node));
+    if (now.position != at->position || now.radius != at->radius)
+      moved.push_back(static_cast<std::size_t>(at - volumes_.begin()));
+    *at = now;
+    read_hanging(state, now);
+  }
+  if (moved.size() > kMostMoved) return find_all_pairs();
+  for (const std::size_t row : moved) {
+    part(row);
+    for (std::size_t other = 0; other < volumes_.size(); ++other)
+      if (other != row) join(row, other);
+  }
+}
+
+void VolumePlaces::read_hanging(const State& state, const Volume& volume) {
+  if (volume.hang > kLeastHang)
+    hanging_[volume.node] = hanging_volume(state, volume.node, *reading::row_of<VolumeFigures>(state, volume.node));
+  else hanging_.erase(volume.node);
+}
+
+void VolumePlaces::read(const State& state, const std::optional<std::vector<std::uint32_t>>& changed) {
+  const bool says_the_same = changed && shares_all(state.links, links_);
+  links_ = state.links;
+  if (changed) {
+    read_changed(state, *changed);
+    if (says_the_same) return;
+  } else {
+    volumes_.clear();
+    for (const auto& [node, place] : reading::rows<VolumePlace>(state)) volumes_.push_back(volume_of(node, place));
+    find_all_pairs();
+  }
+  hanging_.clear();
+  for (const Volume& volume : volumes_) read_hanging(state, volume);
+}
+
+// Volumes that are joined by pairs on one point: a group stands where its first volume does, the largest groups first.
+std::vector<std::vector<std::uint32_t>> VolumePlaces::groups_on_one_point() const {
+  std::map<std::size_t, std::size_t> head;
+  const auto head_of = [&](std::size_t row) {
+    auto at = head.emplace(row, row).first;
+    while (at->second != at->first) at = head.find(at->second);
+    return at->first;
+  };
+  for (const auto& [a, b] : on_one_point_) {
+    const std::size_t first = head_of(a), second = head_of(b);
+    head[std::max(first, second)] = std::min(first, second);
+  }
+  std::map<std::size_t, std::vector<std::uint32_t>> members;
+  for (const auto& [row, next] : head)
+    if (volumes_[row].radius > 0) members[head_of(row)].push_back(volumes_[row].node);
+  std::vector<std::vector<std::uint32_t>> groups;
+  for (auto& [first, nodes] : members)
+    if (nodes.size() > 1) groups.push_back(std::move(nodes));
+  std::stable_sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return groups;
+}
+
+std::vector<PlaceProblem> VolumePlaces::collapsed(const State& state) const {
   std::vector<PlaceProblem> problems;
-  for (const auto& [node, volume] : reading::rows<VolumeFigures>(state))
-    if (volume.hang > kLeastHang) problems.push_back(hanging(state, node, volume));
+  for (const std::vector<std::uint32_t>& nodes : groups_on_one_point()) problems.push_back(collapse_of(state, nodes));
+  return problems;
+}
+
+std::vector<PlaceProblem> hanging_volumes(const State& state) {
+  VolumePlaces places;
+  places.read(state, std::nullopt);
+  std::vector<PlaceProblem> problems;
+  for (const auto& [node, problem] : places.hanging()) problems.push_back(problem);
   return problems;
 }
 
 std::vector<PlaceProblem> collapsed_volumes(const State& state) {
-  const std::vector<PlacedVolume> volumes = placed_volumes(state);
-  const std::vector<std::size_t> group = groups_on_one_point(volumes);
-  std::vector<std::vector<std::uint32_t>> members(volumes.size());
-  for (std::size_t i = 0; i < volumes.size(); ++i)
-    if (volumes[i].radius > 0) members[group[i]].push_back(volumes[i].node);
-  std::vector<PlaceProblem> problems;
-  for (const std::vector<std::uint32_t>& nodes : members)
-    if (nodes.size() > 1) problems.push_back(collapse_of(state, nodes));
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const PlaceProblem& a, const PlaceProblem& b) { return a.nodes.size() > b.nodes.size(); });
-  return problems;
+  VolumePlaces places;
+  places.read(state, std::nullopt);
+  return places.collapsed(state);
 }
 
 std::vector<PlaceProblem> place_problems(const State& state) {
-  std::vector<PlaceProblem> problems = collapsed_volumes(state), hanging = hanging_volumes(state);
-  problems.insert(problems.end(), hanging.begin(), hanging.end());
+  VolumePlaces places;
+  places.read(state, std::nullopt);
+  std::vector<PlaceProblem> problems = places.collapsed(state);
+  for (const auto& [node, problem] : places.hanging()) problems.push_back(problem);
   return problems;
 }
 

@@ -62,17 +62,6 @@ void read_volumes(const State& state, ReportModel& model, bool with_shape) {
   }
 }
 
-void add_totals(ReportModel& model) {
-  for (const SiteRow& site : model.sites) {
-    model.plan_area += site.ground_area;
-    model.site_volume += site.volume;
-  }
-  for (const VolumeRow& volume : model.volumes) {
-    if (volume.mesh) ++model.shapes;
-    if (model.worst == nullptr || std::abs(volume.error()) > std::abs(model.worst->error())) model.worst = &volume;
-  }
-}
-
 // Meshes are for the eye; who measures one has to know what it is.
 std::string mesh_note_of(const State& state, const ReportModel& model) {
   if (std::none_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& row) { return row.mesh != nullptr; }))
@@ -98,6 +87,20 @@ std::vector<std::string> ReportModel::use_names() const {
   std::vector<std::string> names;
   for (const UseAccount& row : accounts.uses) names.push_back(row.use);
   return names;
+}
+
+void add_totals(ReportModel& model) {
+  model.plan_area = model.site_volume = 0;
+  model.shapes = 0;
+  model.worst = nullptr;
+  for (const SiteRow& site : model.sites) {
+    model.plan_area += site.ground_area;
+    model.site_volume += site.volume;
+  }
+  for (const VolumeRow& volume : model.volumes) {
+    if (volume.mesh) ++model.shapes;
+    if (model.worst == nullptr || std::abs(volume.error()) > std::abs(model.worst->error())) model.worst = &volume;
+  }
 }
 
 void read_figures(const State& state, ReportModel& model) {

@@ -39,6 +39,7 @@ struct TensePort {
   PortRef ref;
   double tension = 0;   ///< in the port's unit
   double severity = 0;  ///< tension against the size of what is pulled at
+  bool operator==(const TensePort&) const = default;
 };
 
 /// The same in words.
@@ -65,6 +66,7 @@ struct ProblemRow {
   std::string node, link;    ///< ids of where it is, as far as it is somewhere
   bool is_shortage = false;  ///< no failure: a demand is not met
   bool is_place = false;     ///< no failure: volumes hang in the air or lie on one point
+  bool operator==(const ProblemRow&) const = default;
 };
 
 struct ReportModel {
@@ -93,14 +95,23 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
-/// Names, figures and accounts of volumes and uses, and their totals, without shapes, sites, conflicts and problems: for readers
-/// in every tick.
+/// What fails or cannot be met, without the places of volumes. `links`: those of links_with_errors().
+std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::uint32_t>& links);
+/// Links that fail, remark on something, or cannot run at all; ascending.
+std::vector<std::uint32_t> links_with_errors(const State& state);
+bool has_error(const State& state, std::size_t link);
+/// Names, figures and accounts of volumes and uses, and their totals, without shapes, sites, conflicts and problems. Readers in
+/// every tick keep a FiguresMemo.
 void read_figures(const State& state, ReportModel& model);
+/// What follows from sites and volumes together; `worst` points into the model.
+void add_totals(ReportModel& model);
 
 /// A tension below this share of the value's size is too small to be listed.
 inline constexpr double kMinorSeverity = 0.002;
 /// All ports under tension, ascending; minor ones too.
 std::vector<TensePort> tense_ports(const State& state);
+/// Those of one node, behind what is there.
+void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePort>& tense);
 /// A tension as a share of the value's size.
 double severity_of(const State& state, PortRef ref, double tension);
 /// The proposals on the port, as sentences.

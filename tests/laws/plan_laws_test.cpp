@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/file/scene_file.h"
 #include "core/graph/amend.h"
+#include "core/graph/carry.h"
 #include "core/graph/simulation.h"
 #include "tests/support/plan_differences.h"
 #include "tests/support/random_scenes.h"

@@ -34,12 +34,20 @@ void VolumeFigures::declare(ViewBuilder<VolumeFigures>& v) {
 }
 BL_VIEW(VolumeFigures)
 
+void VolumePlace::declare(ViewBuilder<VolumePlace>& v) {
+  v.of("smart_volume");
+  v.reads(&VolumePlace::position, "node.position", Unit::metre);
+  v.reads(&VolumePlace::wanted, "smart_volume.wanted", Unit::cubic_metre);
+  v.reads(&VolumePlace::hang, "smart_volume.hang", Unit::metre);
+}
+BL_VIEW(VolumePlace)
+
 void StandParameters::declare(ViewBuilder<StandParameters>& v) {
   v.of_links("stand");
   v.reads(&StandParameters::stiffness, "stand.stiffness", Unit::ratio);
 }
 BL_VIEW(StandParameters)
 
-BL_VIEWS(volume, VolumeFigures, StandParameters)
+BL_VIEWS(volume, VolumeFigures, VolumePlace, StandParameters)
 
 }  // namespace bl::reading

@@ -34,7 +34,18 @@ struct VolumeFigures {
   std::string stands_on;     ///< what carries it; empty where nothing does
   double hang = 0;           ///< how far above that its lowest point is [m]
 
+  bool operator==(const VolumeFigures&) const = default;
   static void declare(ViewBuilder<VolumeFigures>& v);
+  static const ViewDefinition& view();
+};
+
+/// Where a volume is and how it stands, for readers of nothing else.
+struct VolumePlace {
+  Point3 position;    ///< [m]
+  double wanted = 0;  ///< what its solver aims at [m³]
+  double hang = 0;    ///< how far above what carries it its lowest point is [m]
+
+  static void declare(ViewBuilder<VolumePlace>& v);
   static const ViewDefinition& view();
 };
 

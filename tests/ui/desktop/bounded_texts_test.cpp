@@ -1,6 +1,7 @@
 // Whatever data says, and however long: the window's lists and notices stay sentences.
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 namespace {
@@ -9,9 +10,9 @@ constexpr std::size_t kMostShown = 6000;  // bytes
 
 std::vector<ProblemItem> written_items(PanelDesktop& desktop) {
   std::vector<ProblemItem> items;
-  const ProblemList& list = *memory_of(desktop.editor()).problems;
-  for (ProblemItem item : list.items()) {
-    list.write(desktop.editor().state(), item);
+  PanelMemory& memory = memory_of(desktop.editor());
+  for (ProblemItem item : memory.problems->items()) {
+    write_problem(desktop.editor().state(), memory.record->figures(desktop.editor()).accounts, item);
     items.push_back(std::move(item));
   }
   return items;

@@ -23,7 +23,7 @@ class ListDesktop : public PanelDesktop {
     std::vector<ProblemItem> found;
     for (ProblemItem item : problems().items()) {
       if (item.kind != kind) continue;
-      problems().write(editor().state(), item);
+      write_problem(editor().state(), record().figures(editor()).accounts, item);
       found.push_back(item);
     }
     return found;
@@ -90,7 +90,7 @@ TEST(Problems, WhatPeopleAskForByHandAndACapTakesIsShort) {
   EXPECT_NE(housing->text.find("asked for:"), std::string::npos) << housing->text;
   EXPECT_NE(housing->text.find("link `cap` leaves"), std::string::npos) << housing->text;
   EXPECT_NE(std::find(housing->nodes.begin(), housing->nodes.end(), "v0567"), housing->nodes.end());
-  const reading::Accounts& accounts = desktop.problems().accounts();
+  const reading::Accounts& accounts = desktop.record().figures(desktop.editor()).accounts;
   EXPECT_GT(accounts.worst_short, 0.1);
 }
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/reading/changed_nodes.h"
 #include "tests/support/random_commands.h"
 #include "tests/support/world.h"
-#include "ui/desktop/view/changed_nodes.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/scene_facts.h"
@@ -60,7 +60,7 @@ TEST(ViewChanges, FactsThatFollowAreThoseThatAreReadAnew) {
       if (random.below(2) == 0) (void)world.submit(random_command(world.session().scene(), random, step));
       world.tick();
       const auto state = world.session().state();
-      followed += facts && changed_nodes(*facts->state, *state) ? 1 : 0;
+      followed += facts && reading::changed_nodes(*facts->state, *state) ? 1 : 0;
       facts = read_facts(state, facts.get());
       expect_same_facts(*facts, *read_facts(state, nullptr));
       const UseNumbers &kept = uses.of(state), fresh(state->plan->scene);
@@ -77,17 +77,17 @@ TEST(ViewChanges, NodesThatStayTheSameAreNotAmongThem) {
   world.tick(400);
   const auto before = world.session().state();
   world.tick();
-  EXPECT_TRUE(changed_nodes(*before, world.state())->empty());
+  EXPECT_TRUE(reading::changed_nodes(*before, world.state())->empty());
   const std::string moved = world.session().scene().nodes.begin()->first;
   ASSERT_EQ(world.submit(command<SetPort>({moved, {"node.position"}, {"[1, 2, 3]"}})), "");
   world.tick();
-  const auto changed = changed_nodes(*before, world.state());
+  const auto changed = reading::changed_nodes(*before, world.state());
   ASSERT_TRUE(changed);
   EXPECT_TRUE(std::find(changed->begin(), changed->end(), world.state().plan->node_index(moved)) != changed->end());
   EXPECT_LT(changed->size(), world.state().nodes.size());
   ASSERT_EQ(world.submit(command<RenameNode>({moved, "Another"})), "");
   world.tick();
-  EXPECT_FALSE(changed_nodes(*before, world.state())) << "a name is more than a value";
+  EXPECT_FALSE(reading::changed_nodes(*before, world.state())) << "a name is more than a value";
 }
 
 TEST(ViewChanges, TheVolumeThatIsPickedIsTheNearestOfAll) {

@@ -6,8 +6,11 @@
 #include <imgui_internal.h>
 
 #include "core/base/random.h"
+#include "core/reading/figures_memo.h"
 #include "tests/support/random_commands.h"
 #include "tests/ui/desktop/canvas_support.h"
+#include "ui/desktop/panels/canvas/sections.h"
+#include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -103,6 +106,78 @@ TEST_P(ViewFollows, AWindowThatHasSeenEverythingDrawsWhatAFreshOneDraws) {
     for (int settling = 0; settling < 2; ++settling) desktop.frame_at(now);
     ASSERT_EQ(drawn(), followed) << "step " << step;
   }
+}
+
+// The order of the rows as well: it goes by the list before, which both have.
+TEST_P(ViewFollows, AListOfProblemsThatFollowsIsThatOfOneThatForgets) {
+  NullDesktop desktop(GetParam());
+  Workbench& editor = desktop.editor();
+  Random random(13);
+  reading::FiguresMemo figures;
+  ProblemList followed, forgetful;
+  std::set<ProblemKind> kinds;
+  for (int step = 0; step < 60; ++step) {
+    if (random.below(2) == 0) (void)editor.document->session().submit(random_command(editor.scene(), random, step));
+    desktop.ticks(1 + static_cast<int>(random.below(3)));
+    followed.refresh(editor, figures.of(editor.moment->state));
+    forgetful.forget();
+    reading::ReportModel fresh;
+    reading::read_figures(*editor.moment->state, fresh);
+    forgetful.refresh(editor, fresh);
+    ASSERT_EQ(followed.items(), forgetful.items()) << "step " << step;
+    for (ProblemItem item : followed.items()) {
+      kinds.insert(item.kind);
+      ProblemItem other = item;
+      write_problem(editor.state(), figures.last().accounts, item);
+      write_problem(editor.state(), fresh.accounts, other);
+      EXPECT_EQ(item, other);
+    }
+  }
+  EXPECT_GT(kinds.size(), 2u) << "else hardly anything was compared";
+}
+
+using SparkOfSection = std::pair<std::string, std::size_t>;
+
+// All sections that have a spark-line, with what it was made of.
+std::map<SparkOfSection, canvas::Spark> sparks_of(const canvas::Board& board) {
+  std::map<SparkOfSection, canvas::Spark> sparks;
+  for (const canvas::NodeBox& box : board.model.boxes)
+    for (std::size_t k = 0; k < box.sections.size(); ++k)
+      if (box.sections[k].spark != canvas::kNoIndex) sparks[{box.id, k}] = board.live.spark(box.id, k);
+  return sparks;
+}
+
+// Samples are kept where they differ; what is drawn is what somebody has who notes all of them.
+TEST_P(ViewFollows, SparkLinesHaveEverySampleOfTheLastSeconds) {
+  NullDesktop desktop(GetParam());
+  Workbench& editor = desktop.editor();
+  const canvas::Board& board = editor.canvas->board();
+  std::map<SparkOfSection, canvas::Spark> noted = sparks_of(board);
+  Random random(14);
+  std::size_t moments = 0;
+  for (int step = 0; step < 160; ++step) {
+    const Scene& scene = editor.scene();
+    const auto& [id, node] = *std::next(scene.nodes.begin(), static_cast<std::ptrdiff_t>(random.below(scene.nodes.size())));
+    const std::string number = std::to_string(random.below(5000));
+    if (random.below(8) == 0) (void)editor.submit(command<SetPort>({id, {"smart_volume.demand"}, {number}}));
+    if (random.below(30) == 0) (void)editor.submit(command<RenameNode>({id, "Name " + number}));
+    if (random.below(3) > 0) editor.document->session().step(1);
+    editor.document->session().settle();
+    desktop.frame_at(desktop.now() + random.uniform(0.02, 0.3));
+    const auto sparks = sparks_of(board);
+    const double now = desktop.now();
+    if (sparks.empty() || sparks.begin()->second.empty() || sparks.begin()->second.back().first < now) continue;
+    ++moments;
+    for (const canvas::NodeBox& box : board.model.boxes)
+      for (std::size_t k = 0; k < box.sections.size(); ++k) {
+        if (box.sections[k].spark == canvas::kNoIndex) continue;
+        canvas::Spark& samples = noted[{box.id, k}];
+        samples.emplace_back(now, as_number(*canvas::value_of(editor, box, box.sections[k], box.sections[k].spark)));
+        while (samples.size() > 2 && samples[1].first < now - canvas::kSparkSeconds) samples.erase(samples.begin());
+      }
+    ASSERT_EQ(sparks, noted) << "step " << step;
+  }
+  EXPECT_GT(moments, 40u) << "else nothing was compared";
 }
 
 TEST(SightBalls, BlocksHoldBackNoBallThatALineGoesThrough) {

@@ -8,6 +8,7 @@
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 
@@ -136,7 +137,7 @@ void draw_problems(Workbench& editor) {
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       ProblemItem item = problems.items()[shown[static_cast<std::size_t>(row)]];
-      if (editor.moment) problems.write(editor.state(), item);
+      if (editor.moment) write_problem(editor.state(), memory.record->figures(editor).accounts, item);
       draw_item(editor, item, row, height);
     }
   ImGui::PopStyleVar();

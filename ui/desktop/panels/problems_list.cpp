@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/reading/figures.h"
-#include "core/reading/place_problems.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -84,7 +83,7 @@ std::size_t ProblemList::pressing() const { return items_.size() - count(Problem
 void ProblemList::add_conflicts(const State& state) {
   std::map<PortRef, int> bands;
   std::vector<std::size_t> order;
-  for (const reading::TensePort& tense : reading::tense_ports(state)) {
+  for (const reading::TensePort& tense : problems_.tense()) {
     // What was before decides on places in the list alone, never on what is listed.
     if (tense.severity < reading::kMinorSeverity) continue;
     const auto before = bands_.find(tense.ref);
@@ -102,12 +101,25 @@ void ProblemList::add_conflicts(const State& state) {
   std::stable_sort(items_.begin(), items_.end(), [](const ProblemItem& a, const ProblemItem& b) { return a.band > b.band; });
 }
 
-void ProblemList::write(const State& state, ProblemItem& item) const {
+namespace {
+
+std::string reason_of_shortage(const State& state, const reading::Accounts& accounts, const std::string& key) {
+  const std::string name = key.substr(key.find('/') + 1);
+  if (key.starts_with("use/")) {
+    for (const reading::UseAccount& use : accounts.uses)
+      if (use.use == name) return reading::why_short(state, accounts, use);
+  } else if (key.starts_with("volume/")) {
+    if (const std::size_t row = accounts.row_of(state.plan->node_index(name)); row < accounts.volumes.size())
+      return reading::why_short(state, accounts, accounts.volumes[row]);
+  }
+  return "";
+}
+
+}  // namespace
+
+void write_problem(const State& state, const reading::Accounts& accounts, ProblemItem& item) {
   if (item.kind == ProblemKind::shortage && item.why.empty()) {
-    for (const reading::UseAccount& use : accounts_.uses)
-      if (item.key == "use/" + use.use) item.why = reading::why_short(state, accounts_, use);
-    for (const reading::VolumeAccount& volume : accounts_.volumes)
-      if (item.key == "volume/" + state.plan->nodes[volume.node].id) item.why = reading::why_short(state, accounts_, volume);
+    item.why = reason_of_shortage(state, accounts, item.key);
     if (!item.why.empty()) item.text += "; " + item.why;
     bound(item);
   }
@@ -129,13 +141,13 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
 // Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account
 // decides who is short, here as in colours, statistics and report.
 void ProblemList::add_shortages(const State& state, const reading::ReportModel& figures) {
-  accounts_ = figures.accounts;
+  const reading::Accounts& accounts = figures.accounts;
   if (state.tick == 0) return;
   std::set<std::string> listed_uses;
   const bool is_too_small = std::any_of(items_.begin(), items_.end(),
                                         [](const ProblemItem& i) { return i.kind == ProblemKind::shortage && i.is_error; });
   const auto add = [&](const std::string& key, const reading::Account& account, const std::string& subject) -> ProblemItem* {
-    if (!account.is_short(accounts_.tolerance)) return nullptr;
+    if (!account.is_short(accounts.tolerance)) return nullptr;
     ProblemItem item;
     item.kind = ProblemKind::shortage;
     item.key = key;
@@ -143,17 +155,19 @@ void ProblemList::add_shortages(const State& state, const reading::ReportModel& 
     item.text = missing_words(account);
     return &items_.emplace_back(std::move(item));
   };
-  for (const reading::UseAccount& use : accounts_.uses) {
+  for (const reading::UseAccount& use : accounts.uses) {
     ProblemItem* item =
         add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be met" : "Not all " + use.use + " can be met");
     if (item == nullptr) continue;
     listed_uses.insert(use.use);
     item->text += ", in " + reading::counted(use.volumes, "volume");
     for (const reading::VolumeRow& volume : figures.volumes)
-      if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts_.tolerance)))
+      if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts.tolerance)))
         item->nodes.push_back(volume.id);
   }
+  if (accounts.all.short_volumes == 0) return;
   for (const reading::VolumeRow& volume : figures.volumes) {
+    if (!volume.is_short(accounts.tolerance)) continue;
     // Who has no shape stands among those without room, with the reason.
     const bool is_told = (listed_uses.contains(volume.use) && !is_too_small) ||
                          (volume.figures.state != "alive" && !volume.figures.reason.empty());
@@ -162,10 +176,11 @@ void ProblemList::add_shortages(const State& state, const reading::ReportModel& 
   }
 }
 
-void ProblemList::add_failures(const State& state, const reading::ReportModel& problems) {
+void ProblemList::add_failures(const State& state) {
+  const std::vector<reading::ProblemRow> failures = problems_.failures();
   for (const bool is_shortage : {true, false})
-    for (const reading::ProblemRow& row : problems.problems) {
-      if (row.is_place || row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
+    for (const reading::ProblemRow& row : failures) {
+      if (row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
       // Ghosts hinder nobody: they stand among what does not run.
       if (const auto& links = state.plan->scene.links;
           !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
@@ -187,7 +202,7 @@ void ProblemList::add_failures(const State& state, const reading::ReportModel& p
 void ProblemList::add_volumes(const State& state, const reading::ReportModel& figures) {
   if (state.tick == 0) return;
   for (const reading::VolumeRow& volume : figures.volumes) {
-    if (volume.figures.state == "alive" || volume.figures.reason.empty()) continue;
+    if (volume.is_alive || volume.figures.reason.empty()) continue;
     ProblemItem item;
     item.kind = ProblemKind::no_room;
     item.key = volume.id;
@@ -198,10 +213,10 @@ void ProblemList::add_volumes(const State& state, const reading::ReportModel& fi
   }
 }
 
-void ProblemList::add_places(const State& state) {
-  for (reading::PlaceProblem& problem : reading::place_problems(state)) {
+void ProblemList::add_places() {
+  const auto add = [&](const reading::PlaceProblem& problem) {
     // Heights change from tick to tick, who hangs does not.
-    ProblemItem item;
+    ProblemItem& item = items_.emplace_back();
     item.kind = ProblemKind::place;
     item.key = "place";
     item.subject = problem.subject;
@@ -209,8 +224,9 @@ void ProblemList::add_places(const State& state) {
     item.nodes = problem.nodes;
     item.links = problem.links;
     for (const std::string& node : problem.nodes) item.key += "/" + node;
-    items_.push_back(std::move(item));
-  }
+  };
+  for (const reading::PlaceProblem& problem : problems_.collapsed()) add(problem);
+  for (const auto& [node, problem] : problems_.hanging()) add(problem);
 }
 
 void ProblemList::add_idle(const State& state) {
@@ -265,17 +281,18 @@ void ProblemList::refresh(const Workbench& editor, const reading::ReportModel& f
   revision_ = editor.problems_revision;
   items_.clear();
   if (state) {
+    problems_.read(state);
     add_conflicts(*state);
-    reading::ReportModel problems;
-    reading::read_problems(*state, problems);
-    add_failures(*state, problems);
+    add_failures(*state);
     add_shortages(*state, figures);
     add_volumes(*state, figures);
-    add_places(*state);
+    add_places();
     add_idle(*state);
   }
   add_file(editor);
-  std::stable_sort(items_.begin(), items_.end(), [](const ProblemItem& a, const ProblemItem& b) { return a.kind < b.kind; });
+  const auto is_before = [](const ProblemItem& a, const ProblemItem& b) { return a.kind < b.kind; };
+  // Thousands of items are sorted only where they are not: mostly they are.
+  if (!std::is_sorted(items_.begin(), items_.end(), is_before)) std::stable_sort(items_.begin(), items_.end(), is_before);
   for (ProblemItem& item : items_) bound(item);
   counts_.fill(0);
   for (const ProblemItem& item : items_) ++counts_[static_cast<std::size_t>(item.kind)];

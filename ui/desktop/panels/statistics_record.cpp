@@ -68,19 +68,17 @@ std::vector<reading::ErrorSample> RunRecord::errors() const {
 
 const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
   const std::shared_ptr<const State>& state = editor.moment->state;
-  if (figured_ == state && figures_) return *figures_;
-  const bool has_the_same_rows = figures_ && figured_->plan->dependents == state->plan->dependents;
+  const std::shared_ptr<const State>& figured = figures_.state();
+  if (figured == state) return figures_.last();
+  const bool has_the_same_rows = figured && figured->plan->dependents == state->plan->dependents;
   const double next = figured_at_ + figures_pause(state->nodes.size());
   if (has_the_same_rows && editor.now < next) {
     editor.wake_at(next);
-    return *figures_;
+    return figures_.last();
   }
-  figured_ = state;
   figured_at_ = editor.now;
-  figures_ = std::make_unique<reading::ReportModel>();
   ++figures_revision_;
-  reading::read_figures(*figured_, *figures_);
-  return *figures_;
+  return figures_.of(state);
 }
 
 const std::vector<std::size_t>& RunRecord::ordered(const Workbench& editor) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reading/report_model.h"
+#include "core/reading/figures_memo.h"
 #include "core/report/report.h"
 #include "ui/desktop/panels/workbench.h"
 
@@ -27,8 +27,10 @@ class RunRecord {
   /// Volumes, uses and totals of the current state; made when they are asked for. Of a large scene that changes in every frame
   /// they are those of a moment ago.
   const reading::ReportModel& figures(const Workbench& editor);
-  /// Grows whenever those are made.
+  /// Grows whenever those are those of another state.
   std::uint64_t figures_revision() const { return figures_revision_; }
+  /// The nodes whose figures are others than in the revision before; nothing where all may be.
+  const std::optional<std::vector<std::uint32_t>>& changed_figures() const { return figures_.changed(); }
   /// Indices of the volumes in the order that is wanted; it settles down between changes.
   const std::vector<std::size_t>& ordered(const Workbench& editor);
 
@@ -42,8 +44,8 @@ class RunRecord {
   void forget_from(double tick_number);
   void drop_oldest();
 
-  std::shared_ptr<const State> sampled_, figured_, sorted_;
-  std::unique_ptr<reading::ReportModel> figures_;
+  std::shared_ptr<const State> sampled_, sorted_;
+  reading::FiguresMemo figures_;
   std::uint64_t figures_revision_ = 0;
   std::vector<std::size_t> ordered_;
   std::uint64_t bytes_sent_ = 0;

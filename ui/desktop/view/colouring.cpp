@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
+#include "core/reading/changed_nodes.h"
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
 #include "core/reading/views/programme.h"
 #include "core/reading/views/volume.h"
-#include "ui/desktop/view/changed_nodes.h"
 
 namespace bl::desktop {
 
@@ -125,7 +125,7 @@ UsesOfNode uses_of(const State& state, std::uint32_t node) {
 }  // namespace
 
 const UseNumbers& UseMemo::of(const std::shared_ptr<const State>& state) {
-  const auto changed = state_ ? changed_nodes(*state_, *state) : std::nullopt;
+  const auto changed = state_ ? reading::changed_nodes(*state_, *state) : std::nullopt;
   const bool is_same = changed && std::all_of(changed->begin(), changed->end(), [&](std::uint32_t node) {
                          return uses_of(*state_, node) == uses_of(*state, node);
                        });

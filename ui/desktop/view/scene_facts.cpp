@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/geometry/mesh_lines.h"
+#include "core/reading/changed_nodes.h"
 #include "core/reading/views/facade.h"
 #include "core/reading/views/node.h"
 #include "core/reading/views/solver.h"
@@ -16,7 +17,6 @@
 #include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 #include "ui/desktop/document/media_place.h"
-#include "ui/desktop/view/changed_nodes.h"
 
 namespace bl::desktop {
 
@@ -274,7 +274,7 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
   VolumeList::Draft draft(last.volumes);
   bool has_other_use = false;
   std::vector<std::size_t> rows;
-  for (reading::VolumeAccount& account : reading::accounts_of_volumes(state, changed)) {
+  for (reading::VolumeAccount& account : reading::accounts_of_volumes(state, changed, *facts.targets, facts.brief)) {
     VolumeFacts volume = read_volume(state, std::move(account));
     const VolumeFacts* before = last.volume_of(volume.node);
     const auto row = last.row_of(volume.node);
@@ -295,8 +295,11 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
   facts->tolerance = reading::account_tolerance(state);
-  const auto changed = last != nullptr ? changed_nodes(*last->state, state) : std::nullopt;
-  if (changed) read_changed_nodes(state, *last, *changed, *facts);
+  facts->brief = reading::brief_of(state);
+  const auto changed = last != nullptr ? reading::changed_nodes(*last->state, state) : std::nullopt;
+  facts->targets = changed ? last->targets : std::make_shared<const reading::BriefTargets>(reading::brief_targets(*state.plan));
+  // Whether a volume is asked for floor area depends on which uses briefs name.
+  if (changed && reading::has_same_uses(last->brief, facts->brief)) read_changed_nodes(state, *last, *changed, *facts);
   else read_all_nodes(state, last, *facts);
   for (auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state))
     read_boundary(state, node, std::move(boundary.shape), last, *facts);

@@ -76,6 +76,8 @@ struct SceneFacts {
   SightBalls balls;       ///< as volumes
   VolumeColumns columns;  ///< as volumes
   double tolerance = 0;   ///< share of what was asked for below which nobody is short
+  std::shared_ptr<const reading::BriefTargets> targets;  ///< of the plan, and what programmes ask for: what accounts go by
+  reading::Brief brief;
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
   std::vector<MediaFacts> media;

@@ -21,10 +21,9 @@ float BarFigures::share(double volume) const {
 BarFigures bar_figures(Workbench& editor, const NodeBox& box) {
   const reading::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
   BarFigures bar;
-  const auto found = std::lower_bound(accounts.volumes.begin(), accounts.volumes.end(), box.in_state,
-                                      [](const reading::VolumeAccount& v, std::uint32_t node) { return v.node < node; });
-  if (found != accounts.volumes.end() && found->node == box.in_state) {
-    bar.account = *found;
+  if (const std::size_t row = accounts.row_of(box.in_state); row < accounts.volumes.size()) {
+    bar.account = accounts.volumes[row];
+    bar.is_known = true;
   } else if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end()) {
     const auto volume = reading::settings_of<reading::VolumeFigures>(editor.scene(), editor.types(), node->second);
     if (volume) bar.account.asked = bar.account.limited = std::max(volume->demand, volume->demand_min);

@@ -12,6 +12,7 @@ namespace bl::desktop::canvas {
 struct BarFigures {
   reading::Account account;  ///< the one that list, colours, statistics and report read
   AccountTone tone = AccountTone::far;
+  bool is_known = false;    ///< a tick has seen the volume
   bool is_limited = false;  ///< limits leave visibly less than was asked for
 
   /// "400 / 600 m³": what there is, and what was asked for.

@@ -41,8 +41,7 @@ void draw_bar_of(const Ink& ink, const BarFigures& bar, ImVec2 low, ImVec2 high)
   if (bar.is_limited) ink.list.AddRectFilled({x_of(limited) - reach, low.y}, {x_of(limited), high.y}, ink.c.warning);
 }
 
-void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU32 colour) {
-  const auto& samples = spark.samples;
+void draw_spark(const Ink& ink, const Spark& samples, ImVec2 low, ImVec2 high, ImU32 colour) {
   double least = samples.front().second, most = least;
   for (const auto& [time, value] : samples) least = std::min(least, value), most = std::max(most, value);
   // A value that stands still is a straight line in the middle, not its own rounding magnified.
@@ -162,10 +161,10 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
   y = draw_rows(ink, box, section, y);
   if (section.spark != kNoIndex) {
-    const Spark* spark = ink.board.live.spark(box.id, number);
+    const Spark spark = ink.board.live.spark(box.id, number);
     const ImVec2 low = ink.at(box.box.at.x + kPad, y + 4), high = ink.at(box.box.high().x - kPad, y + kSparkHeight - 4);
     ink.list.AddLine({low.x, high.y}, high, faded(ink.c.line, 0.8f));
-    if (spark != nullptr && spark->samples.size() > 1) draw_spark(ink, *spark, low, high, colour_of(ink.board, section));
+    if (spark.size() > 1) draw_spark(ink, spark, low, high, colour_of(ink.board, section));
     y += kSparkHeight;
   }
   return y;

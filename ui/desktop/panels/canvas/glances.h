@@ -28,10 +28,14 @@ class Glances {
 
  private:
   void read_all(Board& board);
+  void read_bar(Board& board, std::size_t box);
   void read_bars(Board& board);
+  void follow_bars(Board& board);
 
   std::vector<Glance> rows_;                ///< as the model's boxes
   std::vector<std::uint32_t> box_of_node_;  ///< kNoIndex: the node has none
+  std::vector<std::size_t> bars_;           ///< boxes that have one
+  std::vector<std::size_t> unknown_bars_;   ///< of volumes that no tick has seen: what they ask for is in the scene
   std::shared_ptr<const State> state_;      ///< what they were read from, as the next two
   std::size_t revision_ = 0;                ///< of the model
   std::uint64_t figures_ = 0;               ///< revision of the record's figures

@@ -1,6 +1,7 @@
-// Samples at most ten times a second, however fast the ticks are.
+// Samples at most ten times a second, however fast the ticks are, and only nodes that have changed.
 #include "ui/desktop/panels/canvas/live.h"
 
+#include "core/reading/changed_nodes.h"
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
 #include "ui/desktop/panels/canvas/sections.h"
@@ -29,19 +30,35 @@ void Live::update(const Workbench& editor, const Model& model) {
   sample(editor, model);
 }
 
-void Live::sample(const Workbench& editor, const Model& model) {
-  for (const NodeBox& box : model.boxes) {
-    if (box.in_state == kNoIndex) continue;
-    for (std::size_t k = 0; k < box.sections.size(); ++k) {
-      const Section& section = box.sections[k];
-      if (section.spark == kNoIndex) continue;
-      const Value* value = value_of(editor, box, section, section.spark);
-      if (value == nullptr) continue;
-      auto& samples = sparks_[{box.id, k}].samples;
-      samples.emplace_back(editor.now, as_number(*value));
-      while (samples.size() > 2 && samples[1].first < editor.now - kSparkSeconds) samples.erase(samples.begin());
-    }
+void Live::sample(const Workbench& editor, const NodeBox& box) {
+  if (box.in_state == kNoIndex) return;
+  for (std::size_t k = 0; k < box.sections.size(); ++k) {
+    const Section& section = box.sections[k];
+    if (section.spark == kNoIndex) continue;
+    const Value* value = value_of(editor, box, section, section.spark);
+    if (value == nullptr) continue;
+    Spark& steps = steps_[{box.id, k}];
+    if (!steps.empty() && steps.back().second == as_number(*value)) continue;
+    steps.emplace_back(editor.now, as_number(*value));
+    while (steps.size() > 1 && steps[1].first <= times_.front()) steps.erase(steps.begin());
   }
+}
+
+void Live::sample(const Workbench& editor, const Model& model) {
+  times_.push_back(editor.now);
+  while (times_.size() > 2 && times_[1] < editor.now - kSparkSeconds) times_.pop_front();
+  const std::shared_ptr<const State>& state = editor.moment->state;
+  const bool is_same_model = sampled_ && revision_ == model.revision;
+  const auto changed = is_same_model ? reading::changed_nodes(*sampled_, *state) : std::nullopt;
+  sampled_ = state;
+  revision_ = model.revision;
+  if (!changed) {
+    for (const NodeBox& box : model.boxes) sample(editor, box);
+    return;
+  }
+  for (const std::uint32_t node : *changed)
+    if (const std::size_t box = model.find_box(state->plan->nodes[node].id); box < model.boxes.size())
+      sample(editor, model.boxes[box]);
 }
 
 void Live::listen(const Workbench& editor, const Model& model) {
@@ -71,9 +88,17 @@ void Live::listen(const Workbench& editor, const Model& model) {
   }
 }
 
-const Spark* Live::spark(const std::string& node, std::size_t section) const {
-  const auto found = sparks_.find({node, section});
-  return found == sparks_.end() ? nullptr : &found->second;
+Spark Live::spark(const std::string& node, std::size_t section) const {
+  Spark samples;
+  const auto found = steps_.find({node, section});
+  if (found == steps_.end()) return samples;
+  const Spark& steps = found->second;
+  std::size_t next = 0;
+  for (const double time : times_) {
+    while (next < steps.size() && steps[next].first <= time) ++next;
+    if (next > 0) samples.emplace_back(time, steps[next - 1].second);
+  }
+  return samples;
 }
 
 const LinkPulse* Live::pulse(const std::string& link) const {

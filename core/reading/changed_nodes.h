@@ -7,9 +7,9 @@
 
 #include "core/graph/state.h"
 
-namespace bl::desktop {
+namespace bl::reading {
 
 /// Ascending. Nothing where the scenes differ in more than values: in nodes, links, names, roles, settings.
 std::optional<std::vector<std::uint32_t>> changed_nodes(const State& before, const State& now);
 
-}  // namespace bl::desktop
+}  // namespace bl::reading
