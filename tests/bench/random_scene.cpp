@@ -15,6 +15,8 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr double kSpacing = 10;  // [m]
+// A script is stopped whose tables grow too large: one link leads so many volumes about.
+constexpr int kMostWalkers = 10000;
 
 std::string padded(int number, int count) {
   const std::string text = std::to_string(number), last = std::to_string(count);
@@ -89,11 +91,34 @@ Result<Scene> restless_scene(int count, double fill) {
   auto scene = linked_scene(count, fill);
   if (!scene) return scene.error();
   scene->scripts = Scripts::read({{"stroll", kWalker}}, full_registry());
-  LinkRecord& link = scene->links["stroll"];
-  link.kind = "stroll";
-  link.from.ids = {"box"};
-  link.to = {{}, "smart_volume", {}};
+  const auto walk = [&](const std::string& id, const Selection& who) {
+    LinkRecord& link = scene->links[id];
+    link.kind = "stroll";
+    link.from.ids = {"box"};
+    link.to = who;
+  };
+  if (count <= kMostWalkers) {
+    walk("stroll", {{}, "smart_volume", {}});
+    return scene;
+  }
+  std::vector<Selection> groups;
+  int number = 0;
+  for (const auto& [id, node] : scene->nodes) {
+    if (!node.types.contains("smart_volume")) continue;
+    if (number++ % kMostWalkers == 0) groups.emplace_back();
+    groups.back().ids.push_back(id);
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) walk("stroll" + std::to_string(g + 1), groups[g]);
   return scene;
+}
+
+std::vector<std::string> some_volumes(const Scene& scene, std::size_t count) {
+  std::vector<std::string> all, some;
+  for (const auto& [id, node] : SharedMap(scene.nodes))
+    if (node.types.contains("smart_volume")) all.push_back(id);
+  count = std::min(count, all.size());
+  for (std::size_t k = 0; k < count; ++k) some.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
+  return some;
 }
 
 }  // namespace bl::cli::bench

@@ -1,6 +1,9 @@
 // A scene of random volumes in a box: what the bench runs where it is given no scene.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/graph/scene.h"
 
 namespace bl::cli::bench {
@@ -16,5 +19,9 @@ Result<Scene> linked_scene(int count, double fill);
 
 /// The same, and a script moves every volume by up to half a metre along each axis in every tick.
 Result<Scene> restless_scene(int count, double fill);
+
+/// Up to `count` volumes of a scene, at equal distances in the order of their ids. To drag one alone says little: it may have few
+/// neighbours, or room that nobody disputes.
+std::vector<std::string> some_volumes(const Scene& scene, std::size_t count);
 
 }  // namespace bl::cli::bench

@@ -107,8 +107,8 @@ BenchTables bench_growth(const SolverBench& bench) {
     auto row = measure(bench, count);
     if (!row) return row.error();
     std::vector<BenchCell> cells = {figure(static_cast<std::size_t>(count))};
-    for (const auto& seconds : row->seconds) cells.push_back(seconds ? figure(1e6 * *seconds / count, 2) : no_figure());
-    for (const auto& bytes : row->bytes) cells.push_back(bytes ? figure(*bytes / count, 0) : no_figure());
+    add_figures(cells, row->seconds, 1e6 / count, 2);
+    add_figures(cells, row->bytes, 1.0 / count, 0);
     cells.push_back(word(row->diagram_hash));
     cells.push_back(word(row->fit_hash));
     table.add(std::move(cells));

@@ -19,6 +19,10 @@ BenchCell figure(std::size_t value) { return {std::to_string(value), static_cast
 BenchCell word(const std::string& text) { return {text, std::nullopt}; }
 BenchCell no_figure() { return {"", std::nullopt}; }
 
+void add_figures(std::vector<BenchCell>& cells, std::span<const std::optional<double>> measured, double scale, int decimals) {
+  for (const auto& value : measured) cells.push_back(value ? figure(scale * *value, decimals) : no_figure());
+}
+
 BenchCell tiny(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1e", value);

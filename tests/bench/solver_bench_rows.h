@@ -29,6 +29,8 @@ BenchCell figure(std::size_t value);
 BenchCell tiny(double value);
 BenchCell word(const std::string& text);
 BenchCell no_figure();
+/// Figures `scale` times as large, in a row; none where nothing was measured.
+void add_figures(std::vector<BenchCell>& cells, std::span<const std::optional<double>> measured, double scale, int decimals);
 
 /// Rows under one heading, printed for people and written as JSON from the same figures.
 class BenchTable {

@@ -18,8 +18,12 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
+constexpr int kTurn =
+    10;  // Frames that one session takes before its rival: with one each, both would find the other's memory in the caches.
 constexpr double kTickFills[] = {0.7, 0.95, 1};
 constexpr double kDragStep = 0.2;  // [m]
+constexpr std::size_t kDraggedVolumes = 5;
+constexpr int kPulls = 20;  // of each of these
 constexpr const char* kStudy = "scenes/studies/urban_mode.json";
 constexpr int kStudyTicks = 400;
 
@@ -43,20 +47,33 @@ struct Times {
   std::vector<double> tick, everything;
 };
 
-// One tick of both, each after its command; the two have to agree.
-Result<void> tick_both(Rivals& rivals, const Command* command, int threads, Times& times) {
-  for (const auto& [session, list] :
-       {std::pair{rivals.session.get(), &times.tick}, {rivals.everything.get(), &times.everything}}) {
+using Frame = std::optional<Command>;
+
+// One session's turn: a tick per frame, after the command of the frame or none. The hash after each tick is returned.
+Result<std::vector<std::uint64_t>> take_turn(Session& session, const std::vector<Frame>& frames, int threads,
+                                             std::vector<double>& times) {
+  std::vector<std::uint64_t> hashes;
+  for (const Frame& frame : frames) {
     const Clocks before = clocks_now();
-    if (command != nullptr)
-      if (auto done = session->submit(*command, "bench"); !done) return done.error();
-    session->tick();
+    if (frame)
+      if (auto done = session.submit(*frame, "bench"); !done) return done.error();
+    session.tick();
     const Clocks after = clocks_now();
-    list->push_back(after.of(threads) - before.of(threads));
+    times.push_back(after.of(threads) - before.of(threads));
+    hashes.push_back(session.state()->hash);
   }
-  if (rivals.session->state()->hash == rivals.everything->state()->hash) return {};
+  return hashes;
+}
+
+// The same frames by both, one after the other; the two have to agree after each tick.
+Result<void> turn_of_both(Rivals& rivals, const std::vector<Frame>& frames, int threads, Times& times) {
+  const auto mine = take_turn(*rivals.session, frames, threads, times.tick);
+  if (!mine) return mine.error();
+  const auto all = take_turn(*rivals.everything, frames, threads, times.everything);
+  if (!all) return all.error();
+  if (*mine == *all) return {};
   return Error{ErrorCode::internal, "",
-               "the tick that evaluates what has changed comes to another state than the one that evaluates all"};
+               "a tick that evaluates what has changed comes to another state than the one that evaluates all"};
 }
 
 BenchTable table_of_ticks() {
@@ -87,44 +104,48 @@ struct Case {
   int count, threads;
 };
 
-// Frames of one kind: a tick of each, after the command of the frame or none.
+// Frames of one kind in turns; `of_frame` gives the command of each frame.
 template <class OfFrame>
 Result<void> time_frames(const SolverBench& bench, Rivals& rivals, const Case& one, const std::string& name, BenchTable& table,
-                         const OfFrame& command_of) {
+                         const OfFrame& of_frame, int count = kFrames) {
   Times times;
-  for (int t = 0; t < kFrames && bench.goes_on("ticks, " + name); ++t) {
-    const std::optional<Command> command = command_of(t);
-    if (auto done = tick_both(rivals, command ? &*command : nullptr, one.threads, times); !done) return done;
+  for (int t = 0; t < count && bench.goes_on("ticks, " + name);) {
+    std::vector<Frame> frames;
+    for (const int end = std::min(t + kTurn, count); t < end; ++t) frames.push_back(of_frame(t));
+    if (auto done = turn_of_both(rivals, frames, one.threads, times); !done) return done;
   }
-  add_row(table, name, one.fill, one.count, one.threads, times, *rivals.session->state());
+  add_row(table, name, one.fill, one.count, one.threads, std::move(times), *rivals.session->state());
   return {};
 }
 
-std::optional<Command> nothing(int) { return std::nullopt; }
+Frame nothing(int) { return std::nullopt; }
 
-// One node is pulled there and back again.
-Result<void> time_drag(const SolverBench& bench, Rivals& rivals, const Case& one, const std::string& name,
-                       const std::string& dragged, BenchTable& table) {
-  const State& state = *rivals.session->state();
-  const auto position = state.plan->find(state.plan->node_index(dragged), {"node", "position", ""});
-  if (!position) return Error{ErrorCode::not_found, "", "there is no node `" + dragged + "` to be dragged"};
-  Vector3 place = std::get<Vector3>(state.value(*position));
-  return time_frames(bench, rivals, one, name, table, [&](int t) -> std::optional<Command> {
-    place.x += t < kFrames / 2 ? kDragStep : -kDragStep;
-    return command<SetPort>({dragged, {"node.position"}, {JsonValue::of(Json::array({place.x, place.y, place.z}))}});
-  });
+// Some volumes, one after the other, are pulled there and back again.
+Result<void> time_drag(const SolverBench& bench, Rivals& rivals, const Case& one, const std::string& name, BenchTable& table) {
+  const std::vector<std::string> dragged = some_volumes(one.scene, kDraggedVolumes);
+  Vector3 place;
+  return time_frames(
+      bench, rivals, one, name, table,
+      [&](int t) -> Frame {
+        const std::string& volume = dragged[static_cast<std::size_t>(t / kPulls)];
+        const State& state = *rivals.session->state();
+        if (t % kPulls == 0)
+          place = std::get<Vector3>(state.value(*state.plan->find(state.plan->node_index(volume), {"node", "position", ""})));
+        place.x += t % kPulls < kPulls / 2 ? kDragStep : -kDragStep;
+        return command<SetPort>({volume, {"node.position"}, {JsonValue::of(Json::array({place.x, place.y, place.z}))}});
+      },
+      kPulls* static_cast<int>(dragged.size()));
 }
 
-// Each frame of it after a command: the volume in the middle of the list moves, or wants something else.
+// Each frame of it after a command: a volume moves, or the one in the middle of the list wants something else.
 Result<void> time_commands(const SolverBench& bench, Rivals& rivals, const Case& one, BenchTable& table) {
-  const auto middle = std::next(one.scene.nodes.begin(), static_cast<std::ptrdiff_t>(one.scene.nodes.size() / 2));
-  const std::string dragged = middle->first;
-  if (auto done = time_drag(bench, rivals, one, "one dragged", dragged, table); !done) return done;
+  if (auto done = time_drag(bench, rivals, one, "one dragged", table); !done) return done;
+  const std::string wanting = some_volumes(one.scene, 1).front();
   const State& state = *rivals.session->state();
   const double demand =
-      as_number(state.value(*state.plan->find(state.plan->node_index(dragged), {"smart_volume", "demand", ""})));
-  return time_frames(bench, rivals, one, "a demand changed", table, [&](int t) -> std::optional<Command> {
-    return command<SetPort>({dragged, {"smart_volume.demand"}, {JsonValue::of(Json(demand * (1 - 0.01 * (t % 20))))}});
+      as_number(state.value(*state.plan->find(state.plan->node_index(wanting), {"smart_volume", "demand", ""})));
+  return time_frames(bench, rivals, one, "a demand changed", table, [&](int t) -> Frame {
+    return command<SetPort>({wanting, {"smart_volume.demand"}, {JsonValue::of(Json(demand * (1 - 0.01 * (t % 20))))}});
   });
 }
 
@@ -142,9 +163,7 @@ Result<void> time_study(const SolverBench& bench, int threads, BenchTable& table
   const std::string file = bench.options.scenes.empty() ? kStudy : bench.options.scenes.front();
   const auto reading = load_scene(file);
   if (!reading) return Error{ErrorCode::parse, file, "this scene cannot be measured"};
-  std::vector<std::string> volumes;
-  for (const auto& [id, node] : SharedMap(reading->scene.nodes))
-    if (node.types.contains("smart_volume")) volumes.push_back(id);
+  const std::vector<std::string> volumes = some_volumes(reading->scene, reading->scene.nodes.size());
   if (volumes.empty()) return Error{ErrorCode::missing, file, "there is no volume in it that could be dragged"};
   const Case one{reading->scene, 0, static_cast<int>(volumes.size()), threads};
   auto rivals = rivals_of(one.scene, threads);
@@ -152,7 +171,7 @@ Result<void> time_study(const SolverBench& bench, int threads, BenchTable& table
   settle(bench, *rivals, bench.options.is_quick ? 5 : kStudyTicks, "ticks of the study");
   const std::string name = std::filesystem::path(file).stem().string();
   if (auto done = time_frames(bench, *rivals, one, name, table, nothing); !done) return done;
-  return time_drag(bench, *rivals, one, name + ", one dragged", volumes[volumes.size() / 2], table);
+  return time_drag(bench, *rivals, one, name + ", one dragged", table);
 }
 
 // A sensor among volumes at rest.
@@ -164,12 +183,12 @@ Result<void> time_readings(const SolverBench& bench, int count, int threads, Ben
   auto rivals = rivals_of(one.scene, threads);
   if (!rivals) return rivals.error();
   settle(bench, *rivals, bench.options.is_quick ? 5 : kMostTicksToRest, "ticks with a sensor");
-  return time_frames(bench, *rivals, one, "a reading", table, [&](int t) -> std::optional<Command> {
+  const std::int64_t begin = rivals->session->state()->tick;
+  return time_frames(bench, *rivals, one, "a reading", table, [&](int t) -> Frame {
     const auto set = [](const char* port, const Json& value) {
       return command<SetPort>({"sensor", {port}, JsonValue::of(value)});
     };
-    const std::int64_t now = rivals->session->state()->tick;
-    const std::vector<Command> commands{set("sensor.reading", 20 + 0.1 * t), set("sensor.reading_tick", now)};
+    const std::vector<Command> commands{set("sensor.reading", 20 + 0.1 * t), set("sensor.reading_tick", begin + t)};
     return command<Batch>({commands});
   });
 }
@@ -179,10 +198,7 @@ Result<void> time_case(const SolverBench& bench, const Case& one, BenchTable& ta
   auto rivals = rivals_of(one.scene, one.threads);
   if (!rivals) return rivals.error();
   rivals->session->tick(), rivals->everything->tick();  // the first one finds all volumes without a weight
-  Times negotiation;
-  for (int t = 0; t < kNegotiation && bench.goes_on(what + ", negotiating"); ++t)
-    if (auto done = tick_both(*rivals, nullptr, one.threads, negotiation); !done) return done;
-  add_row(table, "all negotiate", one.fill, one.count, one.threads, negotiation, *rivals->session->state());
+  if (auto done = time_frames(bench, *rivals, one, "all negotiate", table, nothing, kNegotiation); !done) return done;
   settle(bench, *rivals, bench.options.is_quick ? 5 : kMostTicksToRest, what);
   const bool is_at_rest = rivals->session->state()->due.is_nothing();
   if (auto done = time_frames(bench, *rivals, one, is_at_rest ? "at rest" : "settling", table, nothing); !done) return done;
