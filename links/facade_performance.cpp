@@ -1,6 +1,5 @@
 // Asks a façade for more or less glass, by a curve over a number such as its hours of sun.
-#include <algorithm>
-
+#include "core/define/curve.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -45,18 +44,9 @@ struct FacadePerformance {
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
-    const Table& curve = in.curve;
-    if (curve.rows.empty()) return Error{ErrorCode::missing, "curve", "the curve needs at least one point"};
-    std::size_t next = 0;
-    for (std::size_t row = 1; row < curve.rows.size(); ++row)
-      if (!(curve.number(row, "value") > curve.number(row - 1, "value")))
-        return Error{ErrorCode::out_of_range, "curve/" + std::to_string(row) + "/value",
-                     "the values have to ascend: each larger than the one before"};
-    while (next < curve.rows.size() && curve.number(next, "value") <= ends.value) ++next;
-    if (next == 0) return Out{curve.number(0, "glazing")};
-    if (next == curve.rows.size()) return Out{curve.number(next - 1, "glazing")};
-    const double low = curve.number(next - 1, "value"), high = curve.number(next, "value"), share = (ends.value - low) / (high - low);
-    return Out{curve.number(next - 1, "glazing") * (1 - share) + curve.number(next, "glazing") * share};
+    const Curve curve{in.curve, "value", "glazing"};
+    if (auto sound = check_curve(curve, "curve"); !sound) return sound.error();
+    return Out{value_on(curve, ends.value)};
   }
 };
 

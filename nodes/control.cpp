@@ -40,21 +40,8 @@ struct Control {
     t.out(&Out::output, "output").shown_first().unit_from("unit").doc("The value inside the range, rounded to the nearest step.");
   }
 
-  static Result<void> check_unit(const std::string& symbol) {
-    const UnitInfo* found = find_unit(symbol);
-    if (found == nullptr) {
-      std::vector<std::string> known;
-      for (const UnitInfo& row : unit_table()) known.emplace_back(row.symbol);
-      return Error{ErrorCode::wrong_unit, "unit", "`" + symbol + "` is no unit that is known" + did_you_mean(symbol, known)};
-    }
-    if (found->scale == 1) return {};
-    const std::string base(info(found->unit).symbol);
-    return Error{ErrorCode::wrong_unit, "unit",
-                 "values are not kept in `" + symbol + "`: write `" + base + "`, and the numbers in it"};
-  }
-
   static Result<Out> evaluate(const In& in, const Tick&) {
-    if (auto unit = check_unit(in.unit); !unit) return unit.error();
+    if (const auto unit = stored_unit(in.unit); !unit) return unit.error().within("unit");
     if (in.is_switch) return Out{in.value >= 0.5 ? 1.0 : 0.0};
     const double range = in.maximum - in.minimum;
     if (!(range > 0))

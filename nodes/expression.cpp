@@ -89,15 +89,9 @@ struct Expression {
   }
 
   static Result<Dimension> dimension_of(const std::string& symbol, const std::string& port) {
-    std::vector<std::string> known;
-    for (const UnitInfo& row : unit_table()) known.emplace_back(row.symbol);
-    const UnitInfo* row = find_unit(symbol);
-    if (row == nullptr)
-      return Error{ErrorCode::wrong_unit, port, "`" + symbol + "` is no unit that is known" + did_you_mean(symbol, known)};
-    if (row->scale == 1) return row->dimension;
-    return Error{
-        ErrorCode::wrong_unit, port,
-        "values are not kept in `" + symbol + "`: write `" + std::string(info(row->unit).symbol) + "`, and the numbers in it"};
+    const auto unit = stored_unit(symbol);
+    if (!unit) return unit.error().within(port);
+    return (*unit)->dimension;
   }
 
   // The parser with its variables: the inputs, and the symbols of units as quantities of one unit each.

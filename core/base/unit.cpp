@@ -2,6 +2,7 @@
 #include "core/base/unit.h"
 
 #include <cassert>
+#include <vector>
 
 #include "core/base/text.h"
 
@@ -51,6 +52,19 @@ const UnitInfo* find_unit(std::string_view symbol) {
   for (const UnitInfo& row : kTable)
     if (row.symbol == symbol || (row.pretty == symbol && !symbol.empty())) return &row;
   return nullptr;
+}
+
+Result<const UnitInfo*> stored_unit(std::string_view symbol) {
+  const UnitInfo* found = find_unit(symbol);
+  const std::string text(symbol);
+  if (found == nullptr) {
+    std::vector<std::string> known;
+    for (const UnitInfo& row : kTable) known.emplace_back(row.symbol);
+    return Error{ErrorCode::wrong_unit, "", "`" + text + "` is no unit that is known" + did_you_mean(symbol, known)};
+  }
+  if (found->scale == 1) return found;
+  return Error{ErrorCode::wrong_unit, "",
+               "values are not kept in `" + text + "`: write `" + std::string(info(found->unit).symbol) + "`, and the numbers in it"};
 }
 
 bool same_dimension(Unit a, Unit b) { return info(a).dimension == info(b).dimension; }

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/result.h"
+
 namespace bl {
 
 /// Exponents of the base dimensions length, time, angle and money.
@@ -47,6 +49,8 @@ std::span<const UnitInfo> unit_table();
 const UnitInfo& info(Unit unit);
 /// The row with that symbol, or nothing.
 const UnitInfo* find_unit(std::string_view symbol);
+/// The same for the unit of a stored value: an error where the symbol is unknown, or that of a multiple, such as `ha`.
+Result<const UnitInfo*> stored_unit(std::string_view symbol);
 /// Do quantities in the two units add up? Ratio, count and none do with each other.
 bool same_dimension(Unit a, Unit b);
 /// "12 m", "0.4 ha", "850": a quantity as typed by people, in SI; nothing where it is none or of another dimension.
