@@ -1,11 +1,7 @@
 // Holds the sum of a statistic under a cap by limiting the demands of a whole set in one proportion.
-#include <algorithm>
-#include <numeric>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "core/base/text.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
@@ -75,27 +71,16 @@ struct SetCap {
     Out out;
     out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
-    const double answer = 1 + in.gain * (demand::answer_within(in.cap, ends.total, in.tolerance) - 1);
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};
-    std::vector<std::size_t> all(ends.ids.values.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const double share = std::max(in.least, share_granted(held, all) * answer);
-    for (std::size_t i = 0; i < out.limits.values.size(); ++i)
-      out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], share);
-    if (ends.total > in.cap) tell(in, ends.total, held, all, tick);
+    const demand::Cap cap{in.cap, ends.total, in.gain, in.tolerance, in.least};
+    out.limits.values = limits_under_cap(held, cap);
+    if (!(ends.total > in.cap)) return out;
+    const std::string found = "a sum of " + demand::found_of_allowed(ends.total, in.cap, 0);
+    const std::string failure = why_cap_fails(held, cap, "the cap cannot be met: " + found, "the cap");
+    remark(tick, failure.empty() ? LinkRemark::at_work : LinkRemark::unmet,
+           {ErrorCode::infeasible, "cap", failure.empty() ? found : failure});
     return out;
-  }
-
- private:
-  static void tell(const In& in, double total, const demand::LimitedVolumes& held, const std::vector<std::size_t>& all,
-                   const Tick& tick) {
-    const std::string found = "a sum of " + demand::found_of_allowed(total, in.cap, 0);
-    if (!is_exhausted(held, all, in.least)) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found});
-    remark(tick, LinkRemark::unmet,
-           {ErrorCode::infeasible, "cap",
-            "the cap cannot be met: " + found + ", " + held_by(held, all, in.least) + "; raise the cap," +
-                unlocking(held, all, in.least) + " or lower what is insisted on or `least`"});
   }
 };
 

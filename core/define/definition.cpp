@@ -13,6 +13,7 @@ std::string_view name_of(CombineRule rule) {
     case CombineRule::min: return "min";
     case CombineRule::max: return "max";
     case CombineRule::collect: return "collect";
+    case CombineRule::total: return "total";
   }
   return "none";
 }

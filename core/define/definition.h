@@ -49,8 +49,8 @@ struct Tick {
 };
 
 /// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of
-/// texts; the others choose a value.
-enum class CombineRule { none, sum, blend, min, max, collect };
+/// texts; `total` adds all proposals to what people have set, anew in each tick; the others choose a value.
+enum class CombineRule { none, sum, blend, min, max, collect, total };
 std::string_view name_of(CombineRule rule);
 
 /// Does each field of a column hold a list?

@@ -2,6 +2,7 @@
 #include "core/demand/demand_limit.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "core/base/text.h"
 
@@ -23,6 +24,12 @@ bool is_above_least(const LimitedVolumes& held, std::size_t i, double least) {
 // By a lock of people, which is more than what is insisted on.
 bool is_locked_up(const LimitedVolumes& held, std::size_t i, double least) {
   return held.locked[i] && is_above_least(held, i, least) && held.limits[i] > least * held.demands[i] * (1 + kGrantRounding);
+}
+
+std::vector<std::size_t> all_of(const LimitedVolumes& held) {
+  std::vector<std::size_t> all(held.ids.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 }  // namespace
@@ -76,6 +83,21 @@ std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& 
 std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least) {
   const bool is_any = std::any_of(which.begin(), which.end(), [&](std::size_t i) { return is_locked_up(held, i, least); });
   return is_any ? " unlock the limits," : "";
+}
+
+std::vector<std::optional<double>> limits_under_cap(const LimitedVolumes& held, const Cap& cap) {
+  const double answer = 1 + cap.gain * (answer_within(cap.most, cap.now, cap.tolerance) - 1);
+  const double share = std::max(cap.least, share_granted(held, all_of(held)) * answer);
+  std::vector<std::optional<double>> limits;
+  for (const double demand : held.demands) limits.push_back(limit_that_grants(demand, share));
+  return limits;
+}
+
+std::string why_cap_fails(const LimitedVolumes& held, const Cap& cap, const std::string& found, const std::string& raise) {
+  const std::vector<std::size_t> all = all_of(held);
+  if (!is_exhausted(held, all, cap.least)) return {};
+  return found + ", " + held_by(held, all, cap.least) + "; raise " + raise + "," + unlocking(held, all, cap.least) +
+         " or lower what is insisted on or `least`";
 }
 
 }  // namespace bl::demand

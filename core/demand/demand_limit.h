@@ -61,6 +61,18 @@ bool is_exhausted(const LimitedVolumes& held, const std::vector<std::size_t>& wh
 /// Names the volumes that keep a rule from being met: those of `which` that are held above the least share, with their volumes,
 /// largest first; or says that all are at that share, or that there are none.
 std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
+/// A cap on a sum that the volumes make up: what it is now, and how the volumes are held to it.
+struct Cap {
+  double most, now;
+  double gain;       ///< the share of the deviation that one tick answers
+  double tolerance;  ///< the dead band, as a share of `most`
+  double least;      ///< the share of a demand that the cap does not take away
+};
+/// The limits that bring the sum under the cap: all demands in one proportion.
+std::vector<std::optional<double>> limits_under_cap(const LimitedVolumes& held, const Cap& cap);
+/// Why limits cannot bring the sum under the cap, and what helps; empty while they can. `found` is the sum and the cap in words,
+/// `raise` what people may raise.
+std::string why_cap_fails(const LimitedVolumes& held, const Cap& cap, const std::string& found, const std::string& raise);
 /// " unlock the limits," where a lock keeps one of `which` above the least share: a part of the advice.
 std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
 

@@ -35,7 +35,7 @@ void resolve_sum(const PortDefinition& port, bool is_locked, const RestLimits& r
   tension = std::max(0.0, loudness - move);
 }
 
-// Wanted values: a weighted mean in which the set value is one voice, or the smallest or largest of all.
+// Wanted values: a weighted mean in which the set value is one voice, the smallest or largest of all, or their sum.
 double combined(const PortDefinition& port, const Value& set, bool is_set, Voices proposals) {
   const double base = as_number(set);
   if (port.rule == CombineRule::blend) {
@@ -47,6 +47,10 @@ double combined(const PortDefinition& port, const Value& set, bool is_set, Voice
     return weight > 0 ? sum / weight : base;
   }
   double result = base;
+  if (port.rule == CombineRule::total) {
+    for (const Voice* h : proposals) result += h->strength * as_number(h->value);
+    return result;
+  }
   for (const Voice* h : proposals)
     if (h->strength > 0) {
       const double wanted = as_number(h->value);
@@ -87,10 +91,15 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
     return;
   }
   const double old = as_number(before);
-  double wanted = combined(port, type.set_values[p], is_set, proposals);
-  wanted = std::clamp(wanted, old - port.step_limit, old + port.step_limit);
+  const double asked = combined(port, type.set_values[p], is_set, proposals);
+  const double wanted = std::clamp(asked, old - port.step_limit, old + port.step_limit);
   value = type.is_locked[p] ? type.set_values[p] : Value(clamped(port, wanted));
   if (rest.is_on && !type.is_locked[p] && !proposals.empty() && relative_change(before, value) <= rest.held_back) value = before;
+  // Amounts that are added up do not contradict each other.
+  if (port.rule == CombineRule::total) {
+    tension += std::abs(asked - as_number(value));
+    return;
+  }
   for (const Voice* h : proposals) tension += h->strength * std::abs(as_number(h->value) - as_number(value));
   if (is_set && port.rule == CombineRule::blend) tension += std::abs(as_number(type.set_values[p]) - as_number(value));
 }

@@ -64,7 +64,8 @@ std::string voice_text(const State& state, const Voice& voice) {
   }
   if (port.rule != CombineRule::sum) {
     if (std::holds_alternative<Vector3>(voice.value)) return "wants another place" + loudness;
-    return "wants " + quantity(as_number(voice.value), port.unit) + loudness;
+    const std::string verb = port.rule == CombineRule::total ? "adds " : "wants ";
+    return verb + quantity(as_number(voice.value), port.unit) + loudness;
   }
   const auto* move = std::get_if<Vector3>(&voice.value);
   if (move == nullptr) return "pulls by " + quantity(as_number(voice.value), port.unit) + loudness;

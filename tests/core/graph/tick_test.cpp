@@ -12,7 +12,7 @@ namespace {
 // A thing with one port for each rule.
 struct Toy {
   struct In {
-    double blended = 10, smallest = 100, largest = 0;
+    double blended = 10, smallest = 100, largest = 0, total = 5;
     std::vector<std::string> friends;
   };
   struct Out {
@@ -24,6 +24,7 @@ struct Toy {
     t.in(&In::smallest, "smallest").combine(CombineRule::min).doc("Minimum.");
     t.in(&In::largest, "largest").combine(CombineRule::max).step_limit(3).doc("Maximum, 3 a tick.");
     t.in(&In::friends, "friends").collect().doc("Names.");
+    t.in(&In::total, "total").combine(CombineRule::total).range(-1000, 1000).doc("Total.");
     t.out(&Out::doubled, "doubled").doc("Twice the blended.");
   }
   static Result<Out> evaluate(const In& in, const Tick&) {
@@ -99,6 +100,24 @@ struct Push {
   static Result<Out> evaluate(const In& in, const Ends&, const Tick&) { return Out{in.move}; }
 };
 
+struct Pay {
+  struct In {
+    double amount = 0;
+  };
+  struct Ends {
+    std::string id;
+  };
+  struct Out {
+    double total = 0;
+  };
+  static void declare(LinkBuilder<Pay>& l) {
+    l.id("pay").label("Pay").doc("Pays.");
+    l.param(&In::amount, "amount").doc("The amount.");
+    l.reads(&Ends::id, End::from, "node.id").proposes(&Out::total, End::to, "toy.total");
+  }
+  static Result<Out> evaluate(const In& in, const Ends&, const Tick&) { return Out{in.amount}; }
+};
+
 const Registry& toys() {
   static const Registry kRegistry = [] {
     Registry registry;
@@ -107,6 +126,7 @@ const Registry& toys() {
     registry.add(LinkBuilder<Want>::build());
     registry.add(LinkBuilder<Push>::build());
     registry.add(LinkBuilder<Befriend>::build());
+    registry.add(LinkBuilder<Pay>::build());
     return registry;
   }();
   return kRegistry;
@@ -150,6 +170,30 @@ TEST_F(TickTest, ADefaultIsNoVoice) {
   start().step();
   EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 40);
   EXPECT_DOUBLE_EQ(tension("b", 1, 0), 0);
+}
+
+// All pairs and all links, each with its strength, beside what people have set; the default counts too. Anew in each tick.
+TEST_F(TickTest, TotalAddsUpAllAmountsAnewInEachTick) {
+  node("a");
+  node("b");
+  node("c", {{"total", 100.0}});
+  link("l1", "pay", "a", "c", {{"amount", 7.0}});
+  scene_.links["l1"].from.ids = {"a", "b"};
+  link("l2", "pay", "a", "c", {{"amount", 30.0}}, 0.5);
+  link("l3", "pay", "a", "b", {{"amount", -1.0}});
+  start().step();
+  simulation_.step();
+  EXPECT_DOUBLE_EQ(number("c", "toy.total"), 100 + 2 * 7 + 0.5 * 30);
+  EXPECT_DOUBLE_EQ(number("b", "toy.total"), 5 - 1);
+  EXPECT_EQ(tension("c", 1, 4), 0) << "amounts that are added up do not contradict each other";
+  scene_.links["l2"].parameters["amount"] = 2000.0;
+  scene_.nodes["b"].locked.insert("toy.total");
+  simulation_.set_scene(scene_);
+  simulation_.step();
+  EXPECT_DOUBLE_EQ(number("c", "toy.total"), 1000) << "within its range";
+  EXPECT_DOUBLE_EQ(tension("c", 1, 4), 114);
+  EXPECT_DOUBLE_EQ(number("b", "toy.total"), 5);
+  EXPECT_DOUBLE_EQ(tension("b", 1, 4), 1) << "what the lock keeps out";
 }
 
 using Names = std::vector<std::string>;
