@@ -104,19 +104,24 @@ Command put(const std::string& node, const std::string& port, const Json& value)
   return command<SetPort>({node, {port}, JsonValue::of(value)});
 }
 
-Command moved(const Going& run, const std::string& node, const Vector3& by) {
+Command placed(const std::string& node, const Point3& at) { return put(node, "node.position", Json::array({at.x, at.y, at.z})); }
+
+Point3 place_of(const Going& run, const std::string& node) {
   const State& state = *run.state();
   const std::uint32_t at = state.plan->node_index(node);
-  const Point3 from = at < state.plan->nodes.size() ? std::get<Vector3>(state.value(*state.plan->find(at, {"node", "position", ""})))
-                                                    : Point3{20, 20, 20};
-  return put(node, "node.position", Json::array({from.x + by.x, from.y + by.y, from.z + by.z}));
+  if (at == state.plan->nodes.size()) return {20, 20, 20};  // it has not run yet
+  return std::get<Vector3>(state.value(*state.plan->find(at, {"node", "position", ""})));
 }
+
+Command moved(const Going& run, const std::string& node, const Vector3& by) { return placed(node, place_of(run, node) + by); }
 
 // What changes one volume, most often a little.
 void change_volume(Going& run, Random& random) {
   const std::string node = some_volume(run.scene(), random);
   static constexpr const char* kRules[] = {"stack", "bridge", "ground"};
-  switch (random.below(9)) {
+  switch (random.below(11)) {
+    case 9: return run.say(placed(node, place_of(run, some_volume(run.scene(), random))));  // on one point
+    case 10: return run.say(moved(run, node, {random.below(2) == 0 ? 1e4 : -1e4, 0, 0}));   // out of reach
     case 0: return run.say(put(node, "smart_volume.demand", random.uniform(0, 1) < 0.2 ? 0.0 : random.uniform(100, 900)));
     case 1: return run.say(put(node, "smart_volume.storey_height", random.uniform(2, 6)));
     case 2: return run.say(put(node, "smart_volume.standing", kRules[random.below(3)]));
@@ -130,12 +135,13 @@ void change_volume(Going& run, Random& random) {
 // What changes who is a member, or what the solvers are asked for.
 void change_plan(Going& run, Random& random, int number) {
   const std::string node = some_volume(run.scene(), random), fresh = "v" + std::to_string(900 + number);
-  switch (random.below(12)) {
+  const Command arrival = command<AddNode>({fresh,
+                                            {R"({"position": [)" + std::to_string(random.below(50)) +
+                                             R"(, 20, 9], "tags": ["crowd"], "types": {"smart_volume": {"demand": 400}}})"}});
+  switch (random.below(13)) {
     case 0: return run.say(command<RemoveNode>({node}));
-    case 1:
-      return run.say(command<AddNode>({fresh,
-                                       {R"({"position": [)" + std::to_string(random.below(50)) +
-                                        R"(, 20, 9], "tags": ["crowd"], "types": {"smart_volume": {"demand": 400}}})"}}));
+    case 1: return run.say(arrival);
+    case 12: return run.say(command<Batch>({std::vector{command<RemoveNode>({node}), arrival}}));  // as many as before
     case 2: return run.say(command<Untypify>({node, "smart_volume"}));
     case 3: return run.say(put(node, "node.tags", Json::array({random.below(2) == 0 ? "crowd" : "few"})));
     case 4: return run.say(put("near", "boundary.height", random.below(3) == 0 ? 0.0 : random.uniform(20, 45)));
