@@ -195,7 +195,6 @@ struct SmartVolumesSolver {
     std::vector<std::string> names;
     Volumes volumes;                                // of the members as they were read
     std::vector<double> volume, floor_area, error;  // of each member, as they came out
-    bool is_known = false;                          // do these belong to the last run?
   };
 
   static geometry::Standing rule_of(const std::string& standing) {
@@ -329,13 +328,12 @@ struct SmartVolumesSolver {
     Kept own;
     Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
     const std::vector<std::string>& names = kept.names;
-    if (sets.members.is_anew || names.size() != members.size()) {
+    // So it is, too, after an evaluation that has failed, and after a recall.
+    const bool is_anew = sets.members.is_anew || names.size() != members.size();
+    if (is_anew) {
       kept.names.clear();
       for (const Member& member : members) kept.names.push_back(member.id);
     }
-    // Nobody tells what a recall has changed for the evaluation after it.
-    const bool is_anew = sets.members.is_anew || tick.is_recall || !kept.is_known || kept.error.size() != members.size();
-    kept.is_known = false;
     take_members(in, sets.members, is_anew, kept.volumes);
     const Volumes& volumes = kept.volumes;
     std::vector<geometry::PowerSite> sites = volumes.sites;
@@ -356,7 +354,6 @@ struct SmartVolumesSolver {
                    std::back_inserter(answered));
     take_outcome(*done, members, answered, is_anew, kept);
     add_up(kept, members, out);
-    kept.is_known = !tick.is_recall;
     out.replies.replies.reserve(answered.size());
     for (const std::uint32_t i : answered)
       out.replies.replies.push_back(reply_of(i, volumes.wanted[i], sites[i].weight, *done, members, names));

@@ -308,8 +308,12 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
     });
     if (!has_mesh || error_of(*state.plan, group) != nullptr) continue;
     SetCase one = gathered(before, group);
+    SetMemo& memo = memo_of(memos, *state.plan, group);
+    // What the evaluation keeps belongs to this state from now on, and nobody has been answered from it: whatever state the next
+    // tick goes out from, all are to be.
+    memo.sets = {};
     // A failure here is that of the next tick, which says so.
-    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo_of(memos, *state.plan, group).own, .is_recall = true};
+    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo.own, .is_recall = true};
     if (!definition.evaluate(one.values, one.sets, recall).ok()) continue;
     for (std::size_t s = 0; s < one.sets.size(); ++s)
       for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)

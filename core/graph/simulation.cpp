@@ -122,6 +122,8 @@ bool Simulation::step() {
   if (measured_ != nullptr) measured_->begin_tick(state_->plan);
   State everything_due;
   if (evaluates_everything_) {
+    // Also what evaluations keep of their own, or both ways would follow the same mistake.
+    memos_.clear();
     everything_due = *state_;
     everything_due.due.is_everything = true;
   }

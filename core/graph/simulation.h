@@ -41,7 +41,8 @@ class Simulation {
   /// tick has computed yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands.
   /// Where there are none, it is the state itself. No tick continues from it.
   std::shared_ptr<const State> shown(std::shared_ptr<const State> state);
-  /// Evaluates everything in each tick, whether it has changed or not. The result is the same; tests compare the two.
+  /// Evaluates everything in each tick, whether it has changed or not, with nothing kept from tick to tick. The result is the
+  /// same; tests compare the two.
   void evaluate_everything(bool is_on) { evaluates_everything_ = is_on; }
   /// Adds the times of the ticks to `times`, which must live until another one is named, or none. It cannot influence the result.
   void measure(TickTimes* times) { measured_ = times; }
