@@ -56,6 +56,8 @@ TEST_F(InputQueueTest, APressIsWhereItWasMade) {
   queue.button(0, false);
   queue.move({200, 10});
   frame();
+  EXPECT_FALSE(io.MouseDown[0]) << "no frame has seen the mouse there yet";
+  frame();
   EXPECT_EQ(io.MousePos.x, 10);
   EXPECT_TRUE(io.MouseDown[0]);
   frame();
@@ -64,6 +66,29 @@ TEST_F(InputQueueTest, APressIsWhereItWasMade) {
   frame();
   EXPECT_EQ(io.MousePos.x, 200);
   EXPECT_TRUE(queue.is_empty());
+}
+
+// As a touch screen says it, and a quick hand: there and pressed at once. Dear ImGui gives a press to no tab that the mouse was
+// not seen on, if it was on another one before.
+TEST_F(InputQueueTest, APressWaitsUntilTheMouseWasSeenThere) {
+  queue.move({10, 10});
+  frame();
+  queue.move({50, 10});
+  queue.button(0, true);
+  queue.button(0, false);
+  frame();
+  EXPECT_EQ(io.MousePos.x, 50);
+  EXPECT_FALSE(io.MouseDown[0]);
+  frame();
+  EXPECT_TRUE(io.MouseDown[0]);
+  frame();
+  EXPECT_FALSE(io.MouseDown[0]);
+  EXPECT_TRUE(queue.is_empty());
+  // A mouse that stands still, whatever the system says of it, keeps no press waiting.
+  queue.move({50, 10});
+  queue.button(0, true);
+  frame();
+  EXPECT_TRUE(io.MouseDown[0]);
 }
 
 TEST_F(InputQueueTest, LettersAfterAKeyWaitForTheFieldThatItOpens) {

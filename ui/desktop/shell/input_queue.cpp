@@ -63,7 +63,8 @@ bool InputQueue::waits(const Event& event, const Frame& frame, bool is_typing) c
   const bool has_mouse = frame.has_button || frame.has_wheel;
   switch (event.kind) {
     case Kind::move: return has_mouse || frame.has_press;
-    case Kind::button: return has_mouse || frame.has_press || frame.has_text;
+    // A tab takes a press only where the frame before has seen the mouse on it, or on nothing.
+    case Kind::button: return has_mouse || frame.has_press || frame.has_text || (event.is_down && frame.has_move);
     case Kind::wheel: return has_mouse || frame.has_press || frame.has_text;
     case Kind::text: return has_mouse || (is_typing && frame.has_order) || (!is_typing && frames_since_press_ < kOpeningFrames);
     case Kind::key: break;
@@ -76,7 +77,10 @@ bool InputQueue::waits(const Event& event, const Frame& frame, bool is_typing) c
 
 void InputQueue::apply(const Event& event, Frame& frame, ImGuiIO& io) {
   switch (event.kind) {
-    case Kind::move: mouse_ = event.at; break;
+    case Kind::move:
+      frame.has_move = frame.has_move || event.at.x != mouse_.x || event.at.y != mouse_.y;
+      mouse_ = event.at;
+      break;
     case Kind::button:
       if (!event.is_down && dropped_buttons_.erase(event.code) != 0) break;
       if (event.code >= 0 && event.code < IM_ARRAYSIZE(buttons_)) buttons_[event.code] = event.is_down;

@@ -41,6 +41,7 @@ class InputQueue {
   /// What the frame that is being made has got so far.
   struct Frame {
     bool has_press = false, has_plain_press = false, has_text = false, has_button = false, has_wheel = false;
+    bool has_move = false;   ///< the mouse is where no frame has seen it yet
     bool has_order = false;  ///< a key, while people type, that is no part of a text: Enter, Backspace, a chord
   };
   void add(Kind kind, int code, bool is_down, ImVec2 at) { events_.push_back({kind, code, is_down, at, clock_, frame_}); }
