@@ -86,7 +86,7 @@ void draw_standing(Workbench& editor) {
     text = "negotiating: worst error " + fixed(100 * state.largest_residual, 2) + " %, moves up to " +
            distance_text(state.largest_move) + " a tick";
   } else {
-    text = "press P to run the links and the solver";
+    text = moment.is_playing ? "the first tick is under way" : "press P to run the links and the solver";
   }
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());

@@ -116,7 +116,8 @@ void SceneView::draw_card() {
     card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
              volume.asked > 0 ? reading::signed_percent(standing_share) : "asks for nothing");
     card.row(c.text_soft, c.text, "Floor area", reading::quantity(volume.floor_area, Unit::square_metre));
-    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, "Nothing has run yet: press P to run.", 1);
+    const char* start = editor_->moment->is_playing ? "The first tick is under way." : "Nothing has run yet: press P to run.";
+    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, start, 1);
     else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
       card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);
     if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
