@@ -19,6 +19,9 @@ constexpr double kChangeSeconds = 0.28;
 // Nothing has moved for so long: there is time for a finer picture.
 constexpr double kStillSeconds = 0.3;
 
+// How many shapes of volumes one picture makes: some thirty milliseconds of work. Where more change, they come in turn.
+constexpr std::size_t kMostShapes = 1000;
+
 // How often pictures that are on their way are looked for.
 constexpr double kPictureSeconds = 0.05;
 
@@ -133,8 +136,9 @@ void SceneView::follow_document() {
 }
 
 void SceneView::follow_state() {
-  const bool is_another = !all_facts_ || all_facts_->state != editor_->moment->state;
-  if (is_another) all_facts_ = read_facts(editor_->moment->state, all_facts_.get());
+  const bool is_another = !all_facts_ || all_facts_->state != editor_->moment->state || !all_facts_->awaited.empty();
+  if (is_another) all_facts_ = read_facts(editor_->moment->state, all_facts_.get(), kMostShapes);
+  if (!all_facts_->awaited.empty()) editor_->go_on();
   if (const auto& hidden = hidden_.of(*editor_); is_another || hidden != left_out_) {
     left_out_ = hidden;
     facts_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);

@@ -44,7 +44,23 @@ std::shared_ptr<const Mesh> coarse_of(const MeshPointer& mesh) try { return mesh
   return nullptr;
 }
 
-VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account) {
+// Of the shapes that nobody has made, those of the next volumes in turn are made, at most so many; the others are awaited. Each
+// has its turn, also where all of them change in every tick.
+void choose_shapes(const std::vector<reading::VolumeAccount>& accounts, const SceneFacts* last, std::size_t most,
+                   SceneFacts& facts) {
+  std::vector<std::uint32_t>& waiting = facts.awaited;
+  for (const reading::VolumeAccount& account : accounts)
+    if (const MeshPointer& mesh = account.figures.mesh; mesh && !mesh.is_coarse_made()) waiting.push_back(account.node);
+  facts.next_shape = last != nullptr ? last->next_shape : 0;
+  if (waiting.size() <= most) return waiting.clear();
+  std::rotate(waiting.begin(), std::lower_bound(waiting.begin(), waiting.end(), facts.next_shape), waiting.end());
+  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(most));
+  facts.next_shape = waiting.front();
+  std::sort(waiting.begin(), waiting.end());
+}
+
+// `before`: the volume in the picture before, if it was there.
+VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account, const VolumeFacts* before, bool is_awaited) {
   const std::uint32_t node = account.node;
   VolumeFacts facts;
   static_cast<reading::Account&>(facts) = account;
@@ -53,7 +69,9 @@ VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account) {
   facts.name = state.plan->nodes[node].name;
   facts.figures = std::move(account.figures);
   read_facade(state, node, facts);
-  facts.cell = coarse_of(facts.figures.mesh);
+  const bool has_last = before != nullptr && before->cell && !before->is_ball && before->id == facts.id;
+  if (!is_awaited) facts.cell = coarse_of(facts.figures.mesh);
+  else if (has_last) facts.cell = before->cell;
   const bool is_usable =
       facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
@@ -239,13 +257,16 @@ void read_uses(SceneFacts& facts) {
   facts.uses.assign(uses.begin(), uses.end());
 }
 
-void read_all_nodes(const State& state, const SceneFacts* last, SceneFacts& facts) {
+void read_all_nodes(const State& state, const SceneFacts* last, std::size_t most_shapes, SceneFacts& facts) {
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     facts.places.push_back(reading::read<&reading::NodePlace::position>(state, n));
   std::vector<VolumeFacts> volumes;
-  for (reading::VolumeAccount& account : reading::accounts_of(state).volumes) {
-    VolumeFacts& volume = volumes.emplace_back(read_volume(state, std::move(account)));
-    keep_ball(volume, last != nullptr ? last->volume_of(volume.node) : nullptr);
+  reading::Accounts accounts = reading::accounts_of(state);
+  choose_shapes(accounts.volumes, last, most_shapes, facts);
+  for (reading::VolumeAccount& account : accounts.volumes) {
+    const VolumeFacts* before = last != nullptr ? last->volume_of(account.node) : nullptr;
+    const bool is_awaited = std::binary_search(facts.awaited.begin(), facts.awaited.end(), account.node);
+    keep_ball(volumes.emplace_back(read_volume(state, std::move(account), before, is_awaited)), before);
   }
   make_columns(facts, volumes);
   facts.volumes = published(VolumeList::Draft(std::move(volumes)));
@@ -256,9 +277,11 @@ void read_all_nodes(const State& state, const SceneFacts* last, SceneFacts& fact
   read_links(*state.plan, facts);
 }
 
-// Of nodes that have changed alone; who is a volume and who is a mark is as before.
-void read_changed_nodes(const State& state, const SceneFacts& last, const std::vector<std::uint32_t>& changed,
-                        SceneFacts& facts) {
+// Of nodes that have changed alone, and of volumes that await their shapes; who is a volume and who is a mark is as before.
+void read_changed_nodes(const State& state, const SceneFacts& last, const std::vector<std::uint32_t>& moved,
+                        std::size_t most_shapes, SceneFacts& facts) {
+  std::vector<std::uint32_t> changed;
+  std::set_union(moved.begin(), moved.end(), last.awaited.begin(), last.awaited.end(), std::back_inserter(changed));
   facts.places = last.places;
   facts.marks = last.marks;
   facts.links = last.links;
@@ -274,9 +297,12 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
   VolumeList::Draft draft(last.volumes);
   bool has_other_use = false;
   std::vector<std::size_t> rows;
-  for (reading::VolumeAccount& account : reading::accounts_of_volumes(state, changed, *facts.targets, facts.brief)) {
-    VolumeFacts volume = read_volume(state, std::move(account));
-    const VolumeFacts* before = last.volume_of(volume.node);
+  std::vector<reading::VolumeAccount> accounts = reading::accounts_of_volumes(state, changed, *facts.targets, facts.brief);
+  choose_shapes(accounts, &last, most_shapes, facts);
+  for (reading::VolumeAccount& account : accounts) {
+    const VolumeFacts* before = last.volume_of(account.node);
+    const bool is_awaited = std::binary_search(facts.awaited.begin(), facts.awaited.end(), account.node);
+    VolumeFacts volume = read_volume(state, std::move(account), before, is_awaited);
     const auto row = last.row_of(volume.node);
     keep_ball(volume, before);
     has_other_use |= before->figures.use != volume.figures.use;
@@ -291,7 +317,8 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
 
 }  // namespace
 
-std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given, const SceneFacts* last) {
+std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given, const SceneFacts* last,
+                                             std::size_t most_shapes) {
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
   facts->tolerance = reading::account_tolerance(state);
@@ -299,8 +326,9 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   const auto changed = last != nullptr ? reading::changed_nodes(*last->state, state) : std::nullopt;
   facts->targets = changed ? last->targets : std::make_shared<const reading::BriefTargets>(reading::brief_targets(*state.plan));
   // Whether a volume is asked for floor area depends on which uses briefs name.
-  if (changed && reading::has_same_uses(last->brief, facts->brief)) read_changed_nodes(state, *last, *changed, *facts);
-  else read_all_nodes(state, last, *facts);
+  if (changed && reading::has_same_uses(last->brief, facts->brief))
+    read_changed_nodes(state, *last, *changed, most_shapes, *facts);
+  else read_all_nodes(state, last, most_shapes, *facts);
   for (auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state))
     read_boundary(state, node, std::move(boundary.shape), last, *facts);
   for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) read_media(state, node, media, *facts);

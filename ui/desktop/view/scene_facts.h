@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -75,6 +76,10 @@ struct SceneFacts {
   VolumeList volumes;
   SightBalls balls;       ///< as volumes
   VolumeColumns columns;  ///< as volumes
+  /// Volumes whose shape this picture did without, ascending: they show the one before, or a ball. Whoever draws reads on until
+  /// there are none.
+  std::vector<std::uint32_t> awaited;
+  std::uint32_t next_shape = 0;  ///< the node whose shape is made first then
   double tolerance = 0;   ///< share of what was asked for below which nobody is short
   std::shared_ptr<const reading::BriefTargets> targets;  ///< of the plan, and what programmes ask for: what accounts go by
   reading::Brief brief;
@@ -99,8 +104,12 @@ struct SceneFacts {
 /// Volumes that share a face, the lower node first.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_of(const SceneFacts& facts);
 
-/// `last`: facts of an earlier state, of which what has not changed is taken over; may be null.
-std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state, const SceneFacts* last);
+inline constexpr std::size_t kAllShapes = std::numeric_limits<std::size_t>::max();
+/// `last`: facts of an earlier state, or of this one, of which what has not changed is taken over; may be null. At most
+/// `most_shapes` are made that nobody has looked at yet: where thousands of volumes move, making all of them for each picture
+/// would take seconds.
+std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state, const SceneFacts* last,
+                                             std::size_t most_shapes = kAllShapes);
 
 /// The same without some nodes: their volumes, marks, boundaries, and whatever is drawn of their links.
 std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden);
