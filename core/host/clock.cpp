@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
+#include <cmath>
+#include <ctime>
 
 namespace bl::host {
 
@@ -13,8 +14,8 @@ using Seconds = std::chrono::duration<double>;
 
 // In one wait no longer than this, so that any number of seconds is a time that the system knows [s].
 constexpr double kLongestWait = 3600;
-// Whoever ends a wait is heard within this time [s].
-constexpr double kSlice = 0.05;
+// Whoever ends a wait without a signal is heard within this time [s].
+constexpr double kSlice = 0.5;
 
 class RealClock final : public Clock {
  public:
@@ -22,7 +23,12 @@ class RealClock final : public Clock {
   void wait(std::condition_variable& wake, std::unique_lock<std::mutex>& lock, double until) override {
     wake.wait_for(lock, Seconds(std::clamp(until - now(), 0.0, kLongestWait)));
   }
-  void sleep(double seconds) override { std::this_thread::sleep_for(Seconds(seconds)); }
+  // As the system sleeps, not as the library does, which sleeps on after a signal.
+  void sleep(double seconds) override {
+    const double most = std::clamp(seconds, 0.0, kLongestWait), whole = std::floor(most);
+    const struct timespec time { static_cast<std::time_t>(whole), static_cast<long>(1e9 * (most - whole)) };
+    (void)::nanosleep(&time, nullptr);
+  }
 };
 
 }  // namespace
@@ -32,9 +38,19 @@ Clock& real_clock() {
   return clock;
 }
 
-void Pace::wait(double seconds, const std::function<bool()>& is_over) {
-  due_ = std::max(clock_->now(), due_ + seconds);
-  while (!is_over() && clock_->now() < due_) clock_->sleep(std::min(due_ - clock_->now(), kSlice));
+std::int64_t Pace::wait(double seconds, const std::function<bool()>& is_over, std::int64_t times) {
+  const double begin = std::max(clock_->now() - seconds, due_);
+  due_ = begin + static_cast<double>(times) * seconds;
+  while (clock_->now() < due_) {
+    if (!is_over()) {
+      clock_->sleep(std::min(due_ - clock_->now(), kSlice));
+      continue;
+    }
+    const auto gone = static_cast<std::int64_t>((clock_->now() - begin) / seconds);
+    due_ = begin + static_cast<double>(gone) * seconds;
+    return gone;
+  }
+  return times;
 }
 
 }  // namespace bl::host

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 
@@ -14,6 +15,7 @@ class Clock {
   virtual double now() const = 0;
   /// Waits until this time, or until it is woken; it may also wake early without a reason.
   virtual void wait(std::condition_variable& wake, std::unique_lock<std::mutex>& lock, double until) = 0;
+  /// May end early, as at a signal.
   virtual void sleep(double seconds) = 0;
 };
 
@@ -25,8 +27,8 @@ class Pace {
  public:
   explicit Pace(Clock& clock) : clock_(&clock), due_(clock.now()) {}
   /// Waits until this number of seconds after the last call, or until the given condition, which is checked now and then, ends
-  /// the wait.
-  void wait(double seconds, const std::function<bool()>& is_over);
+  /// the wait. With `times`, so many such waits in one. Returns how many of them went by.
+  std::int64_t wait(double seconds, const std::function<bool()>& is_over, std::int64_t times = 1);
 
  private:
   Clock* clock_;

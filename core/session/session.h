@@ -39,6 +39,9 @@ class Session {
   /// One tick with the commands since the last one. False where the work was stopped (core/base/stop): the state is then the one
   /// before, and the commands wait for the next tick.
   bool tick();
+  /// As Simulation's: would the next ticks only count on, and so many of them at once. Only while no states are to be kept.
+  bool is_idle() const { return simulation_.is_idle() && !ledger_.changes().is_logic_changed; }
+  void pass(std::int64_t ticks) { simulation_.pass(ticks); }
 
   /// For gestures in progress (`open_gestures.h`).
   Ledger& ledger() { return ledger_; }

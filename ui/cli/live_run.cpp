@@ -2,6 +2,7 @@
 #include "ui/cli/live_run.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
@@ -88,9 +89,18 @@ void LiveRun::tell() {
   }
 }
 
-void LiveRun::wait(const Session& session) {
-  if (!is_live_) return;
-  pace_.wait(rate_ > 0 ? 1 / rate_ : host::tick_length(session.scene(), full_registry()), is_interrupted);
+std::int64_t LiveRun::wait_for_ticks(const Session& session, std::int64_t ticks) {
+  if (!is_live_) return 0;
+  return pace_.wait(rate_ > 0 ? 1 / rate_ : host::tick_length(session.scene(), full_registry()), is_interrupted, ticks);
+}
+
+std::int64_t LiveRun::rest(Session& session, std::int64_t most) {
+  if (!can_rest(session)) return 0;
+  if (!std::exchange(has_told_rest_, true))
+    print_line("at rest since tick " + std::to_string(session.state()->tick) + "; the clock counts on");
+  const std::int64_t passed = wait_for_ticks(session, most);
+  session.pass(passed);
+  return passed;
 }
 
 void LiveRun::sum_up(const State& state) const {

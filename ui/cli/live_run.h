@@ -1,6 +1,7 @@
 // Sensors and actuators of a run: recordings are played, and with --live messages are received from and sent to the network.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -22,11 +23,17 @@ class LiveRun {
   /// Sends changed values, and reports changes of the connections.
   void after_tick(const Session& session);
   /// Live, waits until the next tick is due or the run is interrupted.
-  void wait(const Session& session);
+  void wait(const Session& session) { (void)wait_for_ticks(session, 1); }
+  /// Live, is nothing connected, and would the next ticks only count on?
+  bool can_rest(const Session& session) const { return is_live_ && devices_.is_empty() && session.is_idle(); }
+  /// Where it can rest: waits for so many ticks, or until the run is interrupted, and counts those that have passed, at once.
+  /// Returns how many.
+  std::int64_t rest(Session& session, std::int64_t most);
   /// Reports the counts of every connection, and the readings of the sensors at the end.
   void sum_up(const State& state) const;
 
  private:
+  std::int64_t wait_for_ticks(const Session& session, std::int64_t ticks);
   void tell();
   void tell_unusable(const Scene& scene);
   void tell_readings(const State& state);
@@ -40,6 +47,7 @@ class LiveRun {
   host::Clock* clock_;
   double told_readings_;  // [s] on the clock
   host::Pace pace_;
+  bool has_told_rest_ = false;
 };
 
 }  // namespace bl::cli

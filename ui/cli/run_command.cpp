@@ -99,6 +99,31 @@ class Run {
     history_.push_back(sample);
   }
 
+  void check(const State& state) {
+    if (state.tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state.tick, hex_digits(state.hash), false}));
+  }
+
+  // Ticks of a live run that only count on are slept through, at most so many. They leave what others leave: checks in the log,
+  // for which the sleep is short, and samples for the report. Returns how many there were.
+  long long rest(long long most, Progress& progress) {
+    long long rested = 0;
+    while (rested < most && !is_interrupted() && live_.can_rest(*session_)) {
+      progress.clear();
+      const std::shared_ptr<const State> before = session_->state();
+      const long long left = most - rested, to_check = kTicksPerCheck - before->tick % kTicksPerCheck;
+      const long long passed = live_.rest(*session_, log_.is_open() ? std::min(left, to_check) : left);
+      if (passed == 0) break;
+      before_ = before;
+      rested += passed;
+      for (long long tick = 0; tick < passed && !history_.empty(); ++tick) {
+        history_.push_back(history_.back());
+        ++history_.back().tick;
+      }
+      check(*session_->state());
+    }
+    return rested;
+  }
+
   // What an interrupt meets in mid-tick is dropped: the tick before it is the last one.
   void tick_until_done() {
     const StopScope scope(is_interrupted);
@@ -116,11 +141,12 @@ class Run {
       live_.after_tick(*session_);
       const std::shared_ptr<const State> state = session_->state();
       record(*state);
-      if (state->tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), false}));
+      check(*state);
       if (progress.is_due())
         progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) +
                       " %, largest move " + fixed(state->largest_move, 3) + " m");
       live_.wait(*session_);
+      done += rest(most - done - 1, progress);
       if (!is_settling) continue;
       if (state->is_settled() || watch.is_hopeless(*state)) return;
     }

@@ -60,5 +60,20 @@ TEST(Pace, ALateTickIsNotMadeUpFor) {
   EXPECT_NEAR(clock.now() - begin, 11, 1e-9) << "somebody has ended it";
 }
 
+TEST(Pace, ManyWaitsInOneAreCounted) {
+  test::HandClock clock;
+  const double begin = clock.now();
+  Pace pace(clock);
+  EXPECT_EQ(pace.wait(
+                0.5, [] { return false; }, 1000),
+            1000);
+  EXPECT_NEAR(clock.now() - begin, 500, 1e-6);
+  EXPECT_EQ(pace.wait(
+                0.5, [&] { return clock.now() >= begin + 510.2; }, 1'000'000'000'000'000'000),
+            20);
+  EXPECT_EQ(pace.wait(0.5, [] { return false; }), 1);
+  EXPECT_NEAR(clock.now() - begin, 510.5, 0.1) << "the next one is due where it would have been";
+}
+
 }  // namespace
 }  // namespace bl::host

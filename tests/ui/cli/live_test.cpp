@@ -1,7 +1,11 @@
 // Runs with sensors: recorded tables in any run, connections with --live only, and logs that replay without either.
 #include <gtest/gtest.h>
 
+#include "core/session/session.h"
+#include "tests/support/hand_clock.h"
+#include "tests/support/world.h"
 #include "tests/ui/cli/program.h"
+#include "ui/cli/live_run.h"
 
 namespace bl::test {
 namespace {
@@ -122,6 +126,45 @@ TEST(Live, UnusableAddressesOfSensorsAreNamed) {
     EXPECT_EQ(outcome->err.find("nodes/fine"), std::string::npos) << outcome->err;
     EXPECT_EQ(outcome->err.find("user:pw"), std::string::npos) << "passwords are not repeated";
   }
+}
+
+// Without readings, a scene at rest is not evaluated, nor even looked at, while its clock counts on.
+TEST(Live, ASceneAtRestIsSleptThrough) {
+  constexpr std::int64_t kLong = 1'000'000;
+  const Scene quarter = read_scene(project_file("scenes/start/quarter.json"), full_registry()).scene;
+  const auto session = Session::start(full_registry(), quarter, nullptr, 1);
+  ASSERT_TRUE(session.ok());
+  HandClock clock;
+  cli::LiveRun live("scene.json", true, 0, false, clock), still("scene.json", false, 0, false, clock);
+  EXPECT_EQ(live.rest(**session, kLong), 0) << "there is no tick yet";
+  for (int tick = 0; tick < 1500 && !(*session)->is_idle(); ++tick) (*session)->tick();
+  const std::shared_ptr<const State> rest = (*session)->state();
+  EXPECT_EQ(still.rest(**session, kLong), 0) << "other runs have no time";
+  const double begin = clock.now();
+  const std::size_t pairs = (*session)->counts().pairs;
+  EXPECT_EQ(live.rest(**session, kLong), kLong);
+  EXPECT_NEAR(clock.now() - begin, 0.05 * kLong, 0.1);
+  EXPECT_EQ((*session)->state()->tick, rest->tick + kLong);
+  EXPECT_EQ((*session)->counts().pairs, pairs);
+  ASSERT_TRUE((*session)->submit(command<SetSetting>({"tolerance", {"0.02"}}), {"p", AuthorKind::person}).ok());
+  EXPECT_EQ(live.rest(**session, kLong), 0) << "what is said is not slept through";
+}
+
+TEST(Live, ARestLeavesTheLogThatItsTicksWouldLeave) {
+  const Workplace place;
+  const std::string scene_file = (std::filesystem::path(BL_SOURCE_DIR) / "scenes/start/quarter.json").string(),
+                    run_it = "run '" + scene_file + "' --ticks 700";
+  const Outcome ticked = run(place, run_it + " --log ticked.log --report ticked");
+  const Outcome live = run(place, run_it + " --log live.log --report live --live --rate 1000");
+  EXPECT_EQ(live.code, 0) << live.err;
+  EXPECT_NE(live.out.find("at rest since tick "), std::string::npos) << live.out;
+  EXPECT_EQ(live.last_line(), ticked.last_line());
+  EXPECT_EQ(place.text("live.log"), place.text("ticked.log"));
+  EXPECT_EQ(place.text("live/report.html"), place.text("ticked/report.html"));
+  EXPECT_EQ(run(place, "replay live.log").code, 0);
+  // In one sleep, where nobody wants to know of the ticks between.
+  const Outcome alone = run(place, run_it + " --live --rate 1000");
+  EXPECT_EQ(alone.last_line(), ticked.last_line());
 }
 
 }  // namespace
