@@ -37,6 +37,10 @@ struct CardWriter {
   }
 };
 
+const char* start_text(bool is_playing) {
+  return is_playing ? "The first tick is under way." : "Nothing has run yet: press P to run.";
+}
+
 }  // namespace
 
 std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
@@ -116,8 +120,7 @@ void SceneView::draw_card() {
     card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
              volume.asked > 0 ? reading::signed_percent(standing_share) : "asks for nothing");
     card.row(c.text_soft, c.text, "Floor area", reading::quantity(volume.floor_area, Unit::square_metre));
-    const char* start = editor_->moment->is_playing ? "The first tick is under way." : "Nothing has run yet: press P to run.";
-    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, start, 1);
+    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, start_text(editor_->moment->is_playing), 1);
     else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
       card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);
     if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
