@@ -64,15 +64,13 @@ TEST(Pace, ManyWaitsInOneAreCounted) {
   test::HandClock clock;
   const double begin = clock.now();
   Pace pace(clock);
-  EXPECT_EQ(pace.wait(
-                0.5, [] { return false; }, 1000),
-            1000);
-  EXPECT_NEAR(clock.now() - begin, 500, 1e-6);
-  EXPECT_EQ(pace.wait(
-                0.5, [&] { return clock.now() >= begin + 510.2; }, 1'000'000'000'000'000'000),
-            20);
-  EXPECT_EQ(pace.wait(0.5, [] { return false; }), 1);
-  EXPECT_NEAR(clock.now() - begin, 510.5, 0.1) << "the next one is due where it would have been";
+  const auto never = [] { return false; };
+  EXPECT_EQ(pace.wait(2, never, 1000), 1000);
+  EXPECT_NEAR(clock.now() - begin, 2000, 1e-6);
+  const auto is_over = [&] { return clock.now() >= begin + 2051; };
+  EXPECT_EQ(pace.wait(2, is_over, 1'000'000'000'000'000'000), 25);
+  EXPECT_EQ(pace.wait(2, never), 1);
+  EXPECT_NEAR(clock.now() - begin, 2052, 1e-6) << "the next one is due where it would have been";
 }
 
 }  // namespace
