@@ -26,11 +26,16 @@ struct GoalPressure {
 
   static void declare(LinkBuilder<GoalPressure>& l) {
     l.family(LinkFamily::numbers);
-    l.id("goal_pressure").label("Goal pressure").doc(
-        "Changes a number in small steps until an indicator meets its goal, and then leaves it alone. It finds no best solution; "
-        "it pushes, as people do, and everything else in the scene answers. Where people have set the number too, the outcome "
-        "lies between their value and the goal.");
-    l.param(&In::target, "target").doc("The port that is changed, written `typification.port`.");
+    l.id("goal_pressure")
+        .label("Goal pressure")
+        .doc(
+            "Changes a number in small steps until an indicator meets its goal, and then leaves it alone. It finds no best "
+            "solution; "
+            "it pushes, as people do, and everything else in the scene answers. Where people have set the number too, the "
+            "outcome "
+            "lies between their value and the goal.");
+    l.param(&In::target, "target")
+        .doc("The port that is changed, written `typification.port`; not one that adds up amounts, as what is spent does.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(-1, 1)
@@ -56,15 +61,22 @@ struct GoalPressure {
                    "the highest value (" + shortest(in.highest) + ") has to lie above the lowest (" + shortest(in.lowest) + ")"};
     const double step = in.gain * ends.pressure * std::max(std::abs(ends.value), in.scale);
     const double wanted = ends.value + step, value = std::clamp(wanted, in.lowest, in.highest);
-    if (ends.pressure != 0) tell(in, ends, wanted, tick);
+    if (ends.pressure != 0) tell(in, ends, step, tick);
     return Out{value};
   }
 
  private:
-  static void tell(const In& in, const Ends& ends, double wanted, const Tick& tick) {
+  // A limit counts as the obstacle only where the link pushes towards it.
+  static void tell(const In& in, const Ends& ends, double step, const Tick& tick) {
     const std::string goal = "the goal of `" + ends.indicator + "` is not met";
-    if (wanted > in.lowest && wanted < in.highest) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "", goal});
-    const bool is_low = wanted <= in.lowest;
+    const double wanted = ends.value + step;
+    if (step == 0)
+      return remark(tick, LinkRemark::short_of,
+                    {ErrorCode::infeasible, in.gain == 0 ? "gain" : "scale",
+                     goal + ", and the link changes nothing: " +
+                         (in.gain == 0 ? "give it a `gain`" : "the number is 0, so that it needs a `scale` to grow by")});
+    const bool is_low = step < 0 && wanted <= in.lowest, is_high = step > 0 && wanted >= in.highest;
+    if (!is_low && !is_high) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "", goal});
     remark(tick, LinkRemark::short_of,
            {ErrorCode::infeasible, is_low ? "lowest" : "highest",
             goal + ", and the link may ask for no " + (is_low ? "less" : "more") + " than " +

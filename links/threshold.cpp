@@ -27,7 +27,7 @@ struct Threshold {
         "Switches a number when another one crosses a limit: a second stop once two thousand people live there, a lower ceiling "
         "once the sum is reached. It switches on above the limit, and off below the limit by the band.");
     l.param(&In::source, "source").doc("The port that is watched, written `typification.port`.");
-    l.param(&In::target, "target").doc("The port that is switched, written `typification.port`. People should leave it unset.");
+    l.param(&In::target, "target").doc("The port that is switched, written `typification.port`. Nobody else should change it.");
     l.param(&In::limit, "limit").unit_from("source").doc("The limit that the watched number crosses.");
     l.param(&In::band, "band")
         .unit_from("source")

@@ -11,6 +11,7 @@ namespace bl {
 namespace {
 
 constexpr double kDayLength = 86400;  // [s]
+constexpr double kMostPassed = 1e15;  // [s]: beyond it a day is no longer told from the next
 
 struct Clock {
   // The time that has passed since `begun`, the start that it counts from. It is a memory and no multiple of the tick's number: a
@@ -51,16 +52,19 @@ struct Clock {
     t.out(&Out::share, "share").unit(Unit::ratio).doc("The share of the day that has passed, from 0 at midnight to 1.");
     t.out(&Out::day, "day").shown_first().unit(Unit::count).doc("How many midnights have passed since the start.");
     t.out(&Out::has_ended, "has_ended").doc("On once the clock has run for as long as it should.");
-    t.memory(&Out::kept, &In::last, &Memory::passed, "passed").unit(Unit::second).doc("The time that has passed since the start.");
+    t.memory(&Out::kept, &In::last, &Memory::passed, "passed")
+        .unit(Unit::second)
+        .doc("The time that has passed since the start.");
     t.memory(&Out::kept, &In::last, &Memory::begun, "begun").unit(Unit::second).doc("The start that this time counts from.");
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
     Out out;
     out.kept.begun = in.start;
-    if (in.last.begun == in.start) out.kept.passed = in.last.passed + (in.is_running ? in.step : 0);
+    const double before = std::clamp(in.last.passed, 0.0, kMostPassed);
+    if (in.last.begun == in.start) out.kept.passed = before + (in.is_running ? in.step : 0);
     // A clock that ran on and is given an end now does not run backwards.
-    if (in.runs_for > 0) out.kept.passed = std::min(out.kept.passed, std::max(in.runs_for, in.last.passed));
+    if (in.runs_for > 0) out.kept.passed = std::min(out.kept.passed, std::max(in.runs_for, before));
     out.has_ended = in.runs_for > 0 && out.kept.passed >= in.runs_for;
     const double time = in.start + out.kept.passed;
     out.time_of_day = std::fmod(time, kDayLength);

@@ -21,8 +21,8 @@ struct Indicator {
     std::string unit, formula;
   };
   struct Out {
-    double gap = 0, score = 1, pressure = 0;
-    Status status = Status::met;
+    double gap = 0, score = 0, pressure = 0;
+    Status status = Status::far;
   };
 
   static void declare(TypificationBuilder<Indicator>& t) {
@@ -85,7 +85,11 @@ struct Indicator {
     const double missing = in.target - in.value;
     const bool is_too_small = in.direction != Direction::at_most && missing > tolerance,
                is_too_large = in.direction != Direction::at_least && missing < -tolerance;
-    if (!is_too_small && !is_too_large) return out;
+    if (!is_too_small && !is_too_large) {
+      out.score = 1;
+      out.status = Status::met;
+      return out;
+    }
     out.gap = missing;
     out.pressure = std::clamp(missing / span, -1.0, 1.0);
     out.score = 1 - std::abs(out.pressure);

@@ -16,7 +16,8 @@ struct StakeholderGroup {
     double budget = 0, spent = 0;
   };
   struct Goal {
-    double score = 0, gap = 0;
+    double score = 0;
+    std::string status;
   };
   struct Sets {
     std::vector<Goal> goals;
@@ -50,10 +51,10 @@ struct StakeholderGroup {
     t.out(&Out::goals_met, "goals_met")
         .shown_first()
         .unit(Unit::ratio)
-        .doc("The share of its goals that are met; 1 without goals.");
+        .doc("The share of its goals that are met; 1 without goals. A goal that cannot be read is not met.");
     t.out(&Out::mean_score, "mean_score").unit(Unit::ratio).doc("The mean score of its goals; 1 without goals.");
     t.out(&Out::goals, "goal_count").unit(Unit::count).doc("Number of goals.");
-    t.set("goals", &Sets::goals).reads(&Goal::score, "indicator.score", Unit::ratio).reads(&Goal::gap, "indicator.gap");
+    t.set("goals", &Sets::goals).reads(&Goal::score, "indicator.score", Unit::ratio).reads(&Goal::status, "indicator.status");
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
@@ -64,7 +65,7 @@ struct StakeholderGroup {
     if (sets.goals.empty()) return out;
     double met = 0, sum = 0;
     for (const Goal& goal : sets.goals) {
-      met += goal.gap == 0 ? 1 : 0;
+      met += goal.status == "met" ? 1 : 0;
       sum += goal.score;
     }
     out.goals_met = met / static_cast<double>(sets.goals.size());

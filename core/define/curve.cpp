@@ -6,6 +6,8 @@ namespace bl {
 namespace {
 
 double between(double low, double low_value, double high, double high_value, double place) {
+  // A level stretch is level to the last bit, so that what follows it rests.
+  if (low_value == high_value) return low_value;
   const double share = (place - low) / (high - low);
   return low_value * (1 - share) + high_value * share;
 }

@@ -95,9 +95,10 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
   const double wanted = std::clamp(asked, old - port.step_limit, old + port.step_limit);
   value = type.is_locked[p] ? type.set_values[p] : Value(clamped(port, wanted));
   if (rest.is_on && !type.is_locked[p] && !proposals.empty() && relative_change(before, value) <= rest.held_back) value = before;
-  // Amounts that are added up do not contradict each other.
+  // Amounts that are added up do not contradict each other: only what a lock or the range keeps out does.
   if (port.rule == CombineRule::total) {
-    tension += std::abs(asked - as_number(value));
+    const double allowed = type.is_locked[p] ? as_number(value) : clamped(port, asked);
+    if (std::isfinite(asked)) tension += std::abs(asked - allowed);
     return;
   }
   for (const Voice* h : proposals) tension += h->strength * std::abs(as_number(h->value) - as_number(value));

@@ -30,6 +30,13 @@ TEST(GoalPressure, LeavesNothingByItsScale) {
   auto stuck = pressed(1, 0);
   ASSERT_EQ(stuck.run(), "");
   EXPECT_EQ(stuck.number(End::to, "target"), 0);
+  EXPECT_EQ(stuck.remarked(LinkRemark::short_of),
+            "scale: the goal of `goal` is not met, and the link changes nothing: the number is 0, so that it needs a `scale` to "
+            "grow by");
+  auto idle = pressed(1, 2000);
+  ASSERT_EQ(idle.set("gain", 0.0).run(), "");
+  EXPECT_EQ(idle.remarked(LinkRemark::short_of),
+            "gain: the goal of `goal` is not met, and the link changes nothing: give it a `gain`");
   auto grows = pressed(1, 0);
   ASSERT_EQ(grows.set("scale", 500.0).run(), "");
   EXPECT_NEAR(grows.number(End::to, "target"), 50, 1e-9);
@@ -53,6 +60,15 @@ TEST(GoalPressure, SaysWhichLimitKeepsTheGoalFromBeingMet) {
   EXPECT_EQ(low.number(End::to, "target"), 950);
   EXPECT_NE(low.remarked(LinkRemark::short_of).find("no less than 950"), std::string::npos);
   EXPECT_EQ(pressed(1, 1).set("lowest", 5000.0).run(), "highest: the highest value (5000) has to lie above the lowest (5000)");
+}
+
+// A port that people have set too is blended, and may stay beyond a limit.
+TEST(GoalPressure, ALimitInItsBackIsNoObstacle) {
+  auto link = pressed(1, 1500);
+  ASSERT_EQ(link.set("lowest", 2000.0).run(), "");
+  EXPECT_EQ(link.number(End::to, "target"), 2000);
+  EXPECT_EQ(link.remarked(LinkRemark::short_of), "");
+  EXPECT_EQ(link.remarked(LinkRemark::at_work), "the goal of `goal` is not met");
 }
 
 TEST(GoalPressure, SceneGrowsUntilTheGoalIsMet) {

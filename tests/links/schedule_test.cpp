@@ -28,7 +28,8 @@ TEST(Schedule, IsLinearBetweenPointsAndAcrossMidnight) {
 }
 
 TEST(Schedule, HoldsInSteps) {
-  for (const auto& [hour, value] : {std::pair{6.0, 100.0}, {11.9, 100.0}, {12.0, 400.0}, {17.0, 400.0}, {23.0, 200.0}, {5.0, 200.0}})
+  for (const auto& [hour, value] :
+       {std::pair{6.0, 100.0}, {11.9, 100.0}, {12.0, 400.0}, {17.0, 400.0}, {23.0, 200.0}, {5.0, 200.0}})
     EXPECT_EQ(scheduled(hour, "steps"), value) << hour;
 }
 
@@ -42,6 +43,17 @@ TEST(Schedule, OnePointHoldsAllDayAndSoDoPointsAtBothEnds) {
   EXPECT_EQ(link.number(End::to, "target"), 2);
   ASSERT_EQ(link.from("clock.time_of_day", 0.0).run(), "");
   EXPECT_EQ(link.number(End::to, "target"), 1);
+}
+
+// To the last bit: else what follows the hours would be evaluated in every tick of the night.
+TEST(Schedule, ALevelStretchIsLevel) {
+  LinkCase link("schedule");
+  link.set("curve", Shared<Table>(hours({{6, 0.3}, {9, 7.0}, {18, 7.0}, {22, 0.3}})));
+  for (double hour = 0; hour < 24; hour += 0.01) {
+    ASSERT_EQ(link.from("clock.time_of_day", 3600 * hour).run(), "");
+    if (hour >= 9 && hour <= 18) { EXPECT_EQ(link.number(End::to, "target"), 7.0) << hour; }
+    if (hour < 6 || hour >= 22) { EXPECT_EQ(link.number(End::to, "target"), 0.3) << hour; }
+  }
 }
 
 TEST(Schedule, PointsMustAscendAndExist) {

@@ -20,6 +20,15 @@ TEST(StakeholderGroup, CountsItsGoals) {
   EXPECT_EQ(world.number("idle", "stakeholder_group.goals_met"), 1);
 }
 
+TEST(StakeholderGroup, AGoalThatFailsIsNotMet) {
+  World world = World::from_text(scene_text(
+      R"({"id": "a", "types": {"indicator": {"value": 5, "target": 4, "unit": "ha"}}}, {"id": "it", "types": {"stakeholder_group": {"goals": ["a"]}}})"));
+  world.tick(3);
+  EXPECT_NE(world.node_error("a", "indicator"), "");
+  EXPECT_EQ(world.number("it", "stakeholder_group.goals_met"), 0);
+  EXPECT_EQ(world.number("it", "stakeholder_group.mean_score"), 0);
+}
+
 TEST(StakeholderGroup, CountsItsMoney) {
   World world = World::from_text(one_node("stakeholder_group", R"("budget": 100, "spent": 100)"));
   world.tick();
