@@ -96,13 +96,18 @@ void WeightFit::recognise(std::span<const PowerSite> sites) {
   for (const Domain::Piece& piece : domain_.pieces) {
     for (const Point3& v : piece.shape.vertices) hash.add(v);
   }
+  // Each site for itself, because a chain of all numbers would have the processor wait for each of them.
+  std::uint64_t sum = 0;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const std::uint32_t k = targets_.owner(i);
-    hash.add(sites[i].position);
-    hash.add(std::uint64_t{k});
-    hash.add(k != FitTargets::kNone ? targets_.least(k) : sites[i].weight);
-    if (k != FitTargets::kNone) hash.add(targets_.most(k));
+    Hash own;
+    own.add(std::uint64_t{i} << 32 | k);
+    own.add(sites[i].position);
+    own.add(k != FitTargets::kNone ? targets_.least(k) : sites[i].weight);
+    if (k != FitTargets::kNone) own.add(targets_.most(k));
+    sum += own.value();
   }
+  hash.add(sum);
   if (report_.state.problem != hash.value()) report_.state.residual = -1;
   report_.state.problem = hash.value();
 }

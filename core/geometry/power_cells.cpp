@@ -2,6 +2,8 @@
 #include "core/geometry/power_cells.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <exception>
 #include <numeric>
@@ -37,6 +39,12 @@ Result<void> check_options(std::span<const PowerSite> sites, const Domain& domai
                  "a storey height has to be positive, and the boundary no higher than 10000 storeys"};
   }
   return {};
+}
+
+bool same_bits(const PowerSite& a, const PowerSite& b) {
+  using Bits = std::array<std::uint64_t, 4>;
+  const Bits one = std::bit_cast<Bits>(a), other = std::bit_cast<Bits>(b);
+  return ((one[0] ^ other[0]) | (one[1] ^ other[1]) | (one[2] ^ other[2]) | (one[3] ^ other[3])) == 0;
 }
 
 Error no_domain() {
@@ -191,8 +199,10 @@ struct PowerDiagram::Workshop {
     const bool comparable = is_whole && workshop.sites().size() == sites.size();
     bool same_places = comparable;
     changed.clear();
+    const std::span<const PowerSite> before = workshop.sites();
     for (std::uint32_t i = 0; comparable && i < sites.size(); ++i) {
-      if (sites[i] == workshop.sites()[i]) continue;
+      // Mostly all bits are the same, and numbers that are equal with other bits are zeros.
+      if (same_bits(sites[i], before[i]) || sites[i] == before[i]) continue;
       changed.push_back(i);
       same_places = same_places && sites[i].position == workshop.sites()[i].position;
     }

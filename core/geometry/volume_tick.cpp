@@ -54,8 +54,9 @@ Result<VolumeTick::Outcome> VolumeTick::run(const Domain& domain, std::vector<Po
 Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vector<PowerSite>& sites,
                                                   std::span<const double> wanted, const FitState& state, Cache& kept) const {
   FitReport fit;
-  fit.state = state;
-  if (steps > 0) {
+  if (steps <= 0) {
+    fit.state = state;
+  } else {
     const FitOptions options{.method = method,
                              .gain = gain,
                              .steps = steps,

@@ -28,7 +28,11 @@ class AngleSum {
       im_ /= size;
     }
   }
-  double value() const { return mathematics::arc_tangent(im_, re_) + 2 * std::numbers::pi * turns_; }
+  double value() const {
+    // Nothing was added, or nothing but angles that cancel: the arctangent would be an exact zero.
+    const double rest = im_ == 0 && re_ > 0 ? 0 : mathematics::arc_tangent(im_, re_);
+    return rest + 2 * std::numbers::pi * turns_;
+  }
   int turns() const { return turns_; }
 
  private:
@@ -39,13 +43,14 @@ class AngleSum {
 // A corner of a facet: relative to the ball's centre.
 struct Place {
   Point3 at;
-  double norm = 0;         // |at|
+  double norm = 0;         // |at|, which only sums of solid angles ask for
   bool is_inside = false;  // of the ball
 
   static Place of(const Point3& at, double squared_radius) {
     const double squared = squared_norm(at);
     return {at, std::sqrt(squared), squared <= squared_radius};
   }
+  static Place flat(const Point3& at, double squared_radius) { return {at, 0, squared_norm(at) <= squared_radius}; }
 };
 
 // One facet with unit normal n on the plane n·x = h: what its edges add up to. With q = h n the foot of the centre and ρ the
@@ -63,6 +68,7 @@ class FacetSum {
       : normal_(normal),
         offset_(offset),
         squared_radius_(squared_radius),
+        radius_(std::sqrt(squared_radius)),
         squared_disc_(squared_radius - offset * offset),
         inner_solid_(counts_inside ? solid : nullptr),
         outer_solid_(counts_inside ? nullptr : solid) {}
@@ -80,9 +86,9 @@ class FacetSum {
     const double rest = t * t + squared_length * (squared_radius_ - squared_norm(low.at));
     const bool is_chord = !low.is_inside && !high.is_inside;
     if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(low, high, turn);
-    const double root = std::sqrt(rest), radius = std::sqrt(squared_radius_);
+    const double root = std::sqrt(rest);
     const auto pierced = [&](double numerator) {
-      return Place{low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along, radius, true};
+      return Place{low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along, radius_, true};
     };
     if (is_chord) {
       const Place entry = pierced(-t - root), exit = pierced(-t + root);
@@ -102,8 +108,7 @@ class FacetSum {
     const double angle = meets_edge_ ? outer_.value() : outer_.turns() > 0 ? 2 * std::numbers::pi : 0;
     area = std::max(0.0, 0.5 * (doubled_ + squared_disc_ * angle));
     if (!meets_edge_) moment = {};
-    const double radius = std::sqrt(squared_radius_), height = std::abs(offset_);
-    sectors = squared_disc_ / (radius * (radius + height)) * angle;
+    sectors = squared_disc_ / (radius_ * (radius_ + std::abs(offset_))) * angle;
   }
 
   double area = 0;     // inside the ball
@@ -139,7 +144,7 @@ class FacetSum {
   }
 
   Vector3 normal_;
-  double offset_, squared_radius_, squared_disc_;
+  double offset_, squared_radius_, radius_, squared_disc_;
   AngleSum *inner_solid_, *outer_solid_;
   AngleSum outer_;
   double doubled_ = 0;

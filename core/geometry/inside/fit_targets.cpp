@@ -67,7 +67,10 @@ FitTargets::FitTargets(std::span<const double> demands, std::span<const std::uin
       aim_(least_),
       first_(1, 0),
       owner_(demands.size(), kNone),
-      is_active_(demands.size(), 1) {
+      is_active_(demands.size(), 1),
+      is_each_its_own_(locked.empty()) {
+  first_.reserve(demands.size() + 1);
+  members_.reserve(demands.size());
   for (std::uint32_t i = 0; i < demands.size(); ++i) {
     if (locked.empty() || !locked[i]) {
       members_.push_back(i);
@@ -96,6 +99,7 @@ FitTargets::FitTargets(const FitProblem& problem) : first_(1, 0), owner_(problem
 }
 
 bool FitTargets::is_plain() const {
+  if (is_each_its_own_) return true;
   for (std::size_t i = 0; i < owner_.size(); ++i) {
     const std::uint32_t k = owner_[i];
     if (k == kNone || sites(k).size() != 1 || least_[k] != most_[k]) return false;
@@ -134,6 +138,12 @@ void FitTargets::grant(std::span<const double> volumes, double domain_volume, st
 }
 
 void FitTargets::measure(std::span<const double> volumes) {
+  if (is_each_its_own_) {
+    // What the loop below comes to.
+    total_.assign(volumes.begin(), volumes.end());
+    aim_ = least_;
+    return;
+  }
   for (std::size_t k = 0; k < size(); ++k) {
     double sum = 0;
     for (const std::uint32_t i : sites(k)) sum += volumes[i];
@@ -145,12 +155,6 @@ void FitTargets::measure(std::span<const double> volumes) {
               : sum - least_[k] < most_[k] - sum ? least_[k]
                                                  : most_[k];
   }
-}
-
-double FitTargets::error(std::size_t target) const {
-  if (!(most_[target] > 0) || sites(target).empty()) return 0;
-  const double bound = std::clamp(total_[target], least_[target], most_[target]);
-  return bound > 0 ? std::abs(total_[target] - bound) / bound : 0;
 }
 
 }  // namespace bl::geometry

@@ -1,6 +1,8 @@
 // The demands of a fit, as they are aimed at: which sites each has, what it may have, what it has.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -60,7 +62,11 @@ class FitTargets {
   double aim(std::size_t target) const { return aim_[target]; }
   /// Has its weights to move: it is out of bounds, or at one of them.
   bool is_active(std::size_t target) const { return is_active_[target] != 0; }
-  double error(std::size_t target) const;
+  double error(std::size_t target) const {
+    if (!(most_[target] > 0) || sites(target).empty()) return 0;
+    const double bound = std::clamp(total_[target], least_[target], most_[target]);
+    return bound > 0 ? std::abs(total_[target] - bound) / bound : 0;
+  }
 
  private:
   std::vector<double> least_, most_, total_, aim_;
@@ -69,6 +75,7 @@ class FitTargets {
   std::string infeasible_;
   std::vector<DemandLoss> losses_;
   bool is_full_ = false, has_groups_ = false;
+  bool is_each_its_own_ = false;  // demand k is that of site k alone, and one volume
 };
 
 }  // namespace bl::geometry

@@ -1,6 +1,7 @@
 // Vertical extent, sections, floor area and footprint of (convex polyhedron ∩ ball).
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -16,22 +17,46 @@ namespace {
 // on an edge must not be lost, and the height it may be wrong by is of the same size.
 constexpr double kTouchOfExtent = 1e-12;
 
+// Lines this share of the radius beyond the ball miss it, whatever rounding says.
+constexpr double kSureMiss = 1e-9;
+
 // Is `point`, which lies in the face's plane, in the face or within `tolerance` of it?
 bool is_in_face(const Polyhedron& cell, const PolyhedronFace& face, const Point3& point, double tolerance) {
   Point3 a = cell.vertices[cell.loops[face.first + face.count - 1]];
   for (std::uint32_t i = 0; i < face.count; ++i) {
     const Point3 b = cell.vertices[cell.loops[face.first + i]];
     const Vector3 along = b - a;
-    const double length = norm(along);
-    // Which way an edge without length runs is rounding: it bounds nothing.
-    if (length > tolerance && dot(face.normal, cross(along, point - a)) < -tolerance * length) return false;
+    const double side = dot(face.normal, cross(along, point - a));
+    if (side < 0) {
+      const double length = norm(along);
+      // Which way an edge without length runs is rounding: it bounds nothing.
+      if (length > tolerance && side < -tolerance * length) return false;
+    }
     a = b;
   }
   return true;
 }
 
-// Highest point of the shape in direction `up` (+1 or -1), as up * z. The point is the pole of the ball, the top of a facet's
-// circle, a pierced edge, or a vertex; the largest of those that belong to the shape.
+// The highest point of an edge from `a` to `b` within the ball, as up * z, where that is higher than `best`; else `best`.
+double highest_of_edge(const Point3& a, const Point3& b, double squared_radius, double up, double best) {
+  const Vector3 along = b - a;
+  const double squared_length = squared_norm(along);
+  if (squared_norm(cross(a, along)) > (1 + kSureMiss) * squared_radius * squared_length) return best;
+  const double length = std::sqrt(squared_length);
+  if (!(length > 0)) return best;
+  const Vector3 e = along / length;
+  const double t = dot(a, e);
+  const Vector3 nearest = a - t * e;
+  const double rest = squared_radius - squared_norm(nearest);
+  if (!(rest > 0)) return best;
+  const double reach = std::sqrt(rest);
+  const double low = std::max(t, -reach), high = std::min(t + length, reach);
+  return low <= high ? std::max({best, up * (nearest.z + low * e.z), up * (nearest.z + high * e.z)}) : best;
+}
+
+// Highest point of the shape in direction `up` (+1 or -1), as up * z. The point is the pole of the ball, a vertex, the top of a
+// facet's circle, or where an edge leaves the ball; the largest of those that belong to the shape. Edges come last: most of them
+// lie below what is known by then.
 double highest_point(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double up) {
   const double radius = std::sqrt(squared_radius), tolerance = kTouchOfExtent * radius;
   bool pole_inside = true;
@@ -39,29 +64,8 @@ double highest_point(const Polyhedron& cell, double squared_radius, const ShapeM
     pole_inside = pole_inside && up * face.normal.z * radius <= face.offset + tolerance;
   if (pole_inside) return radius;
   double best = up * shape.point_inside.z;
-  for (const Point3& v : cell.vertices) {
-    if (squared_norm(v) <= squared_radius) best = std::max(best, up * v.z);
-  }
-  for (const PolyhedronFace& face : cell.faces) {
-    Point3 a = cell.vertices[cell.loops[face.first + face.count - 1]];
-    for (std::uint32_t i = 0; i < face.count; ++i) {
-      const Point3 b = cell.vertices[cell.loops[face.first + i]];
-      if (std::max(up * a.z, up * b.z) > best) {
-        const Vector3 along = b - a;
-        const double length = norm(along);
-        const Vector3 e = length > 0 ? along / length : Vector3{};
-        const double t = dot(a, e);
-        const Vector3 nearest = a - t * e;
-        const double rest = squared_radius - squared_norm(nearest);
-        if (length > 0 && rest > 0) {
-          const double reach = std::sqrt(rest);
-          const double low = std::max(t, -reach), high = std::min(t + length, reach);
-          if (low <= high) best = std::max({best, up * (nearest.z + low * e.z), up * (nearest.z + high * e.z)});
-        }
-      }
-      a = b;
-    }
-  }
+  for (const Point3& v : cell.vertices)
+    if (up * v.z > best && squared_norm(v) <= squared_radius) best = up * v.z;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     const PolyhedronFace& face = cell.faces[k];
     const double rho2 = squared_radius - face.offset * face.offset;
@@ -74,8 +78,22 @@ double highest_point(const Polyhedron& cell, double squared_radius, const ShapeM
     const Point3 top = steepness > 0 ? foot + (std::sqrt(rho2) / steepness) * rise : foot;
     if (up * top.z > best && (steepness == 0 || is_in_face(cell, face, top, tolerance))) best = up * top.z;
   }
+  for (const PolyhedronFace& face : cell.faces) {
+    Point3 a = cell.vertices[cell.loops[face.first + face.count - 1]];
+    for (const std::uint32_t to : cell.loop(face)) {
+      const Point3& b = cell.vertices[to];
+      if (std::max(up * a.z, up * b.z) > best) best = highest_of_edge(a, b, squared_radius, up, best);
+      a = b;
+    }
+  }
   return best;
 }
+
+// Where one face is cut by the horizontal sections: on its way down and on its way up.
+struct FaceCrossing {
+  Point3 down, rise;
+  std::uint32_t down_in = 0, rise_in = 0;  // the face that it belongs to, counted from 1
+};
 
 }  // namespace
 
@@ -92,50 +110,74 @@ void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure&
   shape.lowest = std::min(shape.highest, -highest_point(cell, squared_radius, shape, -1));
 }
 
-double section_area(const Polyhedron& cell, double squared_radius, double z) {
-  FacetSum sum({0, 0, 1}, z, squared_radius, nullptr);
-  if (!sum.has_disc()) return 0;
-  const auto place = [&](Point3 at) {
-    at.z = z;
-    return Place::of(at, squared_radius);
-  };
+// All sections are cut in one pass over the edges. Their heights ascend.
+double section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights) {
+  thread_local std::vector<std::uint32_t> below;  // per vertex: how many of the heights
+  thread_local std::vector<FaceCrossing> crossings;   // per height
+  thread_local std::vector<FacetSum> sums;        // per height
+  below.clear();
+  for (const Point3& v : cell.vertices)
+    below.push_back(static_cast<std::uint32_t>(std::lower_bound(heights.begin(), heights.end(), v.z) - heights.begin()));
+  crossings.assign(heights.size(), {});
+  sums.clear();
+  for (const double z : heights) sums.emplace_back(Vector3{0, 0, 1}, z, squared_radius, nullptr);
+  std::uint32_t number = 0;
   for (const PolyhedronFace& face : cell.faces) {
-    // The outline of the section runs, counter-clockwise from above, from where a face's loop goes down to where it goes up.
+    // The outline of a section runs, counter-clockwise from above, from where a face's loop goes down to where it goes up.
     // Both are taken from the lower to the upper vertex, so that neighbouring faces get the same bits.
-    Point3 down, rise;
-    bool has_down = false, has_rise = false;
+    ++number;
     const auto loop = cell.loop(face);
-    std::uint32_t from = loop[face.count - 1];
+    std::uint32_t from = loop[face.count - 1], first = below[from], last = first;
     for (const std::uint32_t to : loop) {
-      const bool from_above = cell.vertices[from].z > z, to_above = cell.vertices[to].z > z;
-      if (from_above != to_above) {
-        const Point3& low = cell.vertices[from_above ? to : from];
-        const Point3& high = cell.vertices[from_above ? from : to];
-        (from_above ? down : rise) = low + ((z - low.z) / (high.z - low.z)) * (high - low);
-        (from_above ? has_down : has_rise) = true;
+      const bool goes_down = below[from] > below[to];
+      const std::uint32_t lower = goes_down ? to : from, upper = goes_down ? from : to;
+      const Point3 &low = cell.vertices[lower], &high = cell.vertices[upper];
+      for (std::uint32_t k = below[lower]; k < below[upper]; ++k) {
+        (goes_down ? crossings[k].down : crossings[k].rise) = low + ((heights[k] - low.z) / (high.z - low.z)) * (high - low);
+        (goes_down ? crossings[k].down_in : crossings[k].rise_in) = number;
       }
+      first = std::min(first, below[to]);
+      last = std::max(last, below[to]);
       from = to;
     }
-    if (has_down && has_rise) sum.add_edge(place(down), place(rise), 1);
+    for (std::uint32_t k = first; k < last; ++k) {
+      const FaceCrossing& crossing = crossings[k];
+      if (crossing.down_in != number || crossing.rise_in != number || !sums[k].has_disc()) continue;
+      const auto place = [&](Point3 at) {
+        at.z = heights[k];
+        return Place::flat(at, squared_radius);
+      };
+      sums[k].add_edge(place(crossing.down), place(crossing.rise), 1);
+    }
   }
-  sum.close();
-  return sum.area;
+  double area = 0;
+  for (FacetSum& sum : sums) {
+    if (!sum.has_disc()) continue;
+    sum.close();
+    area += sum.area;
+  }
+  return area;
 }
 
 double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double storey_height) {
   const double height = shape.highest - shape.lowest;
-  if (height < storey_height) return section_area(cell, squared_radius, shape.lowest + 0.5 * height);
-  double sum = 0;
-  for (int storey = 0; storey < static_cast<int>(kMostStoreys) + 1; ++storey) {
-    const double above = (storey + 0.5) * storey_height;
-    if (!(above < height)) break;
-    sum += section_area(cell, squared_radius, shape.lowest + above);
+  thread_local std::vector<double> heights;
+  heights.clear();
+  if (height < storey_height) {
+    heights.push_back(shape.lowest + 0.5 * height);
+  } else {
+    for (int storey = 0; storey < static_cast<int>(kMostStoreys) + 1; ++storey) {
+      const double above = (storey + 0.5) * storey_height;
+      if (!(above < height)) break;
+      heights.push_back(shape.lowest + above);
+    }
   }
-  return sum;
+  return section_areas(cell, squared_radius, heights);
 }
 
 double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape) {
-  double sum = section_area(cell, squared_radius, 0);
+  constexpr double kOwnHeight = 0;
+  double sum = section_areas(cell, squared_radius, {&kOwnHeight, 1});
   std::vector<Point3> part;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     const PolyhedronFace& face = cell.faces[k];
@@ -160,7 +202,7 @@ double footprint_area(const Polyhedron& cell, double squared_radius, const Shape
     }
     FacetSum area(face.normal, face.offset, squared_radius, nullptr);
     for (std::size_t i = 0; area.has_disc() && i < part.size(); ++i) {
-      area.add_edge(Place::of(part[i], squared_radius), Place::of(part[(i + 1) % part.size()], squared_radius), 1);
+      area.add_edge(Place::flat(part[i], squared_radius), Place::flat(part[(i + 1) % part.size()], squared_radius), 1);
     }
     if (area.has_disc()) area.close();
     sum += std::abs(nz) * area.area;

@@ -1,6 +1,7 @@
 // Closed-form measures of (convex polyhedron ∩ ball around the origin): the formulas of "facet by facet" integration.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/geometry/inside/polyhedron.h"
@@ -28,8 +29,8 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
 /// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
 void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape);
 
-/// Area of the horizontal section at height z.
-double section_area(const Polyhedron& cell, double squared_radius, double z);
+/// Sum of the areas of the horizontal sections at these heights, which ascend.
+double section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights);
 
 /// Sum of sections at mid-storey heights, from `lowest` on; at least one, at mid-height, where there is less than a storey.
 double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double storey_height);

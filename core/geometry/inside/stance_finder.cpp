@@ -38,6 +38,10 @@ constexpr std::int32_t kStandsAtOnce = -1, kStandsNever = 0x7fffffff;
 using Coming = std::pair<std::int32_t, std::uint32_t>;
 using Queue = std::priority_queue<Coming, std::vector<Coming>, std::greater<>>;
 
+// Where even balls that meet head on would be this much farther apart than the way down that is known, rounding cannot tell
+// otherwise [m].
+constexpr double kSurelyFarther = 1e-6;
+
 // Beyond this share of changed balls all that look around are measured again.
 constexpr double kManyBalls = 0.25;
 
@@ -144,10 +148,17 @@ void StanceFinder::mark_who_look_around(std::span<const PowerSite> sites, std::s
     if (!(marks_[i] & kCellMade)) follow(i);
 }
 
+// Those that the ball has stopped or may stop on their way down. Who has moved itself is marked for that.
 void StanceFinder::mark_near(const Point3& centre, double radius) {
   buckets_->near(centre, radius, share_aside(), [&](std::size_t i) {
-    if (bodies_[i].looks_around) marks_[i] |= kToMeasure;
+    if (bodies_[i].looks_around && !is_beyond_stop(centre, radius, i, stances_[i].drop)) marks_[i] |= kToMeasure;
   });
+}
+
+// Is a ball not below another one, or so far below that it cannot stop it within `drop`?
+bool StanceFinder::is_beyond_stop(const Point3& lower, double radius, std::size_t upper, double drop) const {
+  const double up = sites_[upper].position.z - lower.z;
+  return !(up > 0) || up - radius - radius_of(upper) > drop + kSurelyFarther;
 }
 
 void StanceFinder::take_sites(std::span<const PowerSite> sites) {
@@ -342,7 +353,7 @@ Stance StanceFinder::measure(std::size_t i) {
 void StanceFinder::look_around(std::size_t i, Stance& stance) {
   bodies_[i].looks_around = true;
   buckets().near(sites_[i].position, radius_of(i), share_aside(), [&](std::size_t j) {
-    if (j != i) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
+    if (j != i && !is_beyond_stop(sites_[j].position, radius_of(j), i, stance.drop)) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
   });
 }
 

@@ -65,6 +65,7 @@ class StanceFinder {
   void measure_marked();
   Stance measure(std::size_t i);
   void look_around(std::size_t i, Stance& stance);
+  bool is_beyond_stop(const Point3& lower, double radius, std::size_t upper, double drop) const;
   double gap_above(std::size_t lower, std::size_t upper, double otherwise) const;
   bool is_carried_by(std::size_t lower, std::size_t upper) const;
   bool is_below(std::size_t lower, std::size_t upper) const;
