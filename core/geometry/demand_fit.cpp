@@ -75,10 +75,9 @@ Result<FitReport> WeightFit::run() {
     move(*measured);
     keep_in_bounds();
   }
-  report_.weights.reserve(sites_.size());
-  for (const PowerSite& site : sites_) report_.weights.push_back(site.weight);
-  report_.demands.reserve(targets_.size());
-  for (std::size_t k = 0; k < targets_.size(); ++k) report_.demands.push_back(targets_.aim(k));
+  report_.weights.resize(sites_.size());
+  for (std::size_t i = 0; i < sites_.size(); ++i) report_.weights[i] = sites_[i].weight;
+  report_.demands = targets_.aims();
   report_.infeasible = targets_.infeasible();
   report_.losses = targets_.losses();
   return std::move(report_);

@@ -2,13 +2,12 @@
 #include "core/geometry/power_cells.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <exception>
 #include <numeric>
 #include <string>
 
+#include "core/base/differences.h"
 #include "core/base/stop_check.h"
 #include "core/geometry/inside/cell_workshop.h"
 #include "core/geometry/tessellate.h"
@@ -39,12 +38,6 @@ Result<void> check_options(std::span<const PowerSite> sites, const Domain& domai
                  "a storey height has to be positive, and the boundary no higher than 10000 storeys"};
   }
   return {};
-}
-
-bool same_bits(const PowerSite& a, const PowerSite& b) {
-  using Bits = std::array<std::uint64_t, 4>;
-  const Bits one = std::bit_cast<Bits>(a), other = std::bit_cast<Bits>(b);
-  return ((one[0] ^ other[0]) | (one[1] ^ other[1]) | (one[2] ^ other[2]) | (one[3] ^ other[3])) == 0;
 }
 
 Error no_domain() {
@@ -199,13 +192,13 @@ struct PowerDiagram::Workshop {
     const bool comparable = is_whole && workshop.sites().size() == sites.size();
     bool same_places = comparable;
     changed.clear();
-    const std::span<const PowerSite> before = workshop.sites();
-    for (std::uint32_t i = 0; comparable && i < sites.size(); ++i) {
-      // Mostly all bits are the same, and numbers that are equal with other bits are zeros.
-      if (same_bits(sites[i], before[i]) || sites[i] == before[i]) continue;
-      changed.push_back(i);
-      same_places = same_places && sites[i].position == workshop.sites()[i].position;
-    }
+    if (comparable)
+      visit_differences(workshop.sites(), sites, [&](std::uint32_t i) {
+        const PowerSite& before = workshop.sites()[i];
+        if (sites[i] == before) return;
+        changed.push_back(i);
+        same_places = same_places && sites[i].position == before.position;
+      });
     // The others have been checked before.
     for (const std::uint32_t i : changed)
       if (auto checked = check_site(i, sites[i]); !checked) return checked.error();

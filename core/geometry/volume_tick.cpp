@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/differences.h"
+
 namespace bl::geometry {
 
 namespace {
@@ -24,7 +26,10 @@ void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
 
 // Marks the sites whose number in a list of the fit's state has changed; a list that is empty says nothing.
 void mark_changes(const std::vector<double>& before, const std::vector<double>& after, std::vector<std::uint8_t>& differs) {
-  if (before.empty() && after.empty()) return;
+  if (before.size() == after.size()) {
+    visit_differences(std::span(before), std::span(after), [&](std::uint32_t i) { differs[i] |= before[i] != after[i]; });
+    return;
+  }
   for (std::size_t i = 0; i < differs.size(); ++i)
     if ((before.empty() ? 0 : before[i]) != (after.empty() ? 0 : after[i])) differs[i] = 1;
 }
@@ -72,8 +77,7 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
   }
   // The fit has made most of these cells. What people read of them is measured once, of those that it ends with.
   if (auto set = kept.cells.set_domain(domain); !set) return set.error();
-  const auto made =
-      kept.cells.update(sites, {.with_storeys = false, .with_outlines = true, .pool = pool});
+  const auto made = kept.cells.update(sites, {.with_storeys = false, .with_outlines = true, .pool = pool});
   if (!made) return made.error();
   const auto cells = kept.cells.complete(
       {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});

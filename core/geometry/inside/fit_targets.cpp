@@ -108,16 +108,20 @@ bool FitTargets::is_plain() const {
 }
 
 void FitTargets::grant(std::span<const double> volumes, double domain_volume, std::span<const std::uint8_t> is_lost) {
-  const std::vector<double> asked = least_;
+  std::vector<double> asked;  // where anything may be less than that
   double wanted = 0, taken = 0;
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (owner_[i] == kNone) taken += volumes[i];
-  }
-  for (std::size_t k = 0; k < size(); ++k) {
-    const auto members = sites(k);
-    if (members.empty()) continue;
-    if (std::all_of(members.begin(), members.end(), [&](std::uint32_t i) { return is_lost[i] != 0; })) least_[k] = most_[k] = 0;
-    wanted += least_[k];
+  if (is_each_its_own_ && std::none_of(is_lost.begin(), is_lost.end(), [](std::uint8_t lost) { return lost != 0; })) {
+    for (const double least : least_) wanted += least;
+  } else {
+    asked = least_;
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+      if (owner_[i] == kNone) taken += volumes[i];
+    for (std::size_t k = 0; k < size(); ++k) {
+      const auto members = sites(k);
+      if (members.empty()) continue;
+      if (std::all_of(members.begin(), members.end(), [&](std::uint32_t i) { return is_lost[i] != 0; })) least_[k] = most_[k] = 0;
+      wanted += least_[k];
+    }
   }
   const double room = std::max(0.0, domain_volume - taken);
   double share = 1;
@@ -127,7 +131,8 @@ void FitTargets::grant(std::span<const double> volumes, double domain_volume, st
     infeasible_ = "the demands exceed the domain: " + fixed(wanted, digits) + " m³ are asked for, " + fixed(room, digits) +
                   " m³ are there; each site gets " + fixed(100 * share, 1) + " % of its demand";
   }
-  for (std::uint32_t k = 0; k < size(); ++k) {
+  if (share < 1 && asked.empty()) asked = least_;
+  for (std::uint32_t k = 0; k < asked.size(); ++k) {
     if (sites(k).empty()) continue;
     least_[k] *= share;
     if (share < 1) most_[k] = least_[k];
@@ -139,9 +144,8 @@ void FitTargets::grant(std::span<const double> volumes, double domain_volume, st
 
 void FitTargets::measure(std::span<const double> volumes) {
   if (is_each_its_own_) {
-    // What the loop below comes to.
+    // What the loop below comes to: such demands always aim at the same.
     total_.assign(volumes.begin(), volumes.end());
-    aim_ = least_;
     return;
   }
   for (std::size_t k = 0; k < size(); ++k) {

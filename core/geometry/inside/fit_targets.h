@@ -60,6 +60,7 @@ class FitTargets {
   void measure(std::span<const double> volumes);
   double total(std::size_t target) const { return total_[target]; }
   double aim(std::size_t target) const { return aim_[target]; }
+  const std::vector<double>& aims() const { return aim_; }
   /// Has its weights to move: it is out of bounds, or at one of them.
   bool is_active(std::size_t target) const { return is_active_[target] != 0; }
   double error(std::size_t target) const {

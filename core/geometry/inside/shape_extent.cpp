@@ -112,9 +112,9 @@ void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure&
 
 // All sections are cut in one pass over the edges. Their heights ascend.
 double section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights) {
-  thread_local std::vector<std::uint32_t> below;  // per vertex: how many of the heights
-  thread_local std::vector<FaceCrossing> crossings;   // per height
-  thread_local std::vector<FacetSum> sums;        // per height
+  thread_local std::vector<std::uint32_t> below;     // per vertex: how many of the heights
+  thread_local std::vector<FaceCrossing> crossings;  // per height
+  thread_local std::vector<FacetSum> sums;           // per height
   below.clear();
   for (const Point3& v : cell.vertices)
     below.push_back(static_cast<std::uint32_t>(std::lower_bound(heights.begin(), heights.end(), v.z) - heights.begin()));
@@ -178,7 +178,7 @@ double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeas
 double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape) {
   constexpr double kOwnHeight = 0;
   double sum = section_areas(cell, squared_radius, {&kOwnHeight, 1});
-  std::vector<Point3> part;
+  thread_local std::vector<Point3> part;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     const PolyhedronFace& face = cell.faces[k];
     const double nz = face.normal.z;

@@ -10,6 +10,7 @@
 #include <queue>
 #include <utility>
 
+#include "core/base/differences.h"
 #include "core/geometry/touching_balls.h"
 
 namespace bl::geometry {
@@ -114,8 +115,7 @@ void StanceFinder::take_domain(const Domain& domain) {
 
 void StanceFinder::find_changed(std::span<const PowerSite> sites) {
   changed_.clear();
-  for (std::uint32_t i = 0; i < sites.size(); ++i)
-    if (!same_bits(sites[i].position, sites_[i].position) || !same_bits(sites[i].weight, sites_[i].weight)) changed_.push_back(i);
+  visit_differences(std::span<const PowerSite>(sites_), sites, [&](std::uint32_t i) { changed_.push_back(i); });
 }
 
 void StanceFinder::take_rules(std::span<const Standing> rules) {
@@ -353,7 +353,8 @@ Stance StanceFinder::measure(std::size_t i) {
 void StanceFinder::look_around(std::size_t i, Stance& stance) {
   bodies_[i].looks_around = true;
   buckets().near(sites_[i].position, radius_of(i), share_aside(), [&](std::size_t j) {
-    if (j != i && !is_beyond_stop(sites_[j].position, radius_of(j), i, stance.drop)) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
+    if (j != i && !is_beyond_stop(sites_[j].position, radius_of(j), i, stance.drop))
+      stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
   });
 }
 

@@ -76,7 +76,7 @@ class WeightFit {
   std::vector<PowerSite> sites_;
   FitTargets targets_;
   FitReport report_;
-  std::vector<double> even_;          // weights that rays have left for better ones
+  std::vector<double> even_;               // weights that rays have left for better ones
   std::vector<std::uint32_t> missed_;      // targets that are missed by more than the tolerance, ascending
   std::vector<std::uint8_t> movers_;       // per target: does it take part in the next step? Empty: all do
   std::vector<std::uint32_t> moving_;      // the targets that do where not all do, ascending
