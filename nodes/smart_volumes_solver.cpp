@@ -247,9 +247,11 @@ struct SmartVolumesSolver {
     const geometry::CellMeasure& cell = done.cells[i];
     const std::int32_t on = done.stances[i].stands_on;
     Table neighbours{{"node", "area"}, {}};
-    neighbours.rows.reserve(cell.facets.size());
+    const auto is_wall = [](const geometry::FacetArea& facet) { return facet.kind == geometry::FacetArea::Kind::site; };
+    neighbours.rows.resize(static_cast<std::size_t>(std::count_if(cell.facets.begin(), cell.facets.end(), is_wall)));
+    auto row = neighbours.rows.begin();
     for (const geometry::FacetArea& facet : cell.facets)
-      if (facet.kind == geometry::FacetArea::Kind::site) neighbours.rows.push_back({names[facet.index], facet.area});
+      if (is_wall(facet)) row->emplace_back(names[facet.index]), row++->emplace_back(facet.area);
     Reply reply{
         .wanted = wanted,
         .weight = weight,
