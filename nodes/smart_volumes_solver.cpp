@@ -194,6 +194,7 @@ struct SmartVolumesSolver {
     geometry::VolumeTick::Cache cache;
     std::vector<std::string> names;
     Volumes volumes;                                // of the members as they were read
+    std::vector<geometry::PowerSite> sites;         // the same, as the fit leaves them; only its memory is kept
     std::vector<double> volume, floor_area, error;  // of each member, as they came out
   };
 
@@ -338,7 +339,7 @@ struct SmartVolumesSolver {
     }
     take_members(in, sets.members, is_anew, kept.volumes);
     const Volumes& volumes = kept.volumes;
-    std::vector<geometry::PowerSite> sites = volumes.sites;
+    std::vector<geometry::PowerSite>& sites = kept.sites = volumes.sites;
     const geometry::VolumeTick now{.metric = in.metric,
                                    .samples = in.resolution,
                                    .method = in.method,
