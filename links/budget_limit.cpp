@@ -60,7 +60,6 @@ struct BudgetLimit {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     if (!(ends.budget > 0)) return Error{ErrorCode::missing, "from", "the group has no budget: set one, or take this link away"};
     Out out;
-    out.limits.values.resize(ends.demands.values.size());
     if (!(ends.spent > 0)) return out;
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};

@@ -69,7 +69,6 @@ struct SetCap {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Out out;
-    out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};

@@ -194,6 +194,7 @@ struct SmartVolumesSolver {
     geometry::VolumeTick::Cache cache;
     std::vector<std::string> names;
     Volumes volumes;                                // of the members as they were read
+    std::vector<geometry::PowerSite> sites;         // the same, as the fit leaves them; only its memory is kept
     std::vector<double> volume, floor_area, error;  // of each member, as they came out
   };
 
@@ -247,9 +248,11 @@ struct SmartVolumesSolver {
     const geometry::CellMeasure& cell = done.cells[i];
     const std::int32_t on = done.stances[i].stands_on;
     Table neighbours{{"node", "area"}, {}};
-    neighbours.rows.reserve(cell.facets.size());
+    const auto is_wall = [](const geometry::FacetArea& facet) { return facet.kind == geometry::FacetArea::Kind::site; };
+    neighbours.rows.resize(static_cast<std::size_t>(std::count_if(cell.facets.begin(), cell.facets.end(), is_wall)));
+    auto row = neighbours.rows.begin();
     for (const geometry::FacetArea& facet : cell.facets)
-      if (facet.kind == geometry::FacetArea::Kind::site) neighbours.rows.push_back({names[facet.index], facet.area});
+      if (is_wall(facet)) row->emplace_back(names[facet.index]), row++->emplace_back(facet.area);
     Reply reply{
         .wanted = wanted,
         .weight = weight,
@@ -336,7 +339,7 @@ struct SmartVolumesSolver {
     }
     take_members(in, sets.members, is_anew, kept.volumes);
     const Volumes& volumes = kept.volumes;
-    std::vector<geometry::PowerSite> sites = volumes.sites;
+    std::vector<geometry::PowerSite>& sites = kept.sites = volumes.sites;
     const geometry::VolumeTick now{.metric = in.metric,
                                    .samples = in.resolution,
                                    .method = in.method,

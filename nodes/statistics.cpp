@@ -18,7 +18,7 @@ struct Statistics {
     double value = 0;
   };
   struct Sets {
-    std::vector<Member> nodes;
+    Watched<Member> nodes;
   };
   struct Out {
     double sum = 0, mean = 0, minimum = 0, maximum = 0, spread = 0;
@@ -48,18 +48,19 @@ struct Statistics {
     if (in.port.path.empty())
       return Error{ErrorCode::missing, "port", "no port is chosen: choose one, such as `smart_volume.volume`"};
     Out out;
-    out.count = static_cast<std::int64_t>(sets.nodes.size());
-    if (sets.nodes.empty()) return out;
-    out.minimum = out.maximum = sets.nodes.front().value;
-    for (const Member& member : sets.nodes) {
+    const std::span<const Member> nodes = sets.nodes.all;
+    out.count = static_cast<std::int64_t>(nodes.size());
+    if (nodes.empty()) return out;
+    out.minimum = out.maximum = nodes.front().value;
+    for (const Member& member : nodes) {
       out.sum += member.value;
       out.minimum = std::min(out.minimum, member.value);
       out.maximum = std::max(out.maximum, member.value);
     }
-    const double count = static_cast<double>(sets.nodes.size());
+    const double count = static_cast<double>(nodes.size());
     out.mean = out.sum / count;
     double squares = 0;
-    for (const Member& member : sets.nodes) squares += (member.value - out.mean) * (member.value - out.mean);
+    for (const Member& member : nodes) squares += (member.value - out.mean) * (member.value - out.mean);
     out.spread = std::sqrt(squares / count);
     return out;
   }

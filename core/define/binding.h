@@ -119,14 +119,20 @@ struct is_optional_type : std::false_type {};
 template <class T>
 struct is_optional_type<std::optional<T>> : std::true_type {};
 
-/// A member that may stay without a value; the evaluation then proposes or replies nothing.
+/// Members that a value holds as they are.
 template <class T>
-std::optional<Value> offered(const T& member) {
+concept HeldAsItIs = std::same_as<T, double> || std::derived_from<Binding<T>, DirectBinding<T, Binding<T>::kKind>>;
+
+/// Of a member that may stay without a value: the evaluation then proposes or replies nothing.
+template <class T>
+void offer(const T& member, std::optional<Value>& value) {
   if constexpr (is_optional_type<T>::value) {
-    if (!member) return std::nullopt;
-    return Binding<typename T::value_type>::to_value(*member);
+    if (member) offer(*member, value);
+    else value.reset();
+  } else if constexpr (HeldAsItIs<T>) {
+    value.emplace(std::in_place_type<T>, member);
   } else {
-    return Binding<T>::to_value(member);
+    value = Binding<T>::to_value(member);
   }
 }
 
@@ -183,7 +189,7 @@ template <class Owner, class M>
 void bind_write(WriteDefinition& write, M Owner::*member) {
   write.kind = Binding<typename offered_type<M>::type>::kKind;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
-    values.front() = offered(static_cast<const Owner*>(owner)->*member);
+    offer(static_cast<const Owner*>(owner)->*member, values.front());
   };
 }
 template <class Owner, class M>
@@ -192,7 +198,7 @@ void bind_write(WriteDefinition& write, All<M> Owner::*member) {
   write.is_whole = true;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
     const auto& all = (static_cast<const Owner*>(owner)->*member).values;
-    for (std::size_t i = 0; i < values.size() && i < all.size(); ++i) values[i] = offered(all[i]);
+    for (std::size_t i = 0; i < values.size() && i < all.size(); ++i) offer(all[i], values[i]);
   };
 }
 

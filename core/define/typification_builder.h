@@ -172,23 +172,19 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   template <class Sets, class Member, class Reply>
   SetBuilder<Sets, Out, Member, Reply> set(std::string selection, Watched<Member> Sets::*members,
                                            SomeReplies<Reply> Out::*replies) {
-    definition_->sets.push_back({std::move(selection), {}, {}});
-    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, SetValues& values) {
-      auto& kept = values.loaded.of<std::vector<Member>>();
-      const bool is_anew = values.is_anew || kept.size() != values.members;
-      kept.resize(values.members);
-      if (is_anew) {
-        values.changed.resize(values.members);
-        std::iota(values.changed.begin(), values.changed.end(), 0u);
-      }
-      for (const std::uint32_t m : values.changed) load_row(definition, values, m, kept[m]);
-      static_cast<Sets*>(sets)->*members = {kept, values.changed, is_anew};
-    });
+    SetDefinition& set = add_set<Sets>(std::move(selection), members);
     replies_.emplace_back([replies](const Out& out, const SetDefinition& definition, SetValues& values) {
       values.answered = (out.*replies).members;
       write_rows(std::span((out.*replies).replies), definition, values);
     });
-    return SetBuilder<Sets, Out, Member, Reply>(definition_->sets.back());
+    return SetBuilder<Sets, Out, Member, Reply>(set);
+  }
+  /// The same for an evaluation that replies nothing: of its members, those that have changed are read again.
+  template <class Sets, class Member>
+  SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, Watched<Member> Sets::*members) {
+    SetDefinition& set = add_set<Sets>(std::move(selection), members);
+    replies_.emplace_back([](const Out&, const SetDefinition&, SetValues&) {});
+    return SetBuilder<Sets, Out, Member, NoReply>(set);
   }
 
   static TypificationDefinition build() {
@@ -214,6 +210,22 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
       auto& list = static_cast<Sets*>(sets)->*members;
       list.resize(values.members);
       for (std::size_t m = 0; m < values.members; ++m) load_row(definition, values, m, list[m]);
+    });
+    return definition_->sets.back();
+  }
+  template <class Sets, class Member>
+  SetDefinition& add_set(std::string selection, Watched<Member> Sets::*members) {
+    definition_->sets.push_back({std::move(selection), {}, {}});
+    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, SetValues& values) {
+      auto& kept = values.loaded.of<std::vector<Member>>();
+      const bool is_anew = values.is_anew || kept.size() != values.members;
+      kept.resize(values.members);
+      if (is_anew) {
+        values.changed.resize(values.members);
+        std::iota(values.changed.begin(), values.changed.end(), 0u);
+      }
+      for (const std::uint32_t m : values.changed) load_row(definition, values, m, kept[m]);
+      static_cast<Sets*>(sets)->*members = {kept, values.changed, is_anew};
     });
     return definition_->sets.back();
   }

@@ -33,6 +33,20 @@ const std::string& Table::text(std::size_t row, std::string_view name) const { r
 const Numbers& Table::numbers(std::size_t row, std::string_view name) const { return field<Numbers>(row, name); }
 const Indices& Table::indices(std::size_t row, std::string_view name) const { return field<Indices>(row, name); }
 
+bool is_same_content(const Value& a, const Value& b) { return std::operator==(a, b); }
+
+std::vector<Value> copied(const std::vector<Value>& values) {
+  std::vector<Value> copies;
+  copies.reserve(values.size());
+  for (const Value& value : values) {
+    if (const auto* number = std::get_if<double>(&value)) copies.emplace_back(std::in_place_type<double>, *number);
+    else if (const auto* text = std::get_if<std::string>(&value)) copies.emplace_back(std::in_place_type<std::string>, *text);
+    else if (const auto* flag = std::get_if<bool>(&value)) copies.emplace_back(std::in_place_type<bool>, *flag);
+    else copies.push_back(value);
+  }
+  return copies;
+}
+
 std::string_view name_of(ValueKind kind) {
   switch (kind) {
     case ValueKind::boolean: return "true or false";
@@ -186,7 +200,12 @@ struct Adder {
 void add_to(Hash& hash, const Value& value) {
   if (std::holds_alternative<Made>(value)) return;
   hash.add(std::uint64_t{value.index()});
-  std::visit(Adder{hash}, value);
+  // What most ports hold goes without a look into the table of a visit.
+  const Adder add{hash};
+  if (const auto* number = std::get_if<double>(&value)) return add(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return add(*text);
+  if (const auto* flag = std::get_if<bool>(&value)) return add(*flag);
+  std::visit(add, value);
 }
 
 double as_number(const Value& value) {

@@ -11,9 +11,9 @@
 #include "core/base/hash.h"
 #include "core/base/made.h"
 #include "core/base/mesh.h"
-#include "core/base/number_list.h"
 #include "core/base/vector.h"
 #include "core/define/payload.h"
+#include "core/define/table_row.h"
 
 namespace bl {
 
@@ -44,11 +44,6 @@ struct Selection {
   bool is_empty() const { return ids.empty() && typification.empty() && tag.empty(); }
   bool is_query() const { return !typification.empty() || !tag.empty(); }
 };
-
-/// One field of a table: a number, a text, or a list.
-using Scalar = std::variant<double, std::string, Numbers, Indices>;
-
-using TableRow = std::vector<Scalar>;
 
 /// Rows under named columns; the columns are those that the port declares, in that order.
 struct Table {
@@ -97,6 +92,21 @@ enum class ValueKind {
 using Value =
     std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>, Shared<std::vector<std::string>>,
                  Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue, CommandList>;
+
+/// As variants compare. Nearly all ports hold one of the kinds named here, which cost no call: variants of so many kinds look up
+/// a function for each comparison.
+bool is_same_content(const Value& a, const Value& b);
+inline bool operator==(const Value& a, const Value& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* number = std::get_if<double>(&a)) return *number == *std::get_if<double>(&b);
+  if (const auto* text = std::get_if<std::string>(&a)) return *text == *std::get_if<std::string>(&b);
+  if (const auto* flag = std::get_if<bool>(&a)) return *flag == *std::get_if<bool>(&b);
+  if (const auto* integer = std::get_if<std::int64_t>(&a)) return *integer == *std::get_if<std::int64_t>(&b);
+  if (const auto* point = std::get_if<Vector3>(&a)) return *point == *std::get_if<Vector3>(&b);
+  return is_same_content(a, b);
+}
+/// Copies of all of them, for the same reason without a call for most.
+std::vector<Value> copied(const std::vector<Value>& values);
 
 std::string_view name_of(ValueKind kind);
 /// Are values of this kind computed from others, so that no file holds them?

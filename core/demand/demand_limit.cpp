@@ -32,6 +32,18 @@ std::vector<std::size_t> all_of(const LimitedVolumes& held) {
   return all;
 }
 
+// Of so many volumes, found by their number. Mostly the first one has all that it wants, and there is no larger share.
+template <class Which>
+double share_granted(const LimitedVolumes& held, std::size_t count, const Which& which) {
+  bool is_any_free = false;
+  for (std::size_t k = 0; k < count && !is_any_free; ++k) is_any_free = !held.locked[which(k)];
+  double share = kLeastGranted;
+  for (std::size_t k = 0; k < count && share < 1; ++k)
+    if (const std::size_t i = which(k); !is_any_free || !held.locked[i])
+      share = std::max(share, granted_share(held.demands[i], held.limits[i]));
+  return share;
+}
+
 }  // namespace
 
 std::string found_of_allowed(double found, double allowed, int decimals, std::string_view unit) {
@@ -44,11 +56,7 @@ std::string found_of_allowed(double found, double allowed, int decimals, std::st
 }
 
 double share_granted(const LimitedVolumes& held, const std::vector<std::size_t>& which) {
-  const bool is_any_free = std::any_of(which.begin(), which.end(), [&](std::size_t i) { return !held.locked[i]; });
-  double share = kLeastGranted;
-  for (const std::size_t i : which)
-    if (!is_any_free || !held.locked[i]) share = std::max(share, granted_share(held.demands[i], held.limits[i]));
-  return share;
+  return share_granted(held, which.size(), [&](std::size_t k) { return which[k]; });
 }
 
 bool is_at_least(const LimitedVolumes& held, std::size_t i, double least) {
@@ -87,8 +95,11 @@ std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>
 
 std::vector<std::optional<double>> limits_under_cap(const LimitedVolumes& held, const Cap& cap) {
   const double answer = 1 + cap.gain * (answer_within(cap.most, cap.now, cap.tolerance) - 1);
-  const double share = std::max(cap.least, share_granted(held, all_of(held)) * answer);
+  const double granted = share_granted(held, held.ids.size(), [](std::size_t i) { return i; });
+  const double share = std::max(cap.least, granted * answer);
   std::vector<std::optional<double>> limits;
+  if (share >= 1) return limits;
+  limits.reserve(held.demands.size());
   for (const double demand : held.demands) limits.push_back(limit_that_grants(demand, share));
   return limits;
 }

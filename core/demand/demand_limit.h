@@ -68,7 +68,7 @@ struct Cap {
   double tolerance;  ///< the dead band, as a share of `most`
   double least;      ///< the share of a demand that the cap does not take away
 };
-/// The limits that bring the sum under the cap: all demands in one proportion.
+/// The limits that bring the sum under the cap: all demands in one proportion. Empty where all of them are granted whole.
 std::vector<std::optional<double>> limits_under_cap(const LimitedVolumes& held, const Cap& cap);
 /// Why limits cannot bring the sum under the cap, and what helps; empty while they can. `found` is the sum and the cap in words,
 /// `raise` what people may raise.

@@ -40,22 +40,47 @@ std::optional<std::size_t> first_in(const List& list, const OfLeaf& may_have, co
   return std::nullopt;
 }
 
-std::uint64_t hash_of(const NodeState& node, const NodePlan& plan) {
-  Hash hash;
-  hash.add(std::string_view(plan.id));
-  for (std::size_t t = 0; t < node.types.size(); ++t) {
-    hash.add(std::string_view(plan.types[t].definition->id));
-    // Links that read it ask whether it fails; the reason is for people.
-    if (node.types[t].error) hash.add(std::string_view("fails"));
-    for (const Value& value : node.types[t].values) add_to(hash, value);
-  }
-  return hash.value();
+// A node that was edited.
+struct Edited {
+  NodeState* node = nullptr;
+  const NodePlan* plan = nullptr;
+  Hash hash = {};
+};
+
+bool has_same_types(const NodePlan& a, const NodePlan& b) {
+  return std::equal(a.types.begin(), a.types.end(), b.types.begin(), b.types.end(),
+                    [](const TypePlan& x, const TypePlan& y) { return x.definition == y.definition; });
 }
 
-void sum_up(NodeState& node, const NodePlan& plan) {
-  node.hash = hash_of(node, plan);
-  node.residual = residual_of(node, plan);
-  node.has_failure = fails(node);
+// Of nodes with the same typifications, port by port: in each hash every step waits for the one before, but the processor takes
+// the steps of several hashes at once.
+void hash_together(std::span<Edited> some) {
+  for (Edited& one : some) one.hash.add(std::string_view(one.plan->id));
+  for (std::size_t t = 0; t < some.front().node->types.size(); ++t) {
+    const TypificationDefinition& definition = *some.front().plan->types[t].definition;
+    for (Edited& one : some) {
+      one.hash.add(std::string_view(definition.id));
+      // Links that read it ask whether it fails; the reason is for people.
+      if (one.node->types[t].error) one.hash.add(std::string_view("fails"));
+    }
+    for (std::size_t p = 0; p < definition.ports.size(); ++p)
+      for (Edited& one : some) add_to(one.hash, one.node->types[t].values[p]);
+  }
+}
+
+void sum_up_edited(const Plan& plan, NodeStates::Draft& nodes) {
+  constexpr std::size_t kTogether = 4;
+  std::vector<Edited> edited;
+  for (const std::uint32_t n : nodes.own_items()) edited.push_back({&nodes.edit(n), &plan.nodes[n]});
+  for (std::size_t first = 0, end = 0; first < edited.size(); first = end) {
+    while (end < edited.size() && end < first + kTogether && has_same_types(*edited[first].plan, *edited[end].plan)) ++end;
+    hash_together(std::span(edited).subspan(first, end - first));
+  }
+  for (const Edited& one : edited) {
+    one.node->hash = one.hash.value();
+    one.node->residual = residual_of(*one.node, *one.plan);
+    one.node->has_failure = fails(*one.node);
+  }
 }
 
 std::uint64_t hash_of(const LinkState& link, const Plan& plan, std::size_t index) {
@@ -84,8 +109,9 @@ std::uint64_t hash_of_items(const Items& items) {
 State StateDraft::publish() && {
   const Plan& plan = *state.plan;
   State published = std::move(state);
+  sum_up_edited(plan, nodes);
   published.nodes =
-      std::move(nodes).publish([&](NodeState& node, std::size_t n) { sum_up(node, plan.nodes[n]); },
+      std::move(nodes).publish([](NodeState&, std::size_t) {},
                                [&](const auto& items, std::size_t) {
                                  NodeDigest digest{.hash = hash_of_items(items), .residual = 0, .has_failure = false};
                                  for (std::size_t k = 0; k < items.size() && items[k]; ++k) {

@@ -31,7 +31,7 @@ std::size_t content_bytes(const Shared<Selection>& selection) {
 std::size_t content_bytes(const Shared<Table>& table) {
   std::size_t bytes = kBytesOfBlock + sizeof(Table) + bl::heap_bytes(table->columns) + bl::heap_bytes(table->rows);
   for (const TableRow& row : table->rows) {
-    bytes += bl::heap_bytes(row);
+    bytes += row.bytes();
     for (const Scalar& cell : row) {
       if (const auto* text = std::get_if<std::string>(&cell)) bytes += bl::heap_bytes(*text);
       else if (const auto* numbers = std::get_if<Numbers>(&cell)) bytes += content_bytes(*numbers);

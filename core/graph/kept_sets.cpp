@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/sorted_runs.h"
+
 namespace bl {
 
 namespace {
@@ -15,7 +17,8 @@ bool read_member(const StateDraft& draft, const SetPlan& plan, std::size_t m, Se
   for (std::size_t r = m * count; r < (m + 1) * count; ++r) {
     const Value& value = draft.value(plan.reads[r]);
     if (set.reads[r] == value) continue;
-    set.reads[r] = value;
+    if (const auto* number = std::get_if<double>(&value)) set.reads[r] = *number;
+    else set.reads[r] = value;
     differs = true;
   }
   return differs;
@@ -53,7 +56,7 @@ std::vector<std::uint32_t> KeptSets::may_differ(const StateDraft& draft) const {
   const std::vector<std::uint32_t> own = draft.nodes.own_items();
   nodes.insert(nodes.end(), own.begin(), own.end());
   each_difference(nodes_, draft.state.nodes, [&](std::uint32_t n) { nodes.push_back(n); });
-  std::sort(nodes.begin(), nodes.end());
+  sort_runs(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
@@ -88,7 +91,8 @@ std::span<SetValues> KeptSets::read(const StateDraft& draft, const SetGroup& gro
       if (!is_other && !seen.may_differ) continue;
       // What is another node may have lost its replies, whatever is read of it.
       if (read_member(draft, plans[s], m, set) || is_other) set.changed.push_back(m);
-      seen = {now, false};
+      if (is_other) seen.node = now;
+      seen.may_differ = false;
     }
   }
   return sets_;
@@ -105,7 +109,10 @@ void KeptSets::note_written(const StateDraft& draft, const SetGroup& group, bool
     for (const std::uint32_t n : written_) {
       at = std::lower_bound(at, members.end(), n);
       if (at == members.end()) break;
-      if (*at == n) seen_[s][static_cast<std::size_t>(at - members.begin())] = {draft.nodes.item(n), true};
+      if (*at != n) continue;
+      Seen& seen = seen_[s][static_cast<std::size_t>(at - members.begin())];
+      if (const auto& now = draft.nodes.item(n); seen.node != now) seen.node = now;
+      seen.may_differ = true;
     }
   }
 }

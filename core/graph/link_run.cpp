@@ -38,7 +38,6 @@ LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, std::size_t targets,
   if (whole == nullptr)
     for (const LinkRead& read : definition_.reads) own_reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
   for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
-  collected_.resize(targets);
   has_failed_.resize(targets);
 }
 
@@ -74,6 +73,8 @@ LinkRemarks LinkRun::remarks() const {
 
 std::vector<Voice> LinkRun::voices(const std::vector<Voice>& last) {
   std::vector<Voice> voices;
+  if (collected_.empty() && failures_ == 0) return voices;
+  collected_.resize(has_failed_.size());
   for (std::size_t i = 0; i < collected_.size(); ++i) {
     const std::size_t index = targets_.empty() ? i : targets_[i];
     const PortRef target = plan_.targets[index];
@@ -156,7 +157,8 @@ Result<void> LinkRun::read(std::size_t f, std::size_t t) {
 
 Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
   if (auto done = read(f, t); !done) return done;
-  for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
+  for (auto& values : writes_.values)
+    if (pairs_ > 1) std::fill(values.begin(), values.end(), std::nullopt);  // of the pair before
   if (auto done = definition_.evaluate(plan_.parameters.get(), *reads_, writes_, tick); !done) return done;
   for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
     const LinkWrite& write = definition_.proposes[w];
@@ -173,8 +175,10 @@ Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
     for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
       if (const auto& value = writes_.values[w][i]) {
         const std::uint32_t target = plan_.writes[w][first + i];
-        if (const std::size_t slot = slot_of(target); slot != kNone)
+        if (const std::size_t slot = slot_of(target); slot != kNone) {
+          if (collected_.empty()) collected_.resize(has_failed_.size());
           collected_[slot].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
+        }
       }
   }
   return {};

@@ -68,7 +68,7 @@ class LinkRun {
   LinkReads* reads_;  // those of whole ends are there already where they are kept
   LinkWrites writes_;
   std::vector<std::uint32_t> targets_;  // the only ones, by index, ascending; empty: all
-  std::vector<Collected> collected_;    // by target
+  std::vector<Collected> collected_;    // by target; empty while no pair has said anything
   std::vector<bool> has_failed_;        // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
   LinkRemarks remarks_;

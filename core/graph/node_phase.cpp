@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/sorted_runs.h"
 #include "core/graph/phases.h"
 
 namespace bl {
@@ -248,7 +249,7 @@ State commit(TickWork&& work) {
   for (const std::uint32_t n : own_nodes) add_changes(n, frozen.nodes[n], next.nodes[n], next.plan->nodes[n], next.due.changed);
   for (const PortRef& ref : next.due.changed)
     if (const auto* point = std::get_if<Point3>(&frozen.value(ref))) next.due.were.push_back({ref, *point});
-  std::sort(next.due.replied.begin(), next.due.replied.end());
+  sort_runs(next.due.replied);
   std::sort(next.due.links.begin(), next.due.links.end());
   next.hash = hash_of(next);
   return next;

@@ -194,7 +194,7 @@ NodeChange resolve_node(const State& frozen, std::uint32_t n, const RestLimits& 
       const Value& before = frozen.nodes[n].types[t].values[p];
       if (port.rule == CombineRule::none) {
         state.values[p] = type.set_values[p];
-        state.tension[p] = tension;
+        state.tension.set(p, tension);
         continue;
       }
       if (port.rule == CombineRule::sum) {
@@ -212,8 +212,9 @@ NodeChange resolve_node(const State& frozen, std::uint32_t n, const RestLimits& 
         node_change.change = change;
         node_change.restless = {n, t, p};
       }
-      state.tension[p] = tension;
+      state.tension.set(p, tension);
     }
+    state.tension.tidy();
   }
   return node_change;
 }

@@ -1,5 +1,6 @@
 // Phase 6: solvers over sets of nodes, within the tick or beside it.
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -69,9 +70,14 @@ std::vector<bool> due_groups(const TickWork& work) {
   const SetDependents& dependents = *work.frozen.plan->dependents->sets;
   std::vector<bool> is_due(dependents.groups.size(), work.frozen.due.is_everything);
   for (std::size_t g = 0; g < is_due.size(); ++g) is_due[g] = is_due[g] || dependents.groups[g].is_always_due;
+  // Mostly the first few ports have asked all groups.
+  auto left = std::count(is_due.begin(), is_due.end(), false);
   const auto add = [&](const NumberLists& groups, const std::vector<PortRef>& ports) {
-    for (const PortRef& ref : ports)
-      for (const std::uint32_t group : groups[dependents.port_index(ref)]) is_due[group] = true;
+    for (auto ref = ports.begin(); ref != ports.end() && left > 0; ++ref)
+      for (const std::uint32_t group : groups[dependents.port_index(*ref)]) {
+        left -= is_due[group] ? 0 : 1;
+        is_due[group] = true;
+      }
   };
   add(dependents.groups_reading, work.frozen.due.replied);
   add(dependents.groups_reading, work.moved);
@@ -86,6 +92,32 @@ std::vector<bool> due_groups(const TickWork& work) {
 
 SetMemo& memo_of(SetMemos& memos, const Plan& plan, const SetGroup& group) {
   return memos[{plan.nodes[group.node].id, plan.nodes[group.node].types[group.type].definition->id}];
+}
+
+// Calls take(target, value) for each value that a set has been given to write and that can be stored; false where one cannot. To
+// each member the values come in the order of its ports, where nobody else writes to these: what is written then ascends nearly.
+template <class Take>
+bool each_reply(SetCase& one, const Take& take) {
+  bool is_complete = true;
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < one.sets.size(); ++s) {
+    SetValues& set = one.sets[s];
+    if (set.writes.empty()) continue;
+    const std::vector<PortRef>& targets = one.plans[s].writes;
+    const std::size_t count = targets.size() / one.plans[s].members.size(), rows = set.writes.size() / count;
+    order.resize(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (one.group->writes_alone)
+      std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return targets[a] < targets[b]; });
+    for (std::size_t row = 0; row < rows; ++row)
+      for (const std::size_t w : order) {
+        std::optional<Value>& value = set.writes[row * count + w];
+        if (!value) continue;
+        if (make_storable(*value)) take(targets[set.member_of(row) * count + w], std::move(*value));
+        else is_complete = false;
+      }
+  }
+  return is_complete;
 }
 
 // Whether all that it replies can be written. What nobody else writes to is written at once.
@@ -104,21 +136,14 @@ bool evaluate_now(TickWork& work, SetCase& one, ThreadPool& pool, std::vector<Re
     if (!(before[p] == state.values[p]))
       next.state.due.replied.push_back({one.node(), static_cast<std::uint16_t>(one.type()), p});
   if (!is_good) return false;
-  bool is_complete = true;
-  for (std::size_t s = 0; s < one.sets.size(); ++s)
-    for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
-      auto& value = one.sets[s].writes[w];
-      if (!value) continue;
-      if (make_storable(*value)) {
-        const PortRef target = target_of(one, s, w);
-        if (one.group->writes_alone) write_reply(next, target, std::move(*value));
-        else replies.push_back({.target = target, .value = std::move(*value), .node = one.node(), .type = one.type()});
-        continue;
-      }
-      is_complete = false;
-      state.error =
-          Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
-    }
+  ReplyWriter writer(next);
+  const bool is_complete = each_reply(one, [&](PortRef target, Value&& value) {
+    if (one.group->writes_alone) writer.write(target, std::move(value));
+    else replies.push_back({.target = target, .value = std::move(value), .node = one.node(), .type = one.type()});
+  });
+  if (!is_complete)
+    state.error =
+        Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
   return is_complete;
 }
 

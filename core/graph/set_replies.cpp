@@ -26,17 +26,25 @@ bool is_negative_zero(double number) { return number == 0 && std::signbit(number
 
 }  // namespace
 
-void write_reply(StateDraft& next, PortRef target, Value&& value) {
-  if (next.value(target) == value) return;
-  next.edit(target) = std::move(value);
-  next.state.due.replied.push_back(target);
+void ReplyWriter::write(PortRef target, Value&& value) {
+  if (now_ == nullptr || target.node != at_.node || target.type != at_.type) {
+    now_ = &next_.nodes[target.node].types[target.type];
+    own_ = nullptr;
+  }
+  at_ = target;
+  if (now_->values[target.port] == value) return;
+  if (own_ == nullptr) now_ = own_ = &next_.edit(target.node, target.type);
+  if (const auto* number = std::get_if<double>(&value)) own_->values[target.port] = *number;
+  else own_->values[target.port] = std::move(value);
+  next_.state.due.replied.push_back(target);
 }
 
 void write_replies(StateDraft& next, std::vector<Reply>& replies) {
   if (replies.empty()) return;
   const Plan& plan = *next.state.plan;
   if (!has_rivals(*plan.dependents->sets, replies)) {
-    for (Reply& reply : replies) write_reply(next, reply.target, std::move(reply.value));
+    ReplyWriter writer(next);
+    for (Reply& reply : replies) writer.write(reply.target, std::move(reply.value));
     return;
   }
   std::vector<std::size_t> order(replies.size());
@@ -45,6 +53,7 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
     return replies[a].target != replies[b].target ? replies[a].target < replies[b].target : a < b;
   });
   std::vector<std::pair<std::size_t, std::size_t>> late;  // replies that came too late, and those before them
+  ReplyWriter writer(next);
   for (std::size_t first = 0, at = 0; at < order.size(); ++at) {
     Reply& reply = replies[order[at]];
     if (at > 0 && reply.target == replies[order[first]].target) {
@@ -52,7 +61,7 @@ void write_replies(StateDraft& next, std::vector<Reply>& replies) {
       continue;
     }
     first = at;
-    write_reply(next, reply.target, std::move(reply.value));
+    writer.write(reply.target, std::move(reply.value));
   }
   std::sort(late.begin(), late.end());
   for (const auto& [at, before] : late) {

@@ -90,11 +90,12 @@ SavedState save(const State& state) {
 
 NodeState fresh_node(const NodePlan& plan) {
   NodeState fresh;
-  for (const TypePlan& type : plan.types)
-    fresh.types.push_back({.values = type.set_values,
-                           .tension = std::vector<double>(type.set_values.size(), 0),
-                           .error = {},
-                           .is_evaluated = false});
+  fresh.types.reserve(plan.types.size());
+  for (const TypePlan& type : plan.types) {
+    TypeState& state = fresh.types.emplace_back();
+    state.values = copied(type.set_values);
+    state.tension = Tensions(type.set_values.size());
+  }
   return fresh;
 }
 

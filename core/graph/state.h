@@ -12,14 +12,23 @@
 #include "core/define/link_remark.h"
 #include "core/graph/analysis.h"
 #include "core/graph/plan.h"
+#include "core/graph/tensions.h"
 
 namespace bl {
 
 struct TypeState {
-  std::vector<Value> values;    ///< effective and computed values, in the order of the declaration
-  std::vector<double> tension;  ///< per port, in its unit: how far the proposals disagree with the effective value
-  std::optional<Error> error;   ///< the error of the last evaluation, if it failed; the values are then the last good ones
-  bool is_evaluated = false;    ///< the computed values follow from the settings beside them
+  TypeState() = default;
+  TypeState(const TypeState& other)
+      : values(copied(other.values)), tension(other.tension), error(other.error), is_evaluated(other.is_evaluated) {}
+  TypeState(TypeState&&) = default;
+  TypeState& operator=(const TypeState&) = default;
+  TypeState& operator=(TypeState&&) = default;
+  ~TypeState() = default;
+
+  std::vector<Value> values;   ///< effective and computed values, in the order of the declaration
+  Tensions tension;            ///< per port, in its unit: how far the proposals disagree with the effective value
+  std::optional<Error> error;  ///< the error of the last evaluation, if it failed; the values are then the last good ones
+  bool is_evaluated = false;   ///< the computed values follow from the settings beside them
 };
 
 struct NodeState {

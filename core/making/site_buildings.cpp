@@ -177,7 +177,7 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
     for (const Point3& corner : made.outer) {
-      std::vector<Scalar>& row = site.rows.rows.emplace_back();
+      TableRow& row = site.rows.rows.emplace_back();
       for (const std::string& column : site.rows.columns)
         if (column == "name") row.emplace_back(node);
         else

@@ -78,7 +78,7 @@ double severity_of(const State& state, PortRef ref, double tension) { return ten
 
 void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePort>& tense) {
   for (std::uint16_t t = 0; t < state.nodes[node].types.size(); ++t) {
-    const std::vector<double>& tension = state.nodes[node].types[t].tension;
+    const Tensions& tension = state.nodes[node].types[t].tension;
     for (std::uint16_t p = 0; p < tension.size(); ++p)
       if (const PortRef ref{node, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
   }

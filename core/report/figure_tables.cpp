@@ -72,7 +72,7 @@ CsvFile part_file(const State& state, const FigureTable& table, const FigurePart
     if (content == nullptr) continue;
     if (header.size() == 1)
       for (const ColumnDefinition& column : port->columns) header.push_back(csv_heading(column.id, column.unit));
-    for (const std::vector<Scalar>& fields : (*content)->rows) {
+    for (const TableRow& fields : (*content)->rows) {
       std::vector<csv::CsvCell>& row = rows.emplace_back();
       row.emplace_back(state.plan->nodes[node].id);
       for (const Scalar& field : fields) row.push_back(cell_of(field));
