@@ -18,12 +18,13 @@
 
 namespace bl {
 
-/// An immutable list of T in leaves of 32 items; each leaf also holds a Digest of its items, such as their sum or their hash.
+/// An immutable list of T in leaves of 16 items; each leaf also holds a Digest of its items, such as their sum or their hash.
 /// Copies share leaves and items, and nobody can write to what is shared: new lists come out of a Draft.
 template <class T, class Digest>
 class SharedList {
  public:
-  static constexpr std::size_t kLeaf = 32;
+  // Fewer items make more leaves to list, more of them more items to share anew where few have changed.
+  static constexpr std::size_t kLeaf = 16;
 
   SharedList() : leaves_(std::make_shared<const Leaves>()) {}
 
