@@ -1,6 +1,10 @@
 // The corners of a triangle's parts are moved onto the ball once, although up to six parts meet in each.
 #include "core/facade/ball_pieces.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,17 +18,67 @@ namespace {
 // Rows of small triangles in each coarse one: the area comes out within some parts in a thousand before scaling.
 constexpr int kParts = 6;
 
+// Two numbers worked on at a time, where the compiler would not see by itself that it may.
+typedef double Pair __attribute__((vector_size(16), aligned(8)));
+
+Pair pair_at(const double* from) { return *reinterpret_cast<const Pair*>(from); }
+void put_pair(double* to, const Pair& pair) { *reinterpret_cast<Pair*>(to) = pair; }
+
+Pair root_of(const Pair& pair) {
+#if defined(__SSE2__)
+  return reinterpret_cast<Pair>(_mm_sqrt_pd(reinterpret_cast<__m128d>(pair)));
+#else
+  return Pair{std::sqrt(pair[0]), std::sqrt(pair[1])};
+#endif
+}
+
+// Two vectors at a time.
+struct VectorPair {
+  Pair x, y, z;
+};
+
+VectorPair both(const Vector3& a) { return {Pair{a.x, a.x}, Pair{a.y, a.y}, Pair{a.z, a.z}}; }
+VectorPair operator+(const VectorPair& a, const VectorPair& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+VectorPair operator-(const VectorPair& a, const VectorPair& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+VectorPair operator*(const Pair& s, const VectorPair& a) { return {s * a.x, s * a.y, s * a.z}; }
+VectorPair operator/(const VectorPair& a, const Pair& s) { return {a.x / s, a.y / s, a.z / s}; }
+Pair dot(const VectorPair& a, const VectorPair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+VectorPair cross(const VectorPair& a, const VectorPair& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// Vectors by coordinate.
+template <std::size_t kCount>
+struct Vectors {
+  std::array<double, kCount> x{}, y{}, z{};
+
+  Vector3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  VectorPair from(std::size_t i) const { return {pair_at(&x[i]), pair_at(&y[i]), pair_at(&z[i])}; }
+  void put(std::size_t i, const VectorPair& pair) {
+    put_pair(&x[i], pair.x);
+    put_pair(&y[i], pair.y);
+    put_pair(&z[i], pair.z);
+  }
+};
+
 // What of a small triangle lies beyond the ball, moved onto it: as make_mesh does it.
 struct Projection {
   Point3 centre, from;  // of the ball, and what vertices move towards
   double squared = 0;
 
   double beyond(const Point3& p) const { return squared_norm(p - centre) - squared; }
-  Point3 on_ball(const Point3& p) const {
-    const Vector3 way = p - from, start = from - centre;
-    const double a = squared_norm(way), b = dot(way, start), rest = std::max(0.0, squared - squared_norm(start));
-    const double root = std::sqrt(b * b + a * rest), t = b > 0 ? rest / (b + root) : (root - b) / a;
-    return from + std::min(1.0, t) * way;
+  Pair beyond(const VectorPair& p) const {
+    const VectorPair way = p - both(centre);
+    return dot(way, way) - Pair{squared, squared};
+  }
+  VectorPair on_ball(const VectorPair& p) const {
+    const Vector3 start = from - centre;
+    const double room = std::max(0.0, squared - squared_norm(start));
+    const VectorPair way = p - both(from);
+    const Pair rest{room, room}, one{1, 1}, zero{}, a = dot(way, way), b = dot(way, both(start)),
+                                                    root = root_of(b * b + a * rest);
+    const Pair t = (b > zero ? rest : root - b) / (b > zero ? b + root : a);
+    return both(from) + (t < one ? t : one) * way;
   }
   // Where the ball's surface crosses an edge with one end on each side; `c` is how far `a` lies beyond it.
   Point3 crossing(const Point3& a, const Point3& b, double c) const {
@@ -35,12 +89,47 @@ struct Projection {
   }
 };
 
-// Those who meet in a corner share what is known of it.
-struct GridPoint {
-  Point3 place;
-  double beyond = 0;  // squared, of the ball; the other two count where it is not negative
-  Point3 on_ball;
-  Vector3 outward;  // from the ball's centre to there
+// The points of a divided triangle, row by row; those who meet in one share what is known of it. Pairs may reach beyond the end.
+constexpr std::uint32_t kPoints = (kParts + 1) * (kParts + 2) / 2, kRoom = kPoints + 2;
+
+struct Grid {
+  Vectors<kRoom> places;
+  std::array<double, kRoom> beyond{};  // squared, of the ball; the other two count where it is not negative
+  Vectors<kRoom> on_ball;
+  Vectors<kRoom> outward;  // from the ball's centre to there
+};
+
+// How much of each side of the triangle leads to a point.
+struct Shares {
+  std::array<double, kRoom> along{}, across{};
+  Shares() {
+    for (int row = 0, k = 0; row <= kParts; ++row)
+      for (int i = 0; i <= row; ++i, ++k) {
+        along[static_cast<std::size_t>(k)] = static_cast<double>(row - i) / kParts;
+        across[static_cast<std::size_t>(k)] = static_cast<double>(i) / kParts;
+      }
+  }
+};
+
+// The small triangles of one row that stand on it, or of those that hang from it, as if all their corners were on the ball.
+struct RowOfParts {
+  static constexpr std::size_t kMost = kParts + 2;
+  Vectors<kMost> normals, outward;
+  std::array<double, kMost> sizes{}, areas{};
+
+  void measure(const Grid& grid, std::size_t count, const std::array<std::uint32_t, 3>& corners) {
+    for (std::size_t k = 0; k < count; k += 2) {
+      const std::size_t i = corners[0] + k, j = corners[1] + k, l = corners[2] + k;
+      const VectorPair a = grid.on_ball.from(i), doubled = cross(grid.on_ball.from(j) - a, grid.on_ball.from(l) - a);
+      const Pair size = root_of(dot(doubled, doubled)), half{0.5, 0.5}, zero{};
+      const VectorPair normal = doubled / size;
+      const Pair area = half * dot(normal, doubled);
+      normals.put(k, normal);
+      outward.put(k, grid.outward.from(i) + grid.outward.from(j) + grid.outward.from(l));
+      put_pair(&sizes[k], size);
+      put_pair(&areas[k], zero < area ? area : zero);
+    }
+  }
 };
 
 class PieceMaker {
@@ -53,9 +142,11 @@ class PieceMaker {
     divide(corners);
     for (std::uint32_t row = 0; row < kParts; ++row) {
       const std::uint32_t above = row * (row + 1) / 2, below = above + row + 1;
+      standing_.measure(grid_, row + 1, {above, below, below + 1});
+      hanging_.measure(grid_, row, {above, below + 1, above + 1});
       for (std::uint32_t k = 0; k <= row; ++k) {
-        add_part({above + k, below + k, below + k + 1});
-        if (k < row) add_part({above + k, below + k + 1, above + k + 1});
+        add_part({above + k, below + k, below + k + 1}, standing_, k);
+        if (k < row) add_part({above + k, below + k + 1, above + k + 1}, hanging_, k);
       }
     }
   }
@@ -66,42 +157,35 @@ class PieceMaker {
   static constexpr double kFarEnough = 1e-8;
 
   void divide(const std::array<Point3, 3>& corners) {
-    const Vector3 along = corners[1] - corners[0], across = corners[2] - corners[0];
+    static const Shares shares;
+    const VectorPair origin = both(corners[0]), along = both(corners[1] - corners[0]), across = both(corners[2] - corners[0]);
+    for (std::size_t k = 0; k < kPoints; k += 2) {
+      const VectorPair place = origin + pair_at(&shares.along[k]) * along + pair_at(&shares.across[k]) * across;
+      const VectorPair on_ball = projection_.on_ball(place);
+      grid_.places.put(k, place);
+      put_pair(&grid_.beyond[k], projection_.beyond(place));
+      grid_.on_ball.put(k, on_ball);
+      grid_.outward.put(k, on_ball - both(projection_.centre));
+    }
     first_ = static_cast<std::uint32_t>(out_.points.size());
-    GridPoint* point = grid_.data();
-    for (int row = 0; row <= kParts; ++row)
-      for (int i = 0; i <= row; ++i, ++point) {
-        const double a = static_cast<double>(row - i) / kParts, b = static_cast<double>(i) / kParts;
-        point->place = corners[0] + a * along + b * across;
-        point->beyond = projection_.beyond(point->place);
-        if (point->beyond >= 0) {
-          point->on_ball = projection_.on_ball(point->place);
-          point->outward = point->on_ball - projection_.centre;
-        }
-        out_.points.push_back(point->on_ball);
-      }
+    for (std::size_t k = 0; k < kPoints; ++k) out_.points.push_back(grid_.on_ball[k]);
   }
 
-  void add_part(const Part& part) {
-    const GridPoint &a = grid_[part[0]], &b = grid_[part[1]], &c = grid_[part[2]];
-    if (a.beyond >= 0 && b.beyond >= 0 && c.beyond >= 0) add_whole(part, a, b, c);
-    else if (a.beyond >= 0 || b.beyond >= 0 || c.beyond >= 0) add_cut(part);
+  bool is_out(std::uint32_t point) const { return grid_.beyond[point] >= 0; }
+
+  void add_part(const Part& part, const RowOfParts& row, std::size_t k) {
+    const bool a = is_out(part[0]), b = is_out(part[1]), c = is_out(part[2]);
+    if (a && b && c) add_whole(part, row, k);
+    else if (a || b || c) add_cut(part);
   }
 
-  void add_whole(const Part& part, const GridPoint& a, const GridPoint& b, const GridPoint& c) {
-    const Vector3 doubled = cross(b.on_ball - a.on_ball, c.on_ball - a.on_ball);
-    const double size = norm(doubled);
-    if (!(size > 0)) return;
-    auto facing = facing_about(a.outward + b.outward + c.outward);
-    if (!facing) facing = facing_in_doubt(std::array{a.on_ball, b.on_ball, c.on_ball});
+  void add_whole(const Part& part, const RowOfParts& row, std::size_t k) {
+    if (!(row.sizes[k] > 0)) return;
+    auto facing = facing_about(row.outward[k]);
+    if (!facing) facing = facing_in_doubt(std::array{grid_.on_ball[part[0]], grid_.on_ball[part[1]], grid_.on_ball[part[2]]});
     if (!facing) return;
-    const Vector3 normal = doubled / size;
-    out_.area += 0.5 * size;
-    out_.pieces.push_back({{first_ + part[0], first_ + part[1], first_ + part[2], 0},
-                           3,
-                           *facing,
-                           normal,
-                           std::max(0.0, 0.5 * dot(normal, doubled))});
+    out_.area += 0.5 * row.sizes[k];
+    out_.pieces.push_back({{first_ + part[0], first_ + part[1], first_ + part[2], 0}, 3, *facing, row.normals[k], row.areas[k]});
   }
 
   // One corner or two lie within the ball.
@@ -116,10 +200,10 @@ class PieceMaker {
       outward += place - projection_.centre;
     };
     for (std::size_t i = 0; i < 3; ++i) {
-      const GridPoint &corner = grid_[part[i]], &next = grid_[part[i == 2 ? 0 : i + 1]];
-      if (corner.beyond >= 0) add_corner(corner.on_ball, first_ + part[i]);
-      if ((corner.beyond < 0) == (next.beyond < 0)) continue;
-      const Point3 crossing = projection_.crossing(corner.place, next.place, corner.beyond);
+      const std::uint32_t corner = part[i], next = part[i == 2 ? 0 : i + 1];
+      if (is_out(corner)) add_corner(grid_.on_ball[corner], first_ + corner);
+      if ((grid_.beyond[corner] < 0) == (grid_.beyond[next] < 0)) continue;
+      const Point3 crossing = projection_.crossing(grid_.places[corner], grid_.places[next], grid_.beyond[corner]);
       add_corner(crossing, static_cast<std::uint32_t>(out_.points.size()));
       out_.points.push_back(crossing);
     }
@@ -168,12 +252,13 @@ class PieceMaker {
     return facing_of(outward / norm(outward), compass_);
   }
 
-  const Projection projection_;
+  Projection projection_;
   const Compass& compass_;
   double far_enough_;
   BallPieces& out_;
   std::uint32_t first_ = 0;  // of the grid's points among all points
-  std::array<GridPoint, (kParts + 1) * (kParts + 2) / 2> grid_;
+  Grid grid_;
+  RowOfParts standing_, hanging_;
 };
 
 }  // namespace
@@ -182,7 +267,7 @@ BallPieces ball_pieces(const Mesh& mesh, const Compass& compass) {
   const MeshWrap& wrap = *mesh.wrap;
   BallPieces out;
   out.pieces.reserve(mesh.triangles.size() * kParts * kParts);
-  out.points.reserve(mesh.triangles.size() * (kParts + 1) * (kParts + 2) / 2);
+  out.points.reserve(mesh.triangles.size() * kPoints);
   std::size_t t = 0;
   for (const MeshWrap::Part& part : wrap.parts) {
     PieceMaker maker({wrap.ball_centre, part.centre, wrap.radius * wrap.radius}, compass, out);
