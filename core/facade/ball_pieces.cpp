@@ -1,15 +1,13 @@
 // The corners of a triangle's parts are moved onto the ball once, although up to six parts meet in each.
 #include "core/facade/ball_pieces.h"
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+
+#include "core/facade/vector_pair.h"
 
 namespace bl::facade {
 
@@ -17,35 +15,6 @@ namespace {
 
 // Rows of small triangles in each coarse one: the area comes out within some parts in a thousand before scaling.
 constexpr int kParts = 6;
-
-// Two numbers worked on at a time, where the compiler would not see by itself that it may.
-typedef double Pair __attribute__((vector_size(16), aligned(8)));
-
-Pair pair_at(const double* from) { return *reinterpret_cast<const Pair*>(from); }
-void put_pair(double* to, const Pair& pair) { *reinterpret_cast<Pair*>(to) = pair; }
-
-Pair root_of(const Pair& pair) {
-#if defined(__SSE2__)
-  return reinterpret_cast<Pair>(_mm_sqrt_pd(reinterpret_cast<__m128d>(pair)));
-#else
-  return Pair{std::sqrt(pair[0]), std::sqrt(pair[1])};
-#endif
-}
-
-// Two vectors at a time.
-struct VectorPair {
-  Pair x, y, z;
-};
-
-VectorPair both(const Vector3& a) { return {Pair{a.x, a.x}, Pair{a.y, a.y}, Pair{a.z, a.z}}; }
-VectorPair operator+(const VectorPair& a, const VectorPair& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-VectorPair operator-(const VectorPair& a, const VectorPair& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-VectorPair operator*(const Pair& s, const VectorPair& a) { return {s * a.x, s * a.y, s * a.z}; }
-VectorPair operator/(const VectorPair& a, const Pair& s) { return {a.x / s, a.y / s, a.z / s}; }
-Pair dot(const VectorPair& a, const VectorPair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-VectorPair cross(const VectorPair& a, const VectorPair& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 // Vectors by coordinate.
 template <std::size_t kCount>
@@ -263,9 +232,11 @@ class PieceMaker {
 
 }  // namespace
 
-BallPieces ball_pieces(const Mesh& mesh, const Compass& compass) {
+void find_ball_pieces(const Mesh& mesh, const Compass& compass, BallPieces& out) {
   const MeshWrap& wrap = *mesh.wrap;
-  BallPieces out;
+  out.points.clear();
+  out.pieces.clear();
+  out.area = 0;
   out.pieces.reserve(mesh.triangles.size() * kParts * kParts);
   out.points.reserve(mesh.triangles.size() * kPoints);
   std::size_t t = 0;
@@ -276,7 +247,6 @@ BallPieces ball_pieces(const Mesh& mesh, const Compass& compass) {
       maker.add({mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]});
     }
   }
-  return out;
 }
 
 }  // namespace bl::facade

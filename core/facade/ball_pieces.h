@@ -26,6 +26,7 @@ struct BallPieces {
 };
 
 /// Each triangle of the coarse `mesh` in 36 parts; what of these reaches beyond the ball is moved onto it. `mesh.wrap` is there.
-BallPieces ball_pieces(const Mesh& mesh, const Compass& compass);
+/// `out` gives its room, which is used again.
+void find_ball_pieces(const Mesh& mesh, const Compass& compass, BallPieces& out);
 
 }  // namespace bl::facade

@@ -203,7 +203,8 @@ void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& s
 }
 
 void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surveyor) {
-  const BallPieces round = ball_pieces(mesh, surveyor.compass());
+  thread_local BallPieces round;  // some hundred kilobytes, which would else be asked for and given back for each shape
+  find_ball_pieces(mesh, surveyor.compass(), round);
   const double scale = options.spherical_area >= 0 && round.area > 0 ? options.spherical_area / round.area : 1;
   for (const BallPiece& piece : round.pieces) {
     const double whole = scale * piece.flat_area;
