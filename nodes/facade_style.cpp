@@ -50,7 +50,7 @@ struct FacadeStyle {
   struct Reply {
     std::optional<std::string> style_in_force, message;
     std::optional<double> facade_area, glazed_area, opaque_area, roof_area, shared_area, glazing_ratio, cost, panels, true_north;
-    std::optional<Table> by_orientation, by_storey;
+    std::optional<Shared<Table>> by_orientation, by_storey;
   };
   struct Out {
     std::int64_t count = 0;
@@ -140,11 +140,11 @@ struct FacadeStyle {
     const facade::DressedArea& all = dressing.all;
     add_missing_text(dressing, message);
     const double share = all.area() > 0 ? all.glazed / all.area() : 0;
-    Reply reply{in.name, std::move(message), all.area(), all.glazed, all.opaque, survey.roof, survey.shared, share, all.cost,
-                all.panels, in.true_north, Table{}, Table{}};
-    write_sides(dressing, rules, member.glazing, member.storey_height, *reply.by_orientation);
-    write_storeys(dressing, *reply.by_storey);
-    return reply;
+    Table sides, storeys;
+    write_sides(dressing, rules, member.glazing, member.storey_height, sides);
+    write_storeys(dressing, storeys);
+    return {in.name, std::move(message), all.area(), all.glazed, all.opaque, survey.roof, survey.shared, share, all.cost,
+            all.panels, in.true_north, std::move(sides), std::move(storeys)};
   }
 
   static facade::SurveyOptions options_of(const In& in, const Member& member, const facade::FacadeRules& rules) {

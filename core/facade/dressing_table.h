@@ -13,6 +13,7 @@ template <class Table>
 void write_sides(const Dressing& dressing, const FacadeRules& rules, double factor, double storey_height, Table& table) {
   table.columns = {"orientation", "area", "glazed", "opaque", "cost", "module", "sill", "head", "width"};
   table.rows.clear();
+  table.rows.reserve(kOrientations);
   for (std::size_t k = 0; k < kOrientations; ++k) {
     const DressedArea& part = dressing.by_orientation[k];
     const WindowBand band = band_of(rules[k], storey_height);
@@ -26,6 +27,7 @@ template <class Table>
 void write_storeys(const Dressing& dressing, Table& table) {
   table.columns = {"storey", "area", "glazed", "opaque", "cost"};
   table.rows.clear();
+  table.rows.reserve(dressing.by_storey.size());
   for (std::size_t k = 0; k < dressing.by_storey.size(); ++k)
     if (const DressedArea& part = dressing.by_storey[k]; part.area() > 0)
       table.rows.push_back({static_cast<double>(k), part.area(), part.glazed, part.opaque, part.cost});

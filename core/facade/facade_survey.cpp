@@ -17,9 +17,9 @@ using Corners = std::span<const Point3>;
 
 using Plane2 = std::array<double, 2>;
 
-// Steeper than 45 degrees is façade: |n.z| <= cos 45°.
-constexpr double kSteep = 0.70710678118654757;
 constexpr double kMostStoreys = 10000;
+
+bool is_lower(const Point3& a, const Point3& b) { return a.z < b.z; }
 
 // Hands the corners of what lies below a height to `out`, in their order.
 template <class Out>
@@ -31,7 +31,12 @@ void cut_below(Corners polygon, double height, const Out& out) {
   }
 }
 
-double flat_area(Corners polygon, const Vector3& normal) { return std::max(0.0, 0.5 * doubled_area(polygon, normal)); }
+double flat_area(Corners polygon, const Vector3& normal) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    doubled += dot(normal, cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
+  return std::max(0.0, 0.5 * doubled);
+}
 
 // As flat_area() of what lies below a height, triangle by triangle, without keeping its corners: there are thousands of pieces.
 double flat_area_below(Corners polygon, const Vector3& normal, double height) {
@@ -47,28 +52,26 @@ double flat_area_below(Corners polygon, const Vector3& normal, double height) {
   return std::max(0.0, 0.5 * doubled);
 }
 
-// What a piece of surface counts as, and where it looks to if it is façade.
-struct Facing {
-  enum class Side { facade, roof, underside } side = Side::facade;
-  Orientation orientation = Orientation::north;
-};
-
-Facing facing_of(const Vector3& normal, const Compass& compass) {
-  if (normal.z > kSteep) return {Facing::Side::roof};
-  if (normal.z < -kSteep) return {Facing::Side::underside};
-  return {Facing::Side::facade, compass.of(normal)};
-}
-
-// Of a piece of the ball: by comparing squares where these leave no doubt, without roots and divisions.
-Facing facing_of(const BallPieces& round, const BallPiece& piece, const Compass& compass) {
-  const Vector3& about = piece.about_outward;
-  const double squared = squared_norm(about), steepness = about.z * about.z - kSteep * kSteep * squared;
-  constexpr double kDoubtful = 1e-8;
-  if (steepness > kDoubtful * squared) return {about.z > 0 ? Facing::Side::roof : Facing::Side::underside};
-  if (steepness < -kDoubtful * squared)
-    if (const auto orientation = compass.of_about(about)) return {Facing::Side::facade, *orientation};
-  const Vector3 outward = round.outward(round.of(piece));
-  return facing_of(outward / norm(outward), compass);
+// The same of a triangle with corners on both sides of the height, of which none is at it.
+double triangle_below(const Point3& a, const Point3& b, const Point3& c, const Vector3& normal, double height) {
+  const auto cut = [&](const Point3& from, const Point3& to) {
+    return from + ((height - from.z) / (to.z - from.z)) * (to - from);
+  };
+  const auto of_three = [&](const Point3& p, const Point3& q, const Point3& r) { return dot(normal, cross(q - p, r - p)); };
+  const auto of_four = [&](const Point3& p, const Point3& q, const Point3& r, const Point3& s) {
+    return of_three(p, q, r) + of_three(p, r, s);
+  };
+  const auto doubled = [&] {
+    switch ((a.z > height ? 1 : 0) | (b.z > height ? 2 : 0) | (c.z > height ? 4 : 0)) {
+      case 1: return of_four(cut(a, b), b, c, cut(c, a));
+      case 2: return of_four(a, cut(a, b), cut(b, c), c);
+      case 3: return of_three(cut(b, c), c, cut(c, a));
+      case 4: return of_four(a, b, cut(b, c), cut(c, a));
+      case 5: return of_three(cut(a, b), b, cut(b, c));
+      default: return of_three(a, cut(a, b), cut(c, a));
+    }
+  };
+  return std::max(0.0, 0.5 * doubled());
 }
 
 // A face in its plane, with the disc that the ball cuts out of it.
@@ -87,9 +90,10 @@ struct Disc {
     disc.across = cross(normal, disc.along);
     return disc;
   }
-  double area(Corners polygon) const {
+  // `corners` is room for those of the polygon.
+  double area(Corners polygon, std::vector<Plane2>& corners) const {
     if (!(squared > 0)) return 0;
-    std::vector<Plane2> corners;
+    corners.clear();
     for (const Point3& p : polygon) corners.push_back({dot(along, p - foot), dot(across, p - foot)});
     return polygon_disc_area(corners, squared);
   }
@@ -97,18 +101,20 @@ struct Disc {
 
 class Surveyor {
  public:
-  explicit Surveyor(const SurveyOptions& options) : options_(options), compass_(options.true_north) {}
+  explicit Surveyor(const SurveyOptions& options)
+      : options_(options),
+        compass_(options.true_north),
+        height_(options.storey_height > 0 ? options.storey_height : 1e300),
+        bands_(options.bands) {
+    for (WindowBand& band : bands_) band = {std::clamp(band.sill, 0.0, height_), std::clamp(band.head, 0.0, height_)};
+  }
   const Compass& compass() const { return compass_; }
 
-  /// Adds the polygon, whose whole area is given; `area_below` gives that of what lies below a height.
+  /// Adds a polygon between the heights `low` and `high`, whose whole area is given; `area_below` gives that of what lies below a
+  /// height.
   template <class AreaBelow>
-  void add(Corners polygon, const Facing& facing, double whole, const AreaBelow& area_below) {
+  void add(double low, double high, const Facing& facing, double whole, const AreaBelow& area_below) {
     if (!(whole > 0)) return;
-    double low = polygon[0].z, high = low;
-    for (const Point3& p : polygon) {
-      low = std::min(low, p.z);
-      high = std::max(high, p.z);
-    }
     if (facing.side == Facing::Side::facade) add_facade(low, high, facing.orientation, whole, area_below);
     else if (facing.side == Facing::Side::roof) out_.roof += whole;
     else (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
@@ -138,18 +144,17 @@ class Surveyor {
     };
     out_.ground += up_to(options_.ground);
     if (done >= whole) return;
-    const WindowBand& band = options_.bands[static_cast<std::size_t>(orientation)];
-    const double height = options_.storey_height > 0 ? options_.storey_height : 1e300;
+    const WindowBand& band = bands_[static_cast<std::size_t>(orientation)];
     const double begin = std::max(low, std::min(options_.ground, high));
-    double storey = std::max(0.0, std::floor((begin - options_.base) / height));
+    double storey = std::max(0.0, std::floor((begin - options_.base) / height_));
     for (; done < whole && storey < kMostStoreys; ++storey) {
-      const double floor = options_.base + storey * height;
+      const double floor = options_.base + storey * height_;
       FacadeRow& row = row_of(static_cast<int>(storey), orientation);
-      row.below += up_to(floor + std::clamp(band.sill, 0.0, height));
+      row.below += up_to(floor + band.sill);
       if (done >= whole) return;
-      row.band += up_to(floor + std::clamp(band.head, 0.0, height));
+      row.band += up_to(floor + band.head);
       if (done >= whole) return;
-      row.above += up_to(storey + 1 < kMostStoreys ? options_.base + (storey + 1) * height : high);
+      row.above += up_to(storey + 1 < kMostStoreys ? options_.base + (storey + 1) * height_ : high);
     }
   }
 
@@ -167,25 +172,30 @@ class Surveyor {
   };
   const SurveyOptions& options_;
   Compass compass_;
-  std::vector<Row> rows_;  // storey by storey, with a place for each orientation
+  double height_;                                // of a storey
+  std::array<WindowBand, kOrientations> bands_;  // within a storey
+  std::vector<Row> rows_;                        // storey by storey, with a place for each orientation
   FacadeSurvey out_;
 };
 
 void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& surveyor) {
+  Polygon polygon, part;
+  std::vector<Plane2> corners;
   for (const ShapeFace& face : faces) {
-    Polygon polygon;
+    polygon.clear();
     for (std::size_t t = face.first; t < face.first + face.count; ++t)
       polygon.push_back(mesh.vertices[mesh.triangles[t][mesh.wrap ? 1 : 0]]);
     if (!mesh.wrap)
       for (const std::size_t corner : {1u, 2u}) polygon.push_back(mesh.vertices[mesh.triangles[face.first][corner]]);
     const Disc disc = mesh.wrap ? Disc::of(*mesh.wrap, face.normal, face.middle) : Disc{};
-    const auto area = [&](Corners part) { return mesh.wrap ? disc.area(part) : flat_area(part, face.normal); };
+    const auto area = [&](Corners of) { return mesh.wrap ? disc.area(of, corners) : flat_area(of, face.normal); };
     if (face.is_shared) {
       surveyor.out().shared += area(polygon);
       continue;
     }
-    surveyor.add(polygon, facing_of(face.normal, surveyor.compass()), area(polygon), [&](double height) {
-      Polygon part;
+    const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), is_lower);
+    surveyor.add(low->z, high->z, facing_of(face.normal, surveyor.compass()), area(polygon), [&](double height) {
+      part.clear();
       cut_below(polygon, height, [&](const Point3& corner) { part.push_back(corner); });
       return area(part);
     });
@@ -193,12 +203,25 @@ void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& s
 }
 
 void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surveyor) {
-  const BallPieces round = ball_pieces(mesh);
+  thread_local BallPieces round;  // some hundred kilobytes, which would else be asked for and given back for each shape
+  find_ball_pieces(mesh, surveyor.compass(), round);
   const double scale = options.spherical_area >= 0 && round.area > 0 ? options.spherical_area / round.area : 1;
   for (const BallPiece& piece : round.pieces) {
-    const Corners polygon = round.of(piece);
-    surveyor.add(polygon, facing_of(round, piece, surveyor.compass()), scale * piece.flat_area,
-                 [&](double height) { return scale * flat_area_below(polygon, piece.flat_normal, height); });
+    const double whole = scale * piece.flat_area;
+    const Point3 &a = round.points[piece.corners[0]], &b = round.points[piece.corners[1]], &c = round.points[piece.corners[2]];
+    if (piece.count == 3) {
+      const double low = std::min({a.z, b.z, c.z}), high = std::max({a.z, b.z, c.z});
+      surveyor.add(low, high, piece.facing, whole, [&](double height) {
+        const bool is_between = a.z != height && b.z != height && c.z != height;
+        return scale * (is_between ? triangle_below(a, b, c, piece.flat_normal, height)
+                                   : flat_area_below(std::array{a, b, c}, piece.flat_normal, height));
+      });
+    } else {
+      const std::array<Point3, 4> polygon{a, b, c, round.points[piece.corners[3]]};
+      const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), is_lower);
+      surveyor.add(low->z, high->z, piece.facing, whole,
+                   [&](double height) { return scale * flat_area_below(polygon, piece.flat_normal, height); });
+    }
   }
 }
 

@@ -2,7 +2,10 @@
 // texts by row and column, so that the algorithms need not know the declarative layer.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/text.h"
@@ -14,23 +17,31 @@ namespace bl::facade {
 /// rows a plain façade; where rows exist and none fits, a closed wall, and a sentence about it is added to `message`.
 template <class Table>
 FacadeRules rules_of(const Table& table, const std::string& use, std::string& message) {
+  struct Fit {
+    std::size_t row = 0;
+    const std::string* side = nullptr;
+    std::optional<FacadeRule> rule;  // once it is asked for: a table finds its columns by their names
+  };
+  std::vector<Fit> fitting;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (const std::string& wanted = table.text(row, "use"); wanted.empty() || wanted == use)
+      fitting.push_back({row, &table.text(row, "orientation"), {}});
   FacadeRules rules;
   std::string unmatched;
   for (std::size_t k = 0; k < kOrientations && !table.rows.empty(); ++k) {
     const std::string_view name = name_of(static_cast<Orientation>(k));
-    std::size_t row = 0;
-    for (; row < table.rows.size(); ++row) {
-      const std::string &wanted = table.text(row, "use"), &side = table.text(row, "orientation");
-      if ((wanted.empty() || wanted == use) && (side.empty() || side == name)) break;
-    }
-    if (row == table.rows.size()) {
+    const auto fit =
+        std::find_if(fitting.begin(), fitting.end(), [&](const Fit& one) { return one.side->empty() || *one.side == name; });
+    if (fit == fitting.end()) {
       rules[k].glazing = 0;
       unmatched += (unmatched.empty() ? "" : ", ") + std::string(name);
       continue;
     }
-    const auto number = [&](const char* column) { return table.number(row, column); };
-    rules[k] = {number("glazing"), number("module"),      number("sill"),
-                number("band"),    number("cost_glazed"), number("cost_opaque")};
+    const auto number = [&](const char* column) { return table.number(fit->row, column); };
+    if (!fit->rule)
+      fit->rule = FacadeRule{number("glazing"), number("module"),      number("sill"),
+                             number("band"),    number("cost_glazed"), number("cost_opaque")};
+    rules[k] = *fit->rule;
   }
   if (!unmatched.empty())
     message += (message.empty() ? "" : "; ") + std::string("no row of the style fits ") + unmatched + ": closed walls there";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "core/base/mathematics.h"
@@ -33,16 +34,23 @@ Point3 crossing(Point3 a, Point3 b, double ground) {
 }
 
 // The part of a triangle that is not below the plane: none, or three or four corners.
-std::vector<Point3> above_ground(const Point3& a, const Point3& b, const Point3& c, double ground) {
-  std::vector<Point3> part;
+struct PartAbove {
+  std::array<Point3, 4> corners;
+  std::size_t count = 0;
+
+  operator std::span<const Point3>() const { return std::span(corners).first(count); }
+};
+
+PartAbove above_ground(const Point3& a, const Point3& b, const Point3& c, double ground) {
+  PartAbove part;
   const Point3 corners[3] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
     const Point3 &here = corners[i], &next = corners[(i + 1) % 3];
-    if (here.z >= ground) part.push_back(here);
+    if (here.z >= ground) part.corners[part.count++] = here;
     if ((here.z < ground && next.z > ground) || (here.z > ground && next.z < ground))
-      part.push_back(crossing(here, next, ground));
+      part.corners[part.count++] = crossing(here, next, ground);
   }
-  if (part.size() < 3) part.clear();
+  if (part.count < 3) part.count = 0;
   return part;
 }
 
@@ -102,10 +110,20 @@ class MeshWriter {
 
 std::vector<Point3> shadow_outline(const Mesh& mesh, const Vector3& toward, double ground) {
   if (!has_shape(mesh, toward, ground)) return {};
+  // Corners are thrown onto the ground once for all triangles that meet in them.
+  std::vector<bool> is_above(mesh.vertices.size());
   std::vector<Point3> points;
-  for (const auto& [a, b, c] : mesh.triangles)
-    for (const Point3& corner : above_ground(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], ground))
-      points.push_back(on_ground(corner, toward, ground));
+  for (const auto& triangle : mesh.triangles) {
+    const Point3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    if (a.z >= ground && b.z >= ground && c.z >= ground) {
+      for (const std::uint32_t corner : triangle) is_above[corner] = true;
+      continue;
+    }
+    const PartAbove part = above_ground(a, b, c, ground);
+    for (const Point3& corner : std::span<const Point3>(part)) points.push_back(on_ground(corner, toward, ground));
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (is_above[v]) points.push_back(on_ground(mesh.vertices[v], toward, ground));
   return hull_in_plan(std::move(points));
 }
 
@@ -116,7 +134,8 @@ Mesh shadow_volume(const Mesh& mesh, const Vector3& toward, double ground) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
     if (!(dot(cross(q - p, r - p), toward) > 0)) continue;
-    const std::vector<Point3> part = above_ground(p, q, r, ground);
+    const PartAbove above = above_ground(p, q, r, ground);
+    const std::span<const Point3> part = above;
     for (std::size_t i = 2; i < part.size(); ++i) {
       writer.add(part[0], part[i - 1], part[i]);
       writer.add(on_ground(part[0], toward, ground), on_ground(part[i], toward, ground), on_ground(part[i - 1], toward, ground));
