@@ -54,6 +54,7 @@ struct PowerDiagram::Workshop {
   std::vector<CellMeasure> cells;
   std::vector<double> volumes;  // the same as in the cells, side by side
   std::vector<std::vector<std::uint32_t>> borders, faces;
+  std::vector<std::vector<std::uint32_t>> faces_before;  // room for the faces of cells that are being made anew
   std::vector<std::vector<ShapeMeasure>> shapes;  // of cells that are to be completed
   std::vector<std::uint32_t> changed, made, completed, empty, unlimited;
   std::vector<std::uint8_t> is_marked;
@@ -114,11 +115,11 @@ struct PowerDiagram::Workshop {
   // Makes the cells from a place of the list on, and then those that these no longer border: something has come between, and may
   // have swallowed them together with all that it touches.
   void make_and_follow(std::size_t from, const CellOptions& options) {
-    std::vector<std::vector<std::uint32_t>> before;
+    std::vector<std::vector<std::uint32_t>>& before = faces_before;
     while (from < made.size()) {
       const std::size_t end = made.size();
       std::sort(made.begin() + static_cast<std::ptrdiff_t>(from), made.end());
-      before.resize(end - from);
+      if (before.size() < end - from) before.resize(end - from);
       for (std::size_t k = from; k < end; ++k) before[k - from] = faces[made[k]];
       workshop.make(std::span(made).subspan(from), options, cells, lists());
       for (std::size_t k = from; k < end; ++k) {

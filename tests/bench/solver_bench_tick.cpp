@@ -18,12 +18,12 @@ namespace bl::cli::bench {
 namespace {
 
 constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
-constexpr int kTurn =
-    10;  // Frames that one session takes before its rival: with one each, both would find the other's memory in the caches.
+constexpr int kPulls = 20;  // of each volume that is dragged
+// Frames that one session takes before its rival: with one each, both would find the other's memory in the caches.
+constexpr int kTurn = kPulls;
 constexpr double kTickFills[] = {0.7, 0.95, 1};
 constexpr double kDragStep = 0.2;  // [m]
 constexpr std::size_t kDraggedVolumes = 5;
-constexpr int kPulls = 20;  // of each of these
 constexpr const char* kStudy = "scenes/studies/urban_mode.json";
 constexpr int kStudyTicks = 400;
 
