@@ -55,7 +55,7 @@ struct PowerDiagram::Workshop {
   std::vector<double> volumes;  // the same as in the cells, side by side
   std::vector<std::vector<std::uint32_t>> borders, faces;
   std::vector<std::vector<std::uint32_t>> faces_before;  // room for the faces of cells that are being made anew
-  std::vector<std::vector<ShapeMeasure>> shapes;  // of cells that are to be completed
+  std::vector<std::vector<ShapeMeasure>> shapes;         // of cells that are to be completed
   std::vector<std::uint32_t> changed, made, completed, empty, unlimited;
   std::vector<std::uint8_t> is_marked;
   std::vector<double> limits;  // how far from its site each cell is made [m]

@@ -18,6 +18,7 @@ struct Sum {
   int of_numbers = 0;
 };
 using Items = SharedList<Item, Sum>;
+constexpr std::size_t kLeaf = Items::kLeaf;
 
 Items published(Items::Draft&& draft) {
   return std::move(draft).publish([](Item& item, std::size_t) { item.doubled = 2 * item.number; },
@@ -60,12 +61,12 @@ TEST(SharedList, ADraftOfItemsInOtherPlacesSharesThem) {
     for (std::size_t i = before.size(); i < size; ++i) draft.put(i, {static_cast<int>(i), 0});
     const Items after = published(std::move(draft));
     ASSERT_EQ(after.size(), size);
-    ASSERT_EQ(after.leaf_count(), (size + 31) / 32);
+    ASSERT_EQ(after.leaf_count(), (size + kLeaf - 1) / kLeaf);
     int sum = 0;
     for (std::size_t leaf = 0; leaf < after.leaf_count(); ++leaf) sum += after.digest(leaf).of_numbers;
     EXPECT_EQ(sum, static_cast<int>(size) * (static_cast<int>(size) - 1) / 2) << size;
     for (std::size_t i = 0; i < std::min(size, before.size()); ++i) EXPECT_EQ(after.item(i), before.item(i));
-    for (std::size_t leaf = 0; leaf < std::min(size, before.size()) / 32; ++leaf) EXPECT_TRUE(after.shares_leaf(before, leaf));
+    for (std::size_t leaf = 0; leaf < std::min(size, before.size()) / kLeaf; ++leaf) EXPECT_TRUE(after.shares_leaf(before, leaf));
   }
   // One item in the middle is gone: those behind it move by one place.
   std::vector<std::uint32_t> origins(99);
@@ -91,8 +92,9 @@ TEST(SharedList, AnEditCopiesWhatItTouches) {
   EXPECT_EQ(after[40].doubled, 2000);
   EXPECT_EQ(after[41].number, 2000);
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after.item(i) == before.item(i), i != 40 && i != 41) << i;
-  for (std::size_t leaf = 0; leaf < after.leaf_count(); ++leaf) EXPECT_EQ(after.shares_leaf(before, leaf), leaf != 1) << leaf;
-  EXPECT_EQ(after.digest(1).of_numbers, before.digest(1).of_numbers - 40 - 41 + 3000);
+  for (std::size_t leaf = 0; leaf < after.leaf_count(); ++leaf)
+    EXPECT_EQ(after.shares_leaf(before, leaf), leaf != 40 / kLeaf) << leaf;
+  EXPECT_EQ(after.digest(40 / kLeaf).of_numbers, before.digest(40 / kLeaf).of_numbers - 40 - 41 + 3000);
 }
 
 TEST(SharedList, WithoutAnEditItIsTheSameList) {
