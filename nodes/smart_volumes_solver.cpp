@@ -251,8 +251,11 @@ struct SmartVolumesSolver {
     const auto is_wall = [](const geometry::FacetArea& facet) { return facet.kind == geometry::FacetArea::Kind::site; };
     neighbours.rows.resize(static_cast<std::size_t>(std::count_if(cell.facets.begin(), cell.facets.end(), is_wall)));
     auto row = neighbours.rows.begin();
-    for (const geometry::FacetArea& facet : cell.facets)
-      if (is_wall(facet)) row->emplace_back(names[facet.index]), row++->emplace_back(facet.area);
+    for (const geometry::FacetArea& facet : cell.facets) {
+      if (!is_wall(facet)) continue;
+      row->emplace_back(names[facet.index]);
+      row++->emplace_back(facet.area);
+    }
     Reply reply{
         .wanted = wanted,
         .weight = weight,

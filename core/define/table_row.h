@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,7 +26,9 @@ class TableRow {
  public:
   TableRow() = default;
   TableRow(std::initializer_list<Scalar> fields) {
-    for (const Scalar& field : fields) push_back(field);
+    if (fields.size() > kFew) many_ = fields;
+    else
+      for (const Scalar& field : fields) push_back(field);
   }
 
   std::size_t size() const { return many_.empty() ? few_count_ : many_.size(); }
@@ -42,9 +45,11 @@ class TableRow {
   Scalar& emplace_back(Field&& field) {
     if (many_.empty() && few_count_ < kFew) return few_[few_count_++] = std::forward<Field>(field);
     if (many_.empty()) {
+      Scalar made(std::forward<Field>(field));  // it may be one of the fields that move
       many_.reserve(2 * kFew);
       std::move(few_.begin(), few_.end(), std::back_inserter(many_));
       few_ = {};
+      return many_.emplace_back(std::move(made));
     }
     return many_.emplace_back(std::forward<Field>(field));
   }

@@ -115,16 +115,15 @@ struct PowerDiagram::Workshop {
   // Makes the cells from a place of the list on, and then those that these no longer border: something has come between, and may
   // have swallowed them together with all that it touches.
   void make_and_follow(std::size_t from, const CellOptions& options) {
-    std::vector<std::vector<std::uint32_t>>& before = faces_before;
     while (from < made.size()) {
       const std::size_t end = made.size();
       std::sort(made.begin() + static_cast<std::ptrdiff_t>(from), made.end());
-      if (before.size() < end - from) before.resize(end - from);
-      for (std::size_t k = from; k < end; ++k) before[k - from] = faces[made[k]];
+      if (faces_before.size() < end - from) faces_before.resize(end - from);
+      for (std::size_t k = from; k < end; ++k) faces_before[k - from] = faces[made[k]];
       workshop.make(std::span(made).subspan(from), options, cells, lists());
       for (std::size_t k = from; k < end; ++k) {
         const auto& now = faces[made[k]];
-        for (const std::uint32_t j : before[k - from]) {
+        for (const std::uint32_t j : faces_before[k - from]) {
           if (!std::binary_search(now.begin(), now.end(), j)) mark(j);
         }
       }

@@ -180,7 +180,8 @@ bool is_lasting(const State& state, const Voice& voice);
 
 /// How state hashes are made. Files that hold hashes name it: hashes of different schemes cannot be compared.
 /// 1: all values one after the other. 2: a tree of fixed form, over nodes, over links, and leaves of 32 of them. 3: such a
-/// tree with leaves of 16; solvers name the problem of their last step by a hash that is made site by site.
+/// tree with leaves of 16; exact solvers name the problem of their last step by a hash that is made site by site,
+/// so that a state saved before begins its next step anew.
 inline constexpr int kHashScheme = 3;
 /// The hash of everything that the next tick depends on: values, failures, proposals in force, the calm count, the tick. It is
 /// made of the hashes of the leaves.

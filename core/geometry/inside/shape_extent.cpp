@@ -17,7 +17,7 @@ namespace {
 // on an edge must not be lost, and the height it may be wrong by is of the same size.
 constexpr double kTouchOfExtent = 1e-12;
 
-// Lines this share of the radius beyond the ball miss it, whatever rounding says.
+// Lines this share of the radius beyond the ball miss it, whatever rounding says of edges up to a million radii away.
 constexpr double kSureMiss = 1e-9;
 
 // Is `point`, which lies in the face's plane, in the face or within `tolerance` of it?

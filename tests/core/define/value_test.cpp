@@ -77,6 +77,12 @@ TEST(Values, CompareAsVariantsDo) {
 
 TEST(Values, CopiesAreEqual) { EXPECT_TRUE(copied(some_values()) == some_values()); }
 
+TEST(TableRow, TakesAFieldOfItsOwn) {
+  TableRow row{std::string("a name that needs a block of its own"), 2.0};
+  row.emplace_back(row[0]);
+  EXPECT_EQ(row, (TableRow{row[0], 2.0, std::string("a name that needs a block of its own")}));
+}
+
 TEST(TableRow, HoldsWhatAVectorHolds) {
   for (std::size_t size = 0; size < 7; ++size) {
     TableRow row;
