@@ -22,6 +22,22 @@ inline LanePair smaller_of(const LanePair& a, const LanePair& b) { return a < b 
 inline double largest_lane(const LanePair& a) { return std::max(a[0], a[1]); }
 inline double smallest_lane(const LanePair& a) { return std::min(a[0], a[1]); }
 
+// By intrinsics, because g++ 12 takes some comparisons of vectors apart into their lanes.
+inline LaneAnswers is_larger(const LanePair& a, const LanePair& b) {
+#if defined(__SSE2__)
+  return reinterpret_cast<LaneAnswers>(_mm_cmpgt_pd(a, b));
+#else
+  return a > b;
+#endif
+}
+inline LaneAnswers is_no_less(const LanePair& a, const LanePair& b) {
+#if defined(__SSE2__)
+  return reinterpret_cast<LaneAnswers>(_mm_cmpge_pd(a, b));
+#else
+  return a >= b;
+#endif
+}
+
 /// A bit per lane of a comparison.
 inline std::uint64_t bits_of(const LaneAnswers& answers) {
 #if defined(__SSE2__)

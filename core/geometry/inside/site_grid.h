@@ -175,7 +175,7 @@ class SiteGrid {
     for (std::uint32_t k = 0; k < count; k += 2) {
       const LanePair dx = lanes_at(x + k) - at_x, dy = lanes_at(y + k) - at_y, dz = lanes_at(z + k) - at_z,
                      squared = dx * dx + dy * dy + dz * dz, sum = squared + (own - lanes_at(weights + k));
-      far |= bits_of((sum > zero) & (sum * sum >= squared * four_reach_squared)) << k;
+      far |= bits_of(is_larger(sum, zero) & is_no_less(sum * sum, squared * four_reach_squared)) << k;
     }
     return ~far & lowest_bits(count);
   }
