@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/base/hash.h"
@@ -331,8 +332,8 @@ struct SmartVolumesSolver {
     out.boundary_volume = (*found)->volume;
     const std::span<const Member> members = sets.members.all;
     if (members.empty() || (tick.is_recall && in.metric != geometry::Metric::power)) return out;
-    Kept own;
-    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    std::optional<Kept> own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own.emplace();
     const std::vector<std::string>& names = kept.names;
     // So it is, too, after an evaluation that has failed, and after a recall.
     const bool is_anew = sets.members.is_anew || names.size() != members.size();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -45,8 +46,8 @@ WeightFit::WeightFit(const Domain& domain, std::span<const PowerSite> sites, Fit
 }
 
 Result<FitReport> WeightFit::run() {
-  PowerDiagram own;
-  PowerDiagram& diagram = options_.diagram != nullptr ? *options_.diagram : own;
+  std::optional<PowerDiagram> own;
+  PowerDiagram& diagram = options_.diagram != nullptr ? *options_.diagram : own.emplace();
   if (auto set = diagram.set_domain(domain_); !set) return set.error();
   CellOptions cells;
   cells.with_shape = cells.with_outlines = cells.with_centroid = options_.with_whole_cells;
