@@ -10,7 +10,9 @@
 #include <sstream>
 #include <thread>
 #include <variant>
-#ifdef __GLIBC__
+#if defined(BL_JEMALLOC)
+#include <jemalloc/jemalloc.h>
+#elif defined(__GLIBC__)
 #include <malloc.h>
 #endif
 
@@ -35,6 +37,17 @@ std::string system_value(const char* file, std::string_view key) {
     return begin == std::string::npos ? "" : line.substr(begin);
   }
   return "";
+}
+
+// What was freed before a measurement is not counted as held.
+void give_back_free_memory() {
+#if defined(BL_JEMALLOC)
+  const std::string all_arenas = "arena." + std::to_string(MALLCTL_ARENAS_ALL);
+  mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
+  mallctl((all_arenas + ".purge").c_str(), nullptr, nullptr, nullptr, 0);
+#elif defined(__GLIBC__)
+  malloc_trim(0);
+#endif
 }
 
 // In bytes; the system writes "1234 kB".
@@ -113,9 +126,7 @@ void take_turns(std::vector<Contender>& contenders, int rounds, double turn_seco
 }
 
 std::optional<double> peak_bytes(const std::function<void()>& work) {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
+  give_back_free_memory();
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew from what is held now
   const auto before = own_memory("VmRSS"), start = own_memory("VmHWM");
   work();
