@@ -8,7 +8,7 @@
 namespace bl::host {
 
 void History::take(const LogEntry& entry, const Scene& scene) {
-  if (entry.author != author_ || entry.rewinds_to) return;
+  if (entry.author != author_ || !entry.is_command()) return;
   if (entry.undoes != 0 || entry.redoes != 0) {
     last_step_ = 0;
     return take_back(entry);

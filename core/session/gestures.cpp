@@ -26,7 +26,7 @@ Error not_there(const LogEntry& entry, const char* key, std::int64_t gesture, co
 }  // namespace
 
 Result<void> Gestures::check(const LogEntry& entry) const {
-  if (entry.rewinds_to) return {};
+  if (!entry.is_command()) return {};
   if (const auto before = gestures_.find(entry.gesture); before != gestures_.end()) {
     const auto& stack = stack_of(entry.undoes != 0 ? redo_ : undo_, entry.author);
     const Gesture& known = before->second;
@@ -47,7 +47,7 @@ Result<void> Gestures::check(const LogEntry& entry) const {
 }
 
 void Gestures::take(const LogEntry& entry) {
-  if (entry.author.kind == AuthorKind::device || entry.rewinds_to) return;
+  if (entry.author.kind == AuthorKind::device || !entry.is_command()) return;
   gestures_[entry.gesture] = {entry.author, entry.undoes, entry.redoes, entry.is_abandoned};
   auto& undo = undo_[entry.author];
   auto& redo = redo_[entry.author];

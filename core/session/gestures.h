@@ -17,7 +17,7 @@ class Gestures {
   /// one. An undo applies to a gesture of its author that is not undone yet.
   Result<void> check(const LogEntry& entry) const;
   /// Records the entry, which must fit. Entries of devices are no steps and are not recorded, so that they take no memory. A
-  /// rewind changes no scene and is no step, either.
+  /// rewind or an event changes no scene and is no step, either.
   void take(const LogEntry& entry);
   /// The entry changed so that it fits: an undo of a gesture that is not recorded here becomes an ordinary step. This occurs in a
   /// log that begins in the middle of a session.

@@ -47,14 +47,16 @@ Result<Ledger::Done> Ledger::apply_now(const Command& command) {
   return Done{command, std::move(*inverse), edit.take_touches(), edit.placed(), edit.is_logic_touched()};
 }
 
-Result<void> Ledger::apply_entry(LogEntry entry) {
+Result<void> Ledger::apply_entry(LogEntry entry, const Guard& guard) {
   if (auto sound = check(entry); !sound) return sound;
-  if (entry.rewinds_to) {
+  if (!entry.is_command()) {
     enter(std::move(entry), {});
     return {};
   }
   auto done = apply_now(entry.command);
   if (!done) return done.error();
+  if (guard)
+    if (auto granted = ask(guard, {*done}); !granted) return granted;
   enter(std::move(entry), std::move(*done));
   return {};
 }
@@ -62,7 +64,7 @@ Result<void> Ledger::apply_entry(LogEntry entry) {
 void Ledger::enter(LogEntry entry, Done done) {
   placed_.merge(done.placed);
   is_changed_ = is_changed_ || done.is_logic_touched;
-  if (!entry.rewinds_to) note(entry, done.touches, std::move(done.inverse));
+  if (entry.is_command()) note(entry, done.touches, std::move(done.inverse));
   last_gesture_ = std::max(last_gesture_, entry.gesture);
   if (entry.seq == 0) entry.seq = last_seq() + 1;
   if (entry.source.operation != 0) operations_[entry.source.origin] = {entry.source.operation, entry.gesture};
@@ -93,12 +95,20 @@ void Ledger::note(const LogEntry& entry, const std::vector<Touch>& touches, std:
     step.inverse.insert(step.inverse.end(), std::make_move_iterator(inverse.rbegin()), std::make_move_iterator(inverse.rend()));
 }
 
-Result<void> Ledger::submit(Submission said, std::int64_t tick) {
+Result<void> Ledger::submit(Submission said, std::int64_t tick, const Guard& guard) {
   LogEntry entry{.tick = tick, .gesture = said.gesture == 0 ? last_gesture_ + 1 : said.gesture};
   entry.author = std::move(said.author);
   entry.command = std::move(said.command);
   entry.source = std::move(said.source);
   entry.label = std::move(said.label);
+  return apply_entry(std::move(entry), guard);
+}
+
+Result<void> Ledger::note_event(JsonValue event, const Author& author, std::int64_t tick, const Source& source) {
+  LogEntry entry{.tick = tick};
+  entry.author = author;
+  entry.source = source;
+  entry.event = std::move(event);
   return apply_entry(std::move(entry));
 }
 

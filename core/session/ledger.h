@@ -35,6 +35,14 @@ struct TakenBack {
 /// The sentence about a place that was left unchanged: "ben has changed nodes/tower/name since".
 std::string text_of(const Mark& left);
 
+/// What has been done to the scene, before it has its place in the log.
+struct Change {
+  std::vector<Touch> touches;
+  std::vector<Command> inverse;  ///< in the order to apply
+};
+/// May refuse a change; then it is as if nothing had been said. Without one nothing is refused.
+using Guard = std::function<Result<void>(const Change& change)>;
+
 /// Needs no running state, so that a window can hold a ledger on one thread while another one ticks. `tick` is always the tick in
 /// which the entry takes effect.
 class Ledger {
@@ -45,10 +53,12 @@ class Ledger {
 
   /// Applies a command and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are undone
   /// together. An operation that its origin has already sent is refused as `duplicate`.
-  Result<void> submit(Submission submission, std::int64_t tick);
+  Result<void> submit(Submission submission, std::int64_t tick, const Guard& guard = {});
   Result<void> submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture = 0) {
     return submit({.command = command, .author = author, .gesture = gesture}, tick);
   }
+  /// Logs something that changes no scene (`LogEntry::event`).
+  Result<void> note_event(JsonValue event, const Author& author, std::int64_t tick, const Source& source = {});
   /// Logs that the running state goes back from `tick` to an earlier one. The scene and the steps that can be undone stay the
   /// same. The rewind itself cannot be undone, since later states are discarded.
   Result<void> rewind(const Author& author, std::int64_t tick, std::int64_t to);
@@ -58,8 +68,10 @@ class Ledger {
   std::int64_t new_gesture() { return ++last_gesture_; }
   /// Undoes the author's last gesture, or the named one, by new entries. Later changes of other authors stay and are reported. A
   /// gesture of which nothing can be undone is skipped.
-  Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
-  Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
+  Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {},
+                         const Guard& guard = {});
+  Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {},
+                         const Guard& guard = {});
   /// Undoes the gesture for good: it cannot be redone. It is for gestures that their author cancels.
   Result<TakenBack> abandon(const Author& author, std::int64_t tick, std::int64_t gesture);
   bool can_redo(const Author& author) const { return !gestures_.open(author, false).empty(); }
@@ -100,7 +112,7 @@ class Ledger {
   };
   Result<void> check(const LogEntry& entry) const;
   Result<Done> apply_now(const Command& command);
-  Result<void> apply_entry(LogEntry entry);
+  Result<void> apply_entry(LogEntry entry, const Guard& guard = {});
   /// Gives an entry that was applied its place in the log.
   void enter(LogEntry entry, Done done);
   void note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse);
@@ -110,12 +122,15 @@ class Ledger {
     const Source& source;
     bool is_undo;
     bool is_abandoned = false;
+    const Guard& guard;
   };
   Result<TakenBack> take_back(const Wish& wish);
   /// Applies the inverse commands of the gesture except at places that others have changed since; these places are added to
   /// `left`.
   Result<std::vector<Done>> apply_harmless(const Step& step, std::vector<Mark>& left);
   Result<std::optional<Done>> attempt(const Command& command, const Written& written, std::vector<Mark>& left);
+  /// The guard's word; refused, the scene is as it was before.
+  Result<void> ask(const Guard& guard, const std::vector<Done>& trials);
   /// The scene as it was before these.
   void roll_back(const std::vector<Done>& trials);
   std::vector<Done> without_overwritten(std::vector<Done> trials);

@@ -13,8 +13,8 @@ namespace bl {
 namespace {
 
 // Version 1 has no base, and all its authors are persons; version 2 has neither sources, nor labels, nor rewinds.
-// Versions before 4 do not name the scheme of their hashes, which is 1.
-constexpr int kLogVersion = 4;
+// Versions before 4 do not name the scheme of their hashes, which is 1; versions before 5 have no events.
+constexpr int kLogVersion = 5;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 constexpr const char* kAuthorKinds[] = {"person", "device", "program"};
 
@@ -38,10 +38,23 @@ Result<LogEntry> rewind_from_json(const Json& line, LogEntry entry) {
   return entry;
 }
 
+Result<LogEntry> event_from_json(const Json& line, LogEntry entry) {
+  for (const char* key : {"command", "undoes", "redoes", "rewind"})
+    if (line.contains(key))
+      return Error{ErrorCode::conflict, key, "an event of a room has no command and undoes none: remove the other fields"};
+  Json event = Json::object();
+  event["event"] = line["event"];
+  event["arguments"] = line.contains("arguments") ? line["arguments"] : Json::object();
+  if (!event["event"].is_string()) return Error{ErrorCode::wrong_kind, "event", "expects a text"};
+  if (!event["arguments"].is_object()) return Error{ErrorCode::wrong_kind, "arguments", "expects an object"};
+  entry.event = JsonValue::of(std::move(event));
+  return entry;
+}
+
 Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
   if (auto keys = check_keys(line,
                              {"seq", "tick", "author", "kind", "gesture", "undoes", "redoes", "origin", "operation", "label",
-                              "abandoned", "rewind", "command", "arguments"},
+                              "abandoned", "rewind", "event", "command", "arguments"},
                              "");
       !keys)
     return keys.error();
@@ -75,6 +88,7 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
     entry.is_abandoned = true;
   }
   if (line.contains("rewind")) return rewind_from_json(line, std::move(entry));
+  if (line.contains("event")) return event_from_json(line, std::move(entry));
   Json command = Json::object();
   for (const char* key : {"command", "arguments"})
     if (line.contains(key)) command[key] = line[key];
@@ -138,7 +152,7 @@ class LogReader {
 
   static Error no_log() {
     return {ErrorCode::parse, "",
-            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 4, \"scene\": {...}}"};
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 5, \"scene\": {...}}"};
   }
 
   LogFile log;
@@ -244,6 +258,7 @@ std::string log_line(const LogEntry& entry, const Registry& registry) {
   if (entry.source.operation != 0) line["operation"] = entry.source.operation;
   if (!entry.label.empty()) line["label"] = entry.label;
   if (entry.rewinds_to) line["rewind"] = *entry.rewinds_to;
+  else if (entry.event) line.update(**entry.event->read());
   else line.update(command_to_json(registry, entry.command));
   return write_json_line(line) + "\n";
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/define/command_builder.h"
+#include "core/define/payload.h"
 #include "core/define/registry.h"
 #include "core/session/author.h"
 
@@ -20,7 +21,7 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
-/// One command of an author, or a rewind. Entries of one gesture are undone together.
+/// One command of an author, a rewind, or an event of the room around the session. Entries of one gesture are undone together.
 struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
   Author author = {};
@@ -30,8 +31,13 @@ struct LogEntry {
   std::string label = {};     ///< the name of the step in the history; empty: derived from its command
   bool is_abandoned = false;  ///< an undo for good: the gesture cannot be redone
   std::optional<std::int64_t> rewinds_to =
-      {};  ///< the running state goes back to this tick, the scene stays; there is no command
+      {};                      ///< the running state goes back to this tick, the scene stays; there is no command
   bool is_called_off = false;  ///< a rewind that could not take place: it stays where it is, but no log file has it
+  /// What happened among the people, such as a poll that was opened: {"event": id, "arguments": {...}}. It has its number and its
+  /// tick, and changes no scene; what it means is not the session's to know.
+  std::optional<JsonValue> event = {};
+
+  bool is_command() const { return !rewinds_to && !event; }
 };
 
 /// A hash that was reached at a tick; a replay must reach the same one.

@@ -14,6 +14,16 @@ void Ledger::roll_back(const std::vector<Done>& trials) {
     for (const Command& back : trial->inverse) (void)bl::apply(edit, back);
 }
 
+Result<void> Ledger::ask(const Guard& guard, const std::vector<Done>& trials) {
+  Change change;
+  for (const Done& trial : trials) change.touches.insert(change.touches.end(), trial.touches.begin(), trial.touches.end());
+  for (auto trial = trials.rbegin(); trial != trials.rend(); ++trial)
+    change.inverse.insert(change.inverse.end(), trial->inverse.begin(), trial->inverse.end());
+  auto granted = guard(change);
+  if (!granted) roll_back(trials);
+  return granted;
+}
+
 // Applies a command, or what of it harms nobody; nothing where all of it would.
 Result<std::optional<Ledger::Done>> Ledger::attempt(const Command& command, const Written& written, std::vector<Mark>& left) {
   auto done = apply_now(command);
@@ -95,6 +105,8 @@ Result<TakenBack> Ledger::take_back(const Wish& wish) {
       taken.misfit = Error{trials.error().code, trials.error().place,
                            cannot + " because the scene has changed since: " + trials.error().message};
     if (!trials || trials->empty()) continue;
+    if (wish.guard)
+      if (auto granted = ask(wish.guard, *trials); !granted) return granted.error();
     taken.gesture = *next;
     std::set<Touch> told;
     std::erase_if(taken.left, [&told](const Mark& mark) { return !told.insert(mark.place).second; });
@@ -114,14 +126,16 @@ Result<TakenBack> Ledger::take_back(const Wish& wish) {
   return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + wish.author.id};
 }
 
-Result<TakenBack> Ledger::undo(const Author& author, std::int64_t tick, std::int64_t gesture, const Source& source) {
-  return take_back({author, tick, gesture, source, true});
+Result<TakenBack> Ledger::undo(const Author& author, std::int64_t tick, std::int64_t gesture, const Source& source,
+                               const Guard& guard) {
+  return take_back({author, tick, gesture, source, true, false, guard});
 }
 Result<TakenBack> Ledger::abandon(const Author& author, std::int64_t tick, std::int64_t gesture) {
-  return take_back({author, tick, gesture, {}, true, true});
+  return take_back({author, tick, gesture, {}, true, true, {}});
 }
-Result<TakenBack> Ledger::redo(const Author& author, std::int64_t tick, std::int64_t gesture, const Source& source) {
-  return take_back({author, tick, gesture, source, false});
+Result<TakenBack> Ledger::redo(const Author& author, std::int64_t tick, std::int64_t gesture, const Source& source,
+                               const Guard& guard) {
+  return take_back({author, tick, gesture, source, false, false, guard});
 }
 
 std::string text_of(const Mark& left) {

@@ -183,6 +183,7 @@ bool Document::is_unsaved() {
       continue;
     }
     SceneEdit edit(*saved_, *registry_);
+    if (!entry.is_command()) continue;
     (void)bl::apply(edit, entry.command);  // of a node that the file does not have, it says nothing
   }
   // Undone changes leave nothing to save: what counts is what people have said, not that it ran on.
