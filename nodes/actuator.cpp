@@ -38,6 +38,7 @@ struct Actuator {
     t.in(&In::unit, "unit").doc("Unit that the number is sent in, as a symbol such as `m` or `cm`; empty for a plain number.");
     t.in(&In::address, "address")
         .shown_first()
+        .reaches_out()
         .doc("The address of the device: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
     t.in(&In::format, "format")
         .doc(

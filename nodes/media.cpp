@@ -40,7 +40,9 @@ struct Media {
         "A picture or a sequence of pictures at the node's position. The ports got the metadata of the file when it was placed; "
         "a tick reads no files. Pictures without consent are veiled and left out of exports.");
     t.in(&In::file, "file")
-        .doc("JPEG or PNG file, relative to the scene file; in a sequence `#` stands for the number of the frame, `###` for 007.");
+        .reaches_out()
+        .doc(
+            "JPEG or PNG file, relative to the scene file; in a sequence `#` stands for the number of the frame, `###` for 007.");
     t.in(&In::kind, "kind",
          {{Kind::picture, "picture", "One picture."}, {Kind::sequence, "sequence", "Pictures that follow each other."}})
         .doc("One picture or several.");
@@ -64,7 +66,11 @@ struct Media {
           {Placement::billboard, "billboard", "Upright on the position, facing the azimuth."},
           {Placement::camera, "camera", "In front of a camera at the position, on a plane across its line of sight."}})
         .doc("How the picture is placed in the scene.");
-    t.in(&In::size, "size").unit(Unit::metre).range(0.01, 1e5).soft(1, 200).doc("Width on the ground or as a billboard; the height follows.");
+    t.in(&In::size, "size")
+        .unit(Unit::metre)
+        .range(0.01, 1e5)
+        .soft(1, 200)
+        .doc("Width on the ground or as a billboard; the height follows.");
     t.in(&In::azimuth, "azimuth")
         .unit(Unit::degree)
         .range(-360, 360)
@@ -109,7 +115,10 @@ struct Media {
     t.in(&In::pixel_height, "pixel_height").unit(Unit::count).range(0, 65535).doc("Height in the file; 0 where it is not known.");
     t.in(&In::orientation, "orientation").range(1, 8).doc("Orientation of the picture, 1 to 8 as in EXIF.");
     t.in(&In::taken, "taken").doc("When it was taken, by the camera's clock; empty where it is not known.");
-    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).doc("Where it was taken; 0 beside longitude 0 where it is not known.");
+    t.in(&In::latitude, "latitude")
+        .unit(Unit::degree)
+        .range(-90, 90)
+        .doc("Where it was taken; 0 beside longitude 0 where it is not known.");
     t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).doc("Where it was taken.");
     t.out(&Out::width, "width").unit(Unit::metre).doc("Width in the scene.");
     t.out(&Out::height, "height").unit(Unit::metre).doc("Height in the scene.");
@@ -129,7 +138,8 @@ struct Media {
     out.is_free = in.consent == Consent::given || in.consent == Consent::not_needed;
     if (in.file.empty()) out.message = "no file is given: place a picture, or name one";
     else if (in.consent == Consent::refused) out.message = "it must not be shown, so that it is veiled and left out of exports";
-    else if (!out.is_free) out.message = "nobody has said that it may be shown: set `consent`, until then it is veiled and left out of exports";
+    else if (!out.is_free)
+      out.message = "nobody has said that it may be shown: set `consent`, until then it is veiled and left out of exports";
     else if (!is_known) out.message = "its size is not known: place the file again, and its pixels are read";
     return out;
   }

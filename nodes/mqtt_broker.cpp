@@ -24,10 +24,11 @@ struct MqttBroker {
     t.doc(
         "The connection of sensors and actuators to one broker. It applies to all addresses with this host and port. Without "
         "such a node they connect without a user name and unencrypted. Of several nodes for one broker the first id counts.");
-    t.in(&In::host, "host").doc("The host as written in addresses, such as `localhost` or `broker.example.org`.");
-    t.in(&In::port, "port").range(1, 65535).doc("Its port: usually 1883, or 8883 for encrypted connections.");
+    t.in(&In::host, "host").reaches_out().doc("The host as written in addresses, such as `localhost` or `broker.example.org`.");
+    t.in(&In::port, "port").range(1, 65535).reaches_out().doc("Its port: usually 1883, or 8883 for encrypted connections.");
     t.in(&In::user, "user").doc("The user name at the broker; empty for none.");
     t.in(&In::password_from, "password_from")
+        .reaches_out()
         .doc(
             "Where the password is: `env:BL_NAME` for a variable of the environment, or `file:NAME.password` for the first line "
             "of a "
@@ -35,6 +36,7 @@ struct MqttBroker {
     t.in(&In::is_encrypted, "is_encrypted")
         .doc("Connects by TLS and checks the certificate of the broker. When off, the password is sent unencrypted, too.");
     t.in(&In::ca_file, "ca_file")
+        .reaches_out()
         .doc(
             "PEM file beside the scene with the certificates that the broker's certificate is checked against; empty for those "
             "that this computer trusts.");

@@ -49,6 +49,7 @@ struct Sensor {
         "are entries of the log, so that a replay gives the same result without the device.");
     t.in(&In::address, "address")
         .shown_first()
+        .reaches_out()
         .doc(
             "Address of the readings: `mqtt://host:1883/topic`, `osc://9000/path`, `http://host/page`, or "
             "`replay:table.csv#column`, where `replay:table.csv?site=7&time=date+hour#count` takes the rows of site 7 only.");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/define/port_builder.h"
+#include "core/define/rights.h"
 
 namespace bl {
 
@@ -29,9 +30,10 @@ struct CommandDefinition : TypeDefinition {
   /// Reduces a command to some of its places, given the scene after the whole command; empty where a command applies as a whole
   /// or not at all.
   std::function<Command(const Scene& done, const std::set<Touch>& places)> narrow;
+  Rights rights = {};  ///< who may submit it where several people work on a scene
 };
 
-/// T has `struct In` (arguments), `declare(CommandBuilder<T>&)` and
+/// T has `struct In` (arguments), `static constexpr Rights kRights`, `declare(CommandBuilder<T>&)` and
 /// `static Result<std::vector<Command>> apply(SceneEdit&, const In&)`, which returns the inverse, in the order to apply. It may
 /// have `static Command narrow(const Scene& done, const std::set<Touch>& places)` (CommandDefinition).
 template <class T>
@@ -47,6 +49,7 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
 
   static CommandDefinition build() {
     CommandDefinition definition;
+    definition.rights = T::kRights;
     CommandBuilder builder(definition);
     T::declare(builder);
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition.ports);

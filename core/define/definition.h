@@ -94,6 +94,7 @@ struct PortDefinition {
   bool keeps_default = false;   ///< a set value is kept even if it equals the default, such as latitude 0
   bool is_required = false;     ///< has no usable default (ids in commands)
   bool is_residual = false;     ///< a scene is settled when every residual is within its tolerance
+  bool reaches_out = false;     ///< makes the program that runs the scene open a file or a connection
   bool is_means = false;        ///< an inner quantity of a solver, which says nothing about the result: not compared
   bool is_shown_first = false;  ///< shown where there is room for few results; without such ports the first ones are
   bool is_traced = false;       ///< plotted where there is room for one curve only

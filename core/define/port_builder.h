@@ -91,6 +91,11 @@ class PortBuilder {
     port_->is_means = true;
     return *this;
   }
+  /// Its value makes the program that runs the scene open a file or a connection, so that it is not for everybody to set.
+  PortBuilder& reaches_out() {
+    port_->reaches_out = true;
+    return *this;
+  }
   /// Shown where there is room for few ports only, in the order of the declaration.
   PortBuilder& shown_first() {
     port_->is_shown_first = true;

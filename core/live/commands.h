@@ -16,6 +16,7 @@ struct Receive {
     std::int64_t tick = 0;
     bool whole = false;
   };
+  static constexpr Rights kRights{.device = Ground::own};
   static void declare(CommandBuilder<Receive>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -24,6 +25,7 @@ struct NoteConnection {
   struct In {
     std::string node, sentence;
   };
+  static constexpr Rights kRights{.device = Ground::own};
   static void declare(CommandBuilder<NoteConnection>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };

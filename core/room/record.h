@@ -30,7 +30,7 @@ struct RunRecord {
 struct RefusalRecord {
   std::string run;
   std::int64_t operation = 0;
-  Refusal refusal;
+  Refusal refusal = {};
 };
 
 /// What opens a seat: a hash of its token, never the token. Empty: it is void.
@@ -65,7 +65,7 @@ struct DraftRecord {
 struct DraftStepRecord {
   std::string draft;
   std::int64_t number = 0;
-  Command command;
+  Command command = {};
 };
 
 /// The key that ties a secret ballot to its seat while the vote is open. Empty: it was destroyed, and nobody can tell any more.

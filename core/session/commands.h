@@ -18,6 +18,10 @@ struct AddNode {
     std::string id;
     JsonValue node;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft,
+                                  .stakeholder = Ground::in_draft,
+                                  .participant = Ground::open_form | Ground::in_draft,
+                                  .device = Ground::own};
   static void declare(CommandBuilder<AddNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -25,6 +29,10 @@ struct RemoveNode {
   struct In {
     std::string id;
   };
+  static constexpr Rights kRights{.designer = Ground::own_in_area | Ground::in_draft,
+                                  .stakeholder = Ground::own_in_draft,
+                                  .participant = Ground::own_in_draft,
+                                  .device = Ground::own};
   static void declare(CommandBuilder<RemoveNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -32,6 +40,7 @@ struct RenameNode {
   struct In {
     std::string id, name;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::own};
   static void declare(CommandBuilder<RenameNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -40,6 +49,7 @@ struct Typify {
     std::string node, typification;
     JsonValue values;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<Typify>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -47,6 +57,7 @@ struct Untypify {
   struct In {
     std::string node, typification;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<Untypify>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -56,6 +67,10 @@ struct SetPort {
     PortChoice port;
     JsonValue value = JsonValue::null();
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft,
+                                  .stakeholder = Ground::on_card | Ground::in_draft,
+                                  .participant = Ground::on_card,
+                                  .device = Ground::own};
   static void declare(CommandBuilder<SetPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -66,6 +81,8 @@ struct SetCell {
     std::string row, column;
     JsonValue value = JsonValue::null();
   };
+  static constexpr Rights kRights{
+      .designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::on_card | Ground::own, .participant = Ground::own};
   static void declare(CommandBuilder<SetCell>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -76,6 +93,8 @@ struct AddRow {
     JsonValue row;
     std::int64_t at = -1;
   };
+  static constexpr Rights kRights{
+      .designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::own, .participant = Ground::own};
   static void declare(CommandBuilder<AddRow>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -85,6 +104,8 @@ struct RemoveRow {
     PortChoice port;
     std::string row;
   };
+  static constexpr Rights kRights{
+      .designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::own, .participant = Ground::own};
   static void declare(CommandBuilder<RemoveRow>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -93,6 +114,7 @@ struct LockPort {
     std::string node;
     PortChoice port;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft};
   static void declare(CommandBuilder<LockPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -101,6 +123,7 @@ struct UnlockPort {
     std::string node;
     PortChoice port;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft};
   static void declare(CommandBuilder<UnlockPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -110,6 +133,7 @@ struct AddLink {
     JsonValue link;
     bool is_resting = false;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<AddLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -117,6 +141,7 @@ struct RemoveLink {
   struct In {
     std::string id;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<RemoveLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -125,6 +150,7 @@ struct SetLinkEnds {
     std::string id;
     Selection from, to;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<SetLinkEnds>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -133,6 +159,9 @@ struct SetLinkParameter {
     std::string id, parameter;
     JsonValue value = JsonValue::null();
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft,
+                                  .stakeholder = Ground::on_card | Ground::in_draft,
+                                  .participant = Ground::on_card};
   static void declare(CommandBuilder<SetLinkParameter>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -141,6 +170,9 @@ struct SetLinkStrength {
     std::string id;
     double strength = 1;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft,
+                                  .stakeholder = Ground::on_card | Ground::in_draft,
+                                  .participant = Ground::on_card};
   static void declare(CommandBuilder<SetLinkStrength>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -149,6 +181,7 @@ struct EnableLink {
     std::string id;
     bool enabled = true;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<EnableLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -157,6 +190,7 @@ struct MuteLink {
     std::string id;
     bool muted = true;
   };
+  static constexpr Rights kRights{.designer = Ground::in_area | Ground::in_draft, .stakeholder = Ground::in_draft};
   static void declare(CommandBuilder<MuteLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -165,6 +199,7 @@ struct SetSetting {
     std::string setting;
     JsonValue value = JsonValue::null();
   };
+  static constexpr Rights kRights{.designer = Ground::in_draft};
   static void declare(CommandBuilder<SetSetting>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -173,6 +208,7 @@ struct SetScript {
     std::string id, text;
     bool even_if_broken = false;
   };
+  static constexpr Rights kRights{.facilitator = Ground::if_allowed, .designer = Ground::if_allowed};
   static void declare(CommandBuilder<SetScript>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -180,6 +216,7 @@ struct RemoveScript {
   struct In {
     std::string id;
   };
+  static constexpr Rights kRights{.facilitator = Ground::if_allowed, .designer = Ground::if_allowed};
   static void declare(CommandBuilder<RemoveScript>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
@@ -188,6 +225,7 @@ struct SetView {
     JsonValue changes;
     bool whole = false;
   };
+  static constexpr Rights kRights{.designer = Ground::own_in_view};
   static void declare(CommandBuilder<SetView>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
   static Command narrow(const Scene& done, const std::set<Touch>& places);
@@ -196,6 +234,7 @@ struct Batch {
   struct In {
     CommandList commands;
   };
+  static constexpr Rights kRights{.is_by_parts = true};
   static void declare(CommandBuilder<Batch>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };

@@ -134,7 +134,7 @@ std::size_t Ledger::subscribe(std::function<void(const LogEntry&)> listener) {
   return last_listener_;
 }
 
-Result<void> Ledger::replay(const LogEntry& entry) { return apply_entry(entry); }
+Result<void> Ledger::replay(const LogEntry& entry, const Guard& guard) { return apply_entry(entry, guard); }
 
 Ledger::Changes Ledger::take_changes() {
   Changes taken{is_changed_, std::move(placed_)};

@@ -76,7 +76,7 @@ class Ledger {
   Result<TakenBack> abandon(const Author& author, std::int64_t tick, std::int64_t gesture);
   bool can_redo(const Author& author) const { return !gestures_.open(author, false).empty(); }
   /// Applies an entry of a log with its number, gesture and undo marks; an entry without a number (0) gets the next one.
-  Result<void> replay(const LogEntry& entry);
+  Result<void> replay(const LogEntry& entry, const Guard& guard = {});
 
   const Scene& scene() const { return scene_; }
   const Registry& registry() const { return *registry_; }

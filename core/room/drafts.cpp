@@ -1,0 +1,47 @@
+// A draft's scene is made anew from the head of the log whenever that has moved on: applying commands costs microseconds.
+#include "core/room/drafts.h"
+
+#include <algorithm>
+
+namespace bl::room {
+
+std::int64_t Draft::step_count() const {
+  return std::count_if(steps_.begin(), steps_.end(), [](const Command& step) { return !step.id.empty(); });
+}
+
+const Scene& Draft::scene_on(const Scene& head, std::int64_t seq) {
+  if (follows_ == seq) return scene_;
+  scene_ = head;
+  misfits_.clear();
+  SceneEdit edit(scene_, *registry_);
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    if (steps_[k].id.empty()) continue;
+    if (auto done = bl::apply(edit, steps_[k]); !done) misfits_.push_back({static_cast<std::int64_t>(k), done.error()});
+  }
+  follows_ = seq;
+  return scene_;
+}
+
+Result<void> Draft::add(const Command& command, const Scene& head, std::int64_t seq) {
+  (void)scene_on(head, seq);
+  SceneEdit edit(scene_, *registry_);
+  if (auto done = bl::apply(edit, command); !done) return done.error();
+  steps_.push_back(command);
+  return {};
+}
+
+std::int64_t Draft::take_back() {
+  const auto last = std::find_if(steps_.rbegin(), steps_.rend(), [](const Command& step) { return !step.id.empty(); });
+  if (last == steps_.rend()) return -1;
+  *last = {};
+  follows_ = -1;
+  return steps_.rend() - last - 1;
+}
+
+void Draft::restore(std::int64_t number, Command command) {
+  if (static_cast<std::size_t>(number) >= steps_.size()) steps_.resize(static_cast<std::size_t>(number) + 1);
+  steps_[static_cast<std::size_t>(number)] = std::move(command);
+  follows_ = -1;
+}
+
+}  // namespace bl::room

@@ -1,0 +1,279 @@
+// The way of an operation: once only, allowed, fitting, in the log; then everything that follows from it.
+#include "core/room/room.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "core/room/refusals.h"
+
+namespace bl::room {
+
+namespace {
+
+constexpr std::size_t kKeptAnswers = 256, kKeptInverses = 20000;
+
+}  // namespace
+
+Room::Room(Ledger& ledger, RoomOptions options) : ledger_(&ledger), options_(std::move(options)) {}
+
+// --- Once only ------------------------------------------------------------------------------------------------------
+
+std::int64_t Room::greet(std::int64_t seat, const std::string& run, std::int64_t last_known) {
+  if (run.empty() || state_.seat(seat) == nullptr) return -1;
+  Run& known = runs_.try_emplace(run, Run{.seat = seat, .last = 0, .answers = {}, .gesture = {}}).first->second;
+  if (known.seat != seat) return -1;
+  if (last_known > known.last) {
+    known.last = last_known;
+    record_.runs.push_back({run, seat, known.last});
+  }
+  return known.last;
+}
+
+Answer Room::submit(std::int64_t seat, const Operation& operation, Now now) {
+  if (operation.run.empty() || operation.id < 1) return refuse(Reason::bad, "id", "an operation needs a run and a number from 1");
+  if (state_.seat(seat) == nullptr) return refuse(Reason::right, "", "you have no seat in this room");
+  Run& run = runs_.try_emplace(operation.run, Run{.seat = seat, .last = 0, .answers = {}, .gesture = {}}).first->second;
+  if (run.seat != seat) return refuse(Reason::right, "run", "this run belongs to another seat");
+  if (operation.id <= run.last) {
+    const auto known =
+        std::find_if(run.answers.begin(), run.answers.end(), [&](const auto& one) { return one.first == operation.id; });
+    return known == run.answers.end() ? Answer(done(now)) : known->second;
+  }
+  if (operation.id > run.last + 1)
+    return refuse(Reason::gap, "id", "the operation " + std::to_string(run.last + 1) + " has not come yet",
+                  {{"next", run.last + 1}});
+  Answer result = decide({seat, operation, now});
+  answer(run, operation, result);
+  return result;
+}
+
+void Room::answer(Run& run, const Operation& operation, const Answer& answer) {
+  run.last = operation.id;
+  run.answers.emplace_back(operation.id, answer);
+  if (run.answers.size() > kKeptAnswers) run.answers.pop_front();
+  record_.runs.push_back({operation.run, run.seat, run.last});
+  if (const auto* refusal = std::get_if<Refusal>(&answer)) record_.refusals.push_back({operation.run, operation.id, *refusal});
+}
+
+Answer Room::decide(const Said& said) {
+  if (auto stale = why_stale(said.operation)) return *stale;
+  switch (said.operation.kind) {
+    case OperationKind::command: return say_command(said);
+    case OperationKind::event: return say_event(said);
+    case OperationKind::undo:
+    case OperationKind::redo: return take_back(said);
+    case OperationKind::rewind: return rewind(said);
+    default: return change_draft(said);
+  }
+}
+
+// --- Commands -------------------------------------------------------------------------------------------------------
+
+Result<Command> Room::read_command(const Operation& operation) const {
+  const auto content = operation.content.read();
+  if (!content) return content.error();
+  return command_from_json(ledger_->registry(), **content, "");
+}
+
+std::int64_t Room::gesture_of(const Said& said) {
+  Run& run = runs_.at(said.operation.run);
+  if (said.operation.gesture == 0) return 0;
+  if (run.gesture.first != said.operation.gesture) run.gesture = {said.operation.gesture, ledger_->new_gesture()};
+  return run.gesture.second;
+}
+
+Answer Room::say_command(const Said& said) {
+  const auto command = read_command(said.operation);
+  if (!command) return refusal_of(Reason::bad, command.error());
+  if (!said.operation.draft.empty()) return add_to_draft(said, *command);
+  if (auto refusal = why_not(asking(said.seat), *command, scene())) return *refusal;
+  if (command->id == "cast_vote") {
+    if (auto refusal = why_no_ballot(state_, *command)) return *refusal;
+    if (is_secret(state_, *command)) return cast_secretly(said, *command);
+  }
+  Submission submission{.command = *command, .author = said.author(), .gesture = gesture_of(said), .source = said.source()};
+  auto put_in = put(submission, said.now);
+  // A gesture that was ended by an undo goes on as a new one.
+  if (!put_in && submission.gesture != 0 && put_in.error().place == "gesture") {
+    runs_.at(said.operation.run).gesture = {};
+    submission.gesture = gesture_of(said);
+    put_in = put(submission, said.now);
+  }
+  return put_in ? Answer(done(said.now)) : Answer(refusal_of_scene(put_in.error()));
+}
+
+Guard Room::guard() {
+  return [this](const Change& change) -> Result<void> {
+    touches_ = change.touches;
+    inverse_ = change.inverse;
+    return {};
+  };
+}
+
+Result<void> Room::put(Submission submission, Now now, const std::string& draft, std::int64_t by) {
+  if (auto done = ledger_->submit(std::move(submission), now.tick, guard()); !done) return done;
+  follow(ledger_->log().back());
+  record_.entries.push_back({ledger_->log().back(), now.at, draft, by});
+  return {};
+}
+
+// Who has made what, who has written what last, and how to get back: all that follows from an entry of the log.
+void Room::follow(const LogEntry& entry) {
+  const std::int64_t seat = RoomState::seat_of_author(entry.author.id);
+  for (const Touch& touch : touches_) {
+    writes_[touch] = {entry.seq, entry.author.id};
+    const bool is_node = touch.part == ScenePart::node;
+    if (!touch.path.empty() || (!is_node && touch.part != ScenePart::link)) continue;
+    const bool is_there = is_node ? scene().nodes.contains(touch.id) : scene().links.contains(touch.id);
+    const std::string place = (is_node ? "nodes/" : "links/") + touch.id;
+    if (!is_there) state_.makers.erase(place);
+    else if (seat != 0) state_.makers[place] = seat;
+  }
+  // A rewind takes back what was done to the scene, not what people have voted.
+  if (entry.command.id != "cast_vote") inverses_.emplace_back(entry.seq, std::move(inverse_));
+  inverse_.clear();
+  if (inverses_.size() > kKeptInverses) inverses_.pop_front();
+  touches_.clear();
+}
+
+Result<void> Room::submit_device(const Submission& submission, Now now) { return put(submission, now); }
+
+std::optional<Refusal> Room::why_stale(const Operation& operation) const {
+  for (const Condition& condition : operation.conditions) {
+    const auto place = touch_named(condition.key);
+    const auto now = place ? value_at(scene(), ledger_->registry(), *place) : std::nullopt;
+    if (!now) return refuse(Reason::gone, condition.key, "is not there any more");
+    if (*now == condition.was) continue;
+    const auto write = writes_.find(*place);
+    Json args = Json::object();
+    args["now"] = **now->read();
+    if (write != writes_.end()) {
+      const Seat* seat = state_.seat(RoomState::seat_of_author(write->second.author));
+      args["by"] = seat == nullptr ? write->second.author : seat->name;
+      args["seq"] = write->second.seq;
+    }
+    return refuse(Reason::stale, condition.key, "has been changed since", std::move(args));
+  }
+  return std::nullopt;
+}
+
+// --- Undo, redo, rewind ---------------------------------------------------------------------------------------------
+
+Answer Room::take_back(const Said& said) {
+  const auto content = said.operation.content.read();
+  if (!content) return refusal_of(Reason::bad, content.error());
+  const auto gesture = whole_number(**content, "gesture", 0), of = whole_number(**content, "of", said.seat);
+  if (!gesture || !of) return refuse(Reason::bad, gesture ? "of" : "gesture", "expects a whole number");
+  const Seat& seat = *state_.seat(said.seat);
+  if (*of != said.seat && seat.role != Role::facilitator)
+    return refuse(Reason::right, "of", "only the facilitator takes back what others have done");
+  const Scene before = scene();
+  std::optional<Refusal> refusal;
+  const Guard check = [&](const Change& change) -> Result<void> {
+    refusal = why_no_undo(asking(said.seat), before, scene(), change.touches);
+    if (refusal) return Error{ErrorCode::conflict, refusal->place, refusal->text};
+    return guard()(change);
+  };
+  const Author author = RoomState::author_of_seat(*of);
+  const std::size_t first = ledger_->log().size();
+  const auto taken = said.operation.kind == OperationKind::undo
+                         ? ledger_->undo(author, said.now.tick, *gesture, said.source(), check)
+                         : ledger_->redo(author, said.now.tick, *gesture, said.source(), check);
+  if (refusal) return *refusal;
+  if (!taken) return refusal_of(taken.error().code == ErrorCode::not_found ? Reason::gone : Reason::stale, taken.error());
+  // One undo may be several entries; what it touched as a whole belongs to the last of them.
+  for (std::size_t k = first; k < ledger_->log().size(); ++k)
+    record_.entries.push_back({ledger_->log()[k], said.now.at, {}, *of == said.seat ? 0 : said.seat});
+  follow(ledger_->log().back());
+  return done(said.now);
+}
+
+Answer Room::rewind(const Said& said) {
+  if (state_.seat(said.seat)->role != Role::facilitator)
+    return refuse(Reason::right, "", "only the facilitator takes back what everybody has done");
+  const auto content = said.operation.content.read();
+  if (!content) return refusal_of(Reason::bad, content.error());
+  const auto to = whole_number(**content, "to", -1);
+  if (!to || *to < 0 || *to >= ledger_->last_seq())
+    return refuse(Reason::bad, "to", "expects the number of an entry before the last one");
+  std::vector<Command> back;
+  std::int64_t reached = ledger_->last_seq();
+  for (auto entry = inverses_.rbegin(); entry != inverses_.rend() && entry->first > *to; ++entry) {
+    back.insert(back.end(), entry->second.begin(), entry->second.end());
+    reached = entry->first;
+  }
+  const bool is_far = inverses_.size() == kKeptInverses && reached > *to + 1 && inverses_.front().first > *to + 1;
+  if (is_far)
+    return refuse(Reason::gone, "to",
+                  "the entries before " + std::to_string(inverses_.front().first) + " can no longer be taken back");
+  if (back.empty()) return refuse(Reason::gone, "to", "nothing of the scene has changed since that entry");
+  Submission submission{.command = command<Batch>({std::move(back)}), .author = said.author(), .source = said.source()};
+  submission.label = "Back to entry " + std::to_string(*to);
+  const auto put_in = put(std::move(submission), said.now);
+  return put_in ? Answer(done(said.now)) : Answer(refusal_of_scene(put_in.error()));
+}
+
+// --- Coming back ----------------------------------------------------------------------------------------------------
+
+Result<void> Room::replay(const EntryRecord& record) {
+  const LogEntry& entry = record.entry;
+  touches_.clear();
+  inverse_.clear();
+  if (auto done = ledger_->replay(entry, guard()); !done) return done;
+  if (entry.event) {
+    const auto content = entry.event->read();
+    if (!content) return content.error();
+    const std::string event = (**content).value("event", "");
+    return fold(ledger_->log().back(), event, (**content)["arguments"]);
+  }
+  follow(entry);
+  return {};
+}
+
+void Room::restore(const Record& rows) {
+  for (const RunRecord& run : rows.runs)
+    runs_[run.run] = {.seat = run.seat, .last = run.last_operation, .answers = {}, .gesture = {}};
+  for (const LogEntry& entry : ledger_->log()) {
+    const auto run = runs_.find(entry.source.origin);
+    if (entry.source.operation == 0 || run == runs_.end()) continue;
+    run->second.answers.emplace_back(entry.source.operation, Acknowledgement{entry.seq, entry.tick});
+  }
+  for (const RefusalRecord& refusal : rows.refusals)
+    if (const auto run = runs_.find(refusal.run); run != runs_.end())
+      run->second.answers.emplace_back(refusal.operation, refusal.refusal);
+  for (auto& [name, run] : runs_) {
+    std::stable_sort(run.answers.begin(), run.answers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Of an operation with several entries the last one counts, as it did when it was answered.
+    std::deque<std::pair<std::int64_t, Answer>> last;
+    for (auto& one : run.answers) {
+      if (!last.empty() && last.back().first == one.first) last.pop_back();
+      last.push_back(std::move(one));
+    }
+    while (last.size() > kKeptAnswers) last.pop_front();
+    run.answers = std::move(last);
+  }
+  for (const TokenRecord& token : rows.tokens)
+    if (!token.hash.empty()) tokens_[token.hash] = token.seat;
+  for (const TextRecord& text : rows.texts) texts_[text.id] = text;
+  text_count_ = static_cast<std::int64_t>(texts_.size());
+  for (const DraftRecord& row : rows.drafts) {
+    Draft draft(ledger_->registry(), row.id, row.seat, row.title, row.base);
+    for (std::size_t k = 0; k < std::size(kDraftStateNames); ++k)
+      if (kDraftStateNames[k] == row.state) draft.set_state(static_cast<DraftState>(k));
+    drafts_.insert_or_assign(row.id, std::move(draft));
+  }
+  for (const DraftStepRecord& step : rows.draft_steps)
+    if (const auto draft = drafts_.find(step.draft); draft != drafts_.end()) draft->second.restore(step.number, step.command);
+  for (const BallotKeyRecord& key : rows.ballot_keys)
+    if (!key.key.empty()) ballot_keys_[key.vote] = key.key;
+  for (const SecretBallotRecord& ballot : rows.secret_ballots) secret_ballots_[ballot.vote][ballot.id] = ballot.ballot;
+}
+
+const TextRecord* Room::text(const std::string& id) const {
+  const auto found = texts_.find(id);
+  return found == texts_.end() ? nullptr : &found->second;
+}
+
+}  // namespace bl::room

@@ -1,0 +1,165 @@
+// A session with many people: each operation is checked, applied and answered exactly once.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/room/drafts.h"
+#include "core/room/operation.h"
+#include "core/room/record.h"
+#include "core/room/rights.h"
+#include "core/room/secrets.h"
+#include "core/session/ledger.h"
+
+namespace bl::room {
+
+struct RoomOptions {
+  Allowances allowances = {};
+  RandomBytes random = system_random_bytes;
+};
+
+/// When something is said: the tick that will read it, and the host's clock, which decides about pens only and is stored for the
+/// minutes.
+struct Now {
+  std::int64_t tick = 0;
+  std::int64_t at = 0;  ///< [ms since 1970]
+};
+
+/// A seat that somebody gets.
+struct Invitation {
+  Role role = Role::participant;
+  std::set<std::string> areas = {};
+  std::string card = {};
+  bool is_by_code = false;                             ///< by the code that everybody sees, not by an invitation of their own
+  std::string name = {}, contact = {}, language = {};  ///< of the person, where they have said so; never part of the log
+  std::int64_t consent_at = 0;
+};
+struct Admission {
+  std::int64_t seat = 0;
+  std::string token;  ///< opens the seat again; it is given once
+};
+
+/// The room of one ledger. It knows no clock, no socket and no disk: what has to be stored comes out of take_record(), and nobody
+/// may be told of an answer before the record that it stands in is on the disk. Not for several threads.
+class Room {
+ public:
+  /// The ledger must outlive the room, and from now on only the room changes it.
+  Room(Ledger& ledger, RoomOptions options);
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+
+  // Coming back from what was stored, before anything else is said.
+  /// The next entry of the log. An error where it does not fit.
+  Result<void> replay(const EntryRecord& record);
+  /// All other rows, after the entries.
+  void restore(const Record& rows);
+
+  // People.
+  /// Refused where the door is shut to whoever comes by the code, or the room is full.
+  std::variant<Admission, Refusal> admit(const Invitation& invitation, Now now);
+  /// The seat that a token opens; 0 where it opens none.
+  std::int64_t seat_of_token(std::string_view token) const;
+  /// A run of that seat is there: the number of its last operation that was answered. `last_known`: of the last one that the page
+  /// has an answer for, which is the truth where a refusal was not stored before a crash. -1 where the run is somebody else's.
+  std::int64_t greet(std::int64_t seat, const std::string& run, std::int64_t last_known);
+  void note_presence(std::int64_t seat, bool is_here, Now now);
+  /// Lets time pass: a pen whose holder does not answer, or has left, goes to whoever asked first.
+  void pass(Now now);
+  static constexpr std::int64_t kPenAnswer = 20000, kPenLeave = 30000;  // [ms]
+
+  // What they say.
+  Answer submit(std::int64_t seat, const Operation& operation, Now now);
+  /// Readings and connections of devices of this machine, which need no seat.
+  Result<void> submit_device(const Submission& submission, Now now);
+
+  // What there is.
+  const RoomState& state() const { return state_; }
+  const Scene& scene() const { return ledger_->scene(); }
+  const std::map<std::string, Draft>& drafts() const { return drafts_; }
+  /// The scene of a draft; the draft must be there.
+  const Scene& scene_of(const std::string& draft);
+  /// What a draft changes, and with whom it meets; the draft must be there.
+  DraftSummary summary_of(const std::string& draft);
+  /// The words of a comment, a reason, a note; nothing where there are none of that name.
+  const TextRecord* text(const std::string& id) const;
+  /// What has to be stored since the last call, in the order in which it was said.
+  Record take_record() { return std::exchange(record_, {}); }
+
+ private:
+  struct Run {
+    std::int64_t seat = 0, last = 0;
+    std::deque<std::pair<std::int64_t, Answer>> answers;  // the last ones, ascending
+    std::pair<std::int64_t, std::int64_t> gesture;        // the sender's number, and the ledger's
+  };
+  struct Said {
+    std::int64_t seat;
+    const Operation& operation;
+    Now now;
+    Source source() const { return {operation.run, operation.id}; }
+    Author author() const { return RoomState::author_of_seat(seat); }
+  };
+  struct Write {
+    std::int64_t seq = 0;
+    std::string author;
+  };
+
+  Answer decide(const Said& said);
+  Answer say_command(const Said& said);
+  Answer say_event(const Said& said);
+  Answer take_back(const Said& said);
+  Answer rewind(const Said& said);
+  Answer change_draft(const Said& said);
+  Answer add_to_draft(const Said& said, const Command& command);
+  Answer accept(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
+  Answer enter_event(const Said& said, const EventDefinition& kind, std::map<std::string, Value> arguments);
+  Answer cast_secretly(const Said& said, const Command& command);
+
+  Result<Command> read_command(const Operation& operation) const;
+  std::optional<Refusal> why_stale(const Operation& operation) const;
+  std::int64_t gesture_of(const Said& said);
+  Guard guard();
+  /// Submits on behalf of the room itself or of somebody, without a check.
+  Result<void> put(Submission submission, Now now, const std::string& draft = {}, std::int64_t by = 0);
+  Result<void> note(const EventDefinition& kind, const std::map<std::string, Value>& arguments, const Author& author, Now now,
+                    const Source& source);
+  void note_as_room(const std::string& event, const std::map<std::string, Value>& arguments, Now now);
+  void follow(const LogEntry& entry);
+  Result<void> fold(const LogEntry& entry, std::string_view event, const Json& arguments);
+  void store_texts(const EventDefinition& kind, std::map<std::string, Value>& arguments, std::int64_t seat);
+  void after_event(const std::string& event, const std::map<std::string, Value>& arguments, const Said& said);
+  void write_secret_ballots(const std::string& vote, Now now);
+  void erase(std::int64_t seat);
+  void answer(Run& run, const Operation& operation, const Answer& answer);
+  Acknowledgement done(const Now& now) const { return {ledger_->last_seq(), now.tick}; }
+  Asking asking(std::int64_t seat, bool is_in_draft = false) const {
+    return {ledger_->registry(), state_, options_.allowances, seat, is_in_draft};
+  }
+  Draft* draft_of(const Said& said, const std::string& id);
+
+  Ledger* ledger_;
+  RoomOptions options_;
+  RoomState state_;
+  Record record_;
+  std::map<std::string, Run> runs_;
+  std::map<std::string, std::int64_t> tokens_;  // by digest
+  std::map<std::string, Draft> drafts_;
+  std::map<std::string, TextRecord> texts_;
+  std::map<std::string, std::string> ballot_keys_;                          // by vote
+  std::map<std::string, std::map<std::string, JsonValue>> secret_ballots_;  // by vote, then ballot: not yet in the log
+  std::map<Touch, Write> writes_;                                           // the last entry that has written a place
+  std::deque<std::pair<std::int64_t, std::vector<Command>>> inverses_;      // by entry, the last ones
+  std::map<std::string, std::int64_t> asked_at_;                            // by area: since when somebody asks for its pen
+  std::map<std::int64_t, std::int64_t> left_at_;                            // by seat: since when it is empty
+  // Of the entry that is being made.
+  std::vector<Touch> touches_;
+  std::vector<Command> inverse_;
+  std::int64_t text_count_ = 0;
+};
+
+}  // namespace bl::room
