@@ -88,6 +88,14 @@ struct RemoveRow {
   static void declare(CommandBuilder<RemoveRow>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
+struct CastVote {
+  struct In {
+    std::string node, voter;
+    JsonValue ballot = JsonValue::null();
+  };
+  static void declare(CommandBuilder<CastVote>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
 struct LockPort {
   struct In {
     std::string node;
