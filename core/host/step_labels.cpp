@@ -171,6 +171,7 @@ std::string label_of_step(const Registry& registry, const Command& command, cons
                                  : std::string();
     return said.empty() ? label : said;
   }
+  if (command.id == "cast_vote" && json_argument(command, "ballot").is_null()) label = "Withdraw vote";
   if (command.id == "mute_link" && is_off(command, "muted")) label = "Unmute";
   if (command.id == "enable_link" && is_off(command, "enabled")) label = "Disable";
   const std::string subject = subject_of(command, scene);

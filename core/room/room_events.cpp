@@ -187,19 +187,31 @@ void Room::erase(std::int64_t seat) {
 
 // --- Secret ballots -------------------------------------------------------------------------------------------------
 
+namespace {
+
+Command secret_cast(const std::string& vote, const std::string& id, const JsonValue& ballot) {
+  return command<CastVote>({vote, "ballot " + id, ballot});
+}
+
+}  // namespace
+
 // The ballot is stored under a name that says nothing without the key, and the log gets it without person, time and order.
 Answer Room::cast_secretly(const Said& said, const Command& command) {
   const std::string vote = std::get<std::string>(command.arguments.at("node"));
-  Scene trial = scene();
-  SceneEdit edit(trial, ledger_->registry());
-  if (auto fits = bl::apply(edit, command); !fits) return refusal_of_scene(fits.error());
   const std::string id = keyed_digest_of(ballot_keys_.at(vote), std::to_string(said.seat), 12);
   const auto ballot = command.arguments.find("ballot");
   const JsonValue content = ballot == command.arguments.end() ? JsonValue::null() : std::get<JsonValue>(ballot->second);
-  secret_ballots_[vote][id] = content;
+  auto& waiting = secret_ballots_[vote];
+  const bool withdraws_waiting = content.is_null() && waiting.contains(id);
+  if (!withdraws_waiting) {
+    Scene trial = scene();
+    SceneEdit edit(trial, ledger_->registry());
+    if (auto fits = bl::apply(edit, secret_cast(vote, id, content)); !fits) return refusal_of_scene(fits.error());
+  }
+  waiting[id] = content;
   record_.secret_ballots.push_back({vote, id, content});
   static constexpr std::size_t kTogether = 3;
-  if (secret_ballots_.at(vote).size() >= kTogether) write_secret_ballots(vote, said.now);
+  if (waiting.size() >= kTogether) write_secret_ballots(vote, said.now);
   return done(said.now);
 }
 
@@ -208,9 +220,7 @@ void Room::write_secret_ballots(const std::string& vote, Now now) {
   const auto waiting = secret_ballots_.find(vote);
   if (waiting == secret_ballots_.end()) return;
   for (const auto& [id, ballot] : waiting->second) {
-    Command cast{"cast_vote", {{"node", vote}, {"voter", "ballot " + id}}};
-    if (!ballot.is_null()) cast.arguments["ballot"] = ballot;
-    (void)put({.command = std::move(cast), .author = Author("ballots", AuthorKind::program)}, {now.tick, 0});
+    (void)put({.command = secret_cast(vote, id, ballot), .author = Author("ballots", AuthorKind::program)}, {now.tick, 0});
   }
   secret_ballots_.erase(waiting);
   record_.ballots_in_log.push_back(vote);

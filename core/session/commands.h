@@ -109,6 +109,19 @@ struct RemoveRow {
   static void declare(CommandBuilder<RemoveRow>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
+struct CastVote {
+  struct In {
+    std::string node, voter;
+    JsonValue ballot = JsonValue::null();
+  };
+  static constexpr Rights kRights{.facilitator = Ground::own,
+                                  .designer = Ground::own,
+                                  .stakeholder = Ground::own,
+                                  .participant = Ground::own,
+                                  .activity = Activity::vote};
+  static void declare(CommandBuilder<CastVote>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
 struct LockPort {
   struct In {
     std::string node;

@@ -22,6 +22,7 @@ constexpr const char* kShared = R"({"format": "behaviourlinks", "version": 1, "n
   {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}},
   {"id": "brief", "types": {"programme": {"rows": [{"use": "housing", "floor_area": 90, "count": 4},
     {"use": "office", "floor_area": 400}, {"use": "shop", "floor_area": 60}]}}},
+  {"id": "poll", "types": {"vote": {"is_open": true}}},
   {"id": "d", "types": {"sensor": {"reading": 5, "reading_tick": 3}}}],
   "links": [{"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
             {"id": "m", "kind": "keep_distance", "from": "b", "to": ["a", "c"], "strength": 0.5}]})";

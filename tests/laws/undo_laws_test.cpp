@@ -27,6 +27,7 @@ constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "sc
   {"id": "b", "types": {"smart_volume": {}}},
   {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}},
   {"id": "brief", "types": {"programme": {"rows": [{"use": "housing", "floor_area": 90}, {"use": "shop", "floor_area": 60}]}}},
+  {"id": "poll", "types": {"vote": {"is_open": true, "ballots": [{"voter": "anna", "answer": "no"}, {"voter": "carla", "answer": "maybe"}]}}},
   {"id": "d", "types": {"sensor": {"reading": 5, "reading_tick": 3, "reading_problem": "noise"}}}],
   "links": [
   {"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
@@ -73,6 +74,10 @@ std::vector<Command> every_command() {
           command<SetCell>({"brief", {"programme.rows"}, "shop", "use", {"\"market\""}}),
           command<AddRow>({"brief", {"programme.rows"}, {R"({"use": "school", "floor_area": 800})"}, 1}),
           command<RemoveRow>({"brief", {"programme.rows"}, "housing"}),
+          command<CastVote>({"poll", "ben", {"\"yes\""}}),
+          command<CastVote>({"poll", "anna", {"\"yes\""}}),
+          command<CastVote>({"poll", "anna", JsonValue::null()}),
+          command<CastVote>({"poll", "carla", {"\"no\""}}),
           command<live::Receive>({"d", 21.5, "noon", "", 12}),
           command<live::Receive>({"d", 0, "", "`x` is no number", 12}),
           command<live::NoteConnection>({"d", "nobody is there"}),
@@ -241,6 +246,7 @@ TEST(UndoLaws, WhatCannotBeUndoneSaysWhyAndChangesNothing) {
 std::optional<Command> missing_thing(const Scene& scene, int number) {
   if (!scene.nodes.contains("brief"))
     return command<AddNode>({"brief", {R"({"types": {"programme": {"rows": [{"use": "shop", "floor_area": 7}]}}})"}});
+  if (!scene.nodes.contains("poll")) return command<AddNode>({"poll", {R"({"types": {"vote": {"is_open": true}}})"}});
   const std::string one = scene.nodes.begin()->first, other = scene.nodes.rbegin()->first;
   if (scene.nodes.size() > 1 && scene.links.size() < 4)
     return command<AddLink>(

@@ -41,7 +41,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
     return it->first;
   };
   const std::string fresh = "fresh" + std::to_string(number);
-  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 26);
+  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 27);
   const std::string number_text = std::to_string(random.below(40));
   switch (kind) {
     case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
@@ -106,6 +106,10 @@ Command random_command(const Scene& scene, Random& random, int number) {
                               static_cast<std::int64_t>(random.below(4)) - 1});
     case 25:
       return command<RemoveRow>({playing_or(scene, "programme", pick(scene.nodes)), {"programme.rows"}, random_use(random)});
+    case 26:
+      return command<CastVote>(
+          {playing_or(scene, "vote", pick(scene.nodes)), random_use(random),
+           random.below(4) == 0 ? JsonValue::null() : JsonValue(random.below(2) == 0 ? "\"yes\"" : "\"no\"")});
     default:
       return command<AddNode>(
           {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
