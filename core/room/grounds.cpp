@@ -66,8 +66,6 @@ class Judge {
 
   // What opens files and connections, and what runs text: the same for everybody and on all grounds.
   Given why_out_of_reach(const Touch& touch) const {
-    if (touch.part == ScenePart::script && !asking_.allowances.scripts)
-      return no(Reason::right, touch, "cannot be changed: this room was opened without scripts");
     if (touch.part != ScenePart::node) return std::nullopt;
     const NodeRecord* after = node_in(change_.after, touch.id);
     if (after == nullptr) return std::nullopt;

@@ -60,6 +60,9 @@ std::optional<Refusal> judge_one(const Asking& asking, const Seat& seat, const C
   const Activity activity = asking.is_in_draft ? Activity::draft : definition.rights.activity;
   if (auto not_now = why_not_now(asking, seat, activity)) return not_now;
   if (auto too_large = why_too_large(command, scene)) return too_large;
+  // Before it is applied: a script runs when it is read.
+  if (definition.rights.of(seat.role) == static_cast<Grounds>(Ground::if_allowed) && !asking.allowances.scripts)
+    return no(Reason::right, "scripts", "this room was opened without scripts");
   const Scene before = scene;
   SceneEdit edit(scene, asking.registry);
   if (!bl::apply(edit, command)) return std::nullopt;  // the scene will say why

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
+#include "core/graph/state.h"
 #include "core/session/gestures.h"
 
 namespace bl {

@@ -1,6 +1,7 @@
 // A room in one process, with its disk: what it has stored, and a way to lose everything else.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/random.h"
 #include "core/define/codec.h"
 #include "core/room/room.h"
 #include "tests/support/world.h"
