@@ -10,7 +10,7 @@
 
 namespace bl::room {
 
-/// Does a node of the scene lie in the area? An outline holds the nodes whose set position is inside it in plan, or on its edge.
+/// Does a node of the scene lie in the area? An outline holds the nodes whose set position is inside it in plan.
 bool lies_in(const Area& area, const Registry& registry, const std::string& id, const NodeRecord& node);
 
 /// Whether somebody may change a node because of their areas.

@@ -10,11 +10,8 @@
 
 #include "core/define/port_builder.h"
 #include "core/define/rights.h"
+#include "core/graph/scene.h"
 #include "core/room/room_state.h"
-
-namespace bl {
-struct Scene;
-}
 
 namespace bl::room {
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/define/payload.h"
+#include "core/room/answer.h"
 
 namespace bl::room {
 
@@ -37,6 +39,7 @@ struct Operation {
   std::int64_t gesture = 0;  ///< of the sender's own numbering: commands of one gesture are undone together; 0: a new one
   std::string draft = {};    ///< the command is a step of this draft
   std::vector<Condition> conditions = {};
+  std::optional<Refusal> unreadable = {};  ///< its form is wrong; it has its number all the same, and is answered
 };
 
 }  // namespace bl::room

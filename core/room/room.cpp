@@ -58,6 +58,7 @@ void Room::answer(Run& run, const Operation& operation, const Answer& answer) {
 }
 
 Answer Room::decide(const Said& said) {
+  if (said.operation.unreadable) return *said.operation.unreadable;
   if (auto stale = why_stale(said.operation)) return *stale;
   switch (said.operation.kind) {
     case OperationKind::command: return say_command(said);

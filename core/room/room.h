@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/define/json_text.h"
 #include "core/room/drafts.h"
 #include "core/room/operation.h"
 #include "core/room/record.h"

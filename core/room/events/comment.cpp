@@ -1,6 +1,5 @@
 // Somebody says something about a node, a place, a tick, a scenario or the whole.
 #include "core/base/text.h"
-#include "core/graph/scene.h"
 #include "core/room/event_builder.h"
 
 namespace bl::room {

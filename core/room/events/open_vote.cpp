@@ -1,5 +1,4 @@
 // The facilitator opens a vote.
-#include "core/graph/scene.h"
 #include "core/room/event_builder.h"
 
 namespace bl::room {

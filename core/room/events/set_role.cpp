@@ -1,5 +1,4 @@
 // The facilitator gives a seat another role, other areas or another role card.
-#include "core/graph/scene.h"
 #include "core/room/event_builder.h"
 #include "core/room/events/support.h"
 

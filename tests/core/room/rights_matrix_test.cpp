@@ -59,7 +59,7 @@ constexpr const char* kThree = R"({"format": "behaviourlinks", "version": 1, "no
   {"id": "card", "types": {"stakeholder_group": {"controls": [
     {"node": "mine", "port": "smart_volume.demand", "minimum": 0, "maximum": 900},
     {"node": "mine_link", "port": "strength", "minimum": 0, "maximum": 1},
-    {"node": "mine_link", "port": "distance", "minimum": 0, "maximum": 900}]}}},
+    {"node": "mine_link", "port": "minimum", "minimum": 0, "maximum": 900}]}}},
   {"id": "poll", "types": {"vote": {"kind": "yes_no"}}}],
   "links": [{"id": "mine_link", "kind": "keep_distance", "from": "mine", "to": "mine_2"},
             {"id": "theirs_link", "kind": "keep_distance", "from": "theirs", "to": "theirs_2"},
@@ -81,7 +81,7 @@ std::optional<Command> sample(const std::string& id, const std::string& where, s
   if (id == "untypify") return command<Untypify>({where, "sensor"});
   if (id == "set_port") return command<SetPort>({where, {"smart_volume.demand"}, {"50"}});
   if (id == "set_cell") return command<SetCell>({where, {"programme.rows"}, "shop", "floor_area", {"5"}});
-  if (id == "add_row") return command<AddRow>({where, {"programme.rows"}, {R"({"use": "office"})"}});
+  if (id == "add_row") return command<AddRow>({where, {"programme.rows"}, {R"({"use": "office", "floor_area": 1})"}});
   if (id == "remove_row") return command<RemoveRow>({where, {"programme.rows"}, "shop"});
   if (id == "lock_port") return command<LockPort>({where, {"node.position"}});
   if (id == "unlock_port") return command<UnlockPort>({where, {"smart_volume.demand"}});
@@ -92,7 +92,7 @@ std::optional<Command> sample(const std::string& id, const std::string& where, s
   if (id == "set_link_ends") return command<SetLinkEnds>({link, {{where + "_2"}, "", ""}, {{where}, "", ""}});
   if (id == "enable_link") return command<EnableLink>({link, false});
   if (id == "mute_link") return command<MuteLink>({link, true});
-  if (id == "set_link_parameter") return command<SetLinkParameter>({link, "distance", {"12"}});
+  if (id == "set_link_parameter") return command<SetLinkParameter>({link, "minimum", {"12"}});
   if (id == "set_link_strength") return command<SetLinkStrength>({link, 0.25});
   if (id == "set_setting") return command<SetSetting>({"title", {"\"t\""}});
   if (id == "set_view") return command<SetView>({{R"({"boxes": {")" + where + R"(": [1, 2]}})"}, false});

@@ -47,7 +47,7 @@ TEST(Room, BadContentGetsAReasonWithItsPlace) {
   RoomWorld world;
   const auto seat = world.seat(Role::facilitator);
   const auto said = [&](const char* content) { return sentence(world.say(seat, OperationKind::command, content)); };
-  EXPECT_EQ(said("{\"command\": "), "bad line 1, column 13: the text ends in the middle of a JSON value; the file is cut off";
+  EXPECT_EQ(said("{\"command\": "), "bad line 1, column 13: the text ends in the middle of a JSON value; the file is cut off");
   EXPECT_EQ(said(R"({"command": "dance"})"), "bad : unknown command `dance`");
   EXPECT_EQ(said(R"({"command": "set_port", "arguments": {"node": "north"}})"), "bad arguments: `set_port` needs `port`");
   EXPECT_EQ(said(R"({"command": "set_port", "arguments": {"node": "north", "port": "smart_volume.demand", "value": -1}})"),

@@ -1,0 +1,121 @@
+// The messages between a room's server and its pages and windows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/define/payload.h"
+#include "core/wire/message_builder.h"
+
+namespace bl::wire {
+
+// From a page or a window. Operations have an `id`: 1, 2, 3, … without gaps in each run.
+
+struct Hello {
+  std::string room, run, invite, token, kind = "page", lang, build, fingerprint, name;
+  std::int64_t have = 0, epoch = 0, unacked = 0;
+  std::vector<std::string> views;
+  static void declare(MessageBuilder<Hello>& m);
+};
+struct Op {
+  std::int64_t id = 0, base = 0, gesture = 0;
+  JsonValue c = JsonValue::null(), conditions = JsonValue::null();
+  std::string draft;
+  static void declare(MessageBuilder<Op>& m);
+};
+struct RoomOp {
+  std::int64_t id = 0;
+  JsonValue e = JsonValue::null();
+  static void declare(MessageBuilder<RoomOp>& m);
+};
+struct UndoOp {
+  std::int64_t id = 0, gesture = 0, of = 0;
+  static void declare(MessageBuilder<UndoOp>& m);
+};
+struct RedoOp {
+  std::int64_t id = 0, gesture = 0;
+  static void declare(MessageBuilder<RedoOp>& m);
+};
+struct RewindOp {
+  std::int64_t id = 0, to = 0;
+  static void declare(MessageBuilder<RewindOp>& m);
+};
+struct DraftOp {
+  enum class What : std::uint8_t { begin, undo, drop };
+  std::int64_t id = 0;
+  What what = What::begin;
+  std::string draft, title;
+  static void declare(MessageBuilder<DraftOp>& m);
+};
+struct Want {
+  std::vector<std::string> views;
+  static void declare(MessageBuilder<Want>& m);
+};
+struct Seen {
+  std::int64_t s = 0, lag = 0;
+  static void declare(MessageBuilder<Seen>& m);
+};
+struct Ping {
+  std::int64_t n = 0;
+  static void declare(MessageBuilder<Ping>& m);
+};
+struct PresenceIn {
+  std::int64_t n = 0;
+  JsonValue cursor = JsonValue::null();
+  std::vector<std::string> holds;
+  bool hidden = false;
+  static void declare(MessageBuilder<PresenceIn>& m);
+};
+
+// From the server.
+
+struct Welcome {
+  JsonValue you = {}, room = {}, limits = {};
+  std::int64_t epoch = 0, seq = 0, tick = 0, done = 0;
+  double rate = 0;
+  std::string resume = "snapshot", token;
+  static void declare(MessageBuilder<Welcome>& m);
+};
+struct Ops {
+  JsonValue e = JsonValue::null();
+  std::int64_t d = 0;
+  static void declare(MessageBuilder<Ops>& m);
+};
+struct Ack {
+  std::int64_t id = 0, s = 0, k = 0;
+  static void declare(MessageBuilder<Ack>& m);
+};
+struct Nack {
+  std::int64_t id = 0;
+  std::string why, place, text;
+  JsonValue args = {};
+  static void declare(MessageBuilder<Nack>& m);
+};
+struct StateOut {
+  std::string view;
+  std::int64_t k = 0, s = 0;
+  JsonValue set = {};
+  std::vector<std::string> drop;
+  static void declare(MessageBuilder<StateOut>& m);
+};
+struct PresenceOut {
+  JsonValue seats = {};
+  static void declare(MessageBuilder<PresenceOut>& m);
+};
+struct Say {
+  std::string id;
+  JsonValue args = {};
+  static void declare(MessageBuilder<Say>& m);
+};
+struct Pong {
+  std::int64_t n = 0, k = 0;
+  static void declare(MessageBuilder<Pong>& m);
+};
+
+/// All kinds of messages, by `t` and direction: those with the same name in both directions are two.
+std::vector<const MessageDefinition*> message_kinds();
+/// JSON Schema (2020-12) of all messages: `#/$defs/from_page/NAME` and `#/$defs/from_server/NAME`.
+Json message_schema();
+
+}  // namespace bl::wire

@@ -1,0 +1,309 @@
+// Each view is a pure function of the published state and the room; what is sent is the difference of two of them.
+#include "core/wire/views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/unit.h"
+#include "core/define/codec.h"
+#include "core/host/step_labels.h"
+#include "core/reading/views/people.h"
+#include "core/wire/messages.h"
+#include "core/wire/plan_view.h"
+
+namespace bl::wire {
+
+namespace {
+
+void put(View& view, std::string key, const Json& content) { view[std::move(key)] = write_json_line(content); }
+
+const std::string& name_of(const State& state, std::uint32_t node) {
+  const NodePlan& plan = state.plan->nodes[node];
+  return plan.name.empty() ? plan.id : plan.name;
+}
+
+std::string words_of(const room::Room& room, const std::string& id) {
+  const room::TextRecord* text = room.text(id);
+  return text == nullptr ? "" : text->body;
+}
+
+std::string seat_name(const room::RoomState& state, const std::string& author) {
+  const auto seat = state.seats.find(room::RoomState::seat_of_author(author));
+  return seat == state.seats.end() ? author : seat->second.name;
+}
+
+View room_view(const ViewSources& sources) {
+  const room::RoomState& state = sources.room.state();
+  View view;
+  Json phase = {
+      {"name", state.phase.name}, {"activities", Json::array()}, {"ends_at", state.phase.ends_at}, {"forms", state.phase.forms}};
+  for (const Activity activity : state.phase.activities)
+    phase["activities"].push_back(kActivityNames[static_cast<std::size_t>(activity)]);
+  Json seats = Json::object();
+  for (const auto& [number, seat] : state.seats)
+    if (!seat.is_removed)
+      seats[std::to_string(number)] = {{"role", kRoleNames[static_cast<std::size_t>(seat.role)]},
+                                       {"name", seat.name},
+                                       {"colour", seat.colour},
+                                       {"here", seat.is_here},
+                                       {"muted", seat.is_muted}};
+  put(view, "title", sources.title);
+  put(view, "code", sources.code);
+  put(view, "phase", phase);
+  put(view, "seats", seats);
+  put(view, "areas", [&] {
+    Json areas = Json::object();
+    for (const auto& [name, area] : state.areas) areas[name] = {{"pen", area.pen}, {"asking", area.asking}};
+    return areas;
+  }());
+  put(view, "door", room::kDoorNames[static_cast<std::size_t>(state.door)]);
+  put(view, "layout", state.layout);
+  put(view, "paused", state.is_paused);
+  put(view, "closed", state.is_closed);
+  put(view, "rate", state.rate);
+  return view;
+}
+
+Json figure_of(const State& state, const reading::Row<reading::IndicatorFigures>& row) {
+  const reading::IndicatorFigures& figures = row.figures;
+  return {{"name", name_of(state, row.node)}, {"value", figures.value},   {"unit", figures.unit},
+          {"target", figures.target},         {"status", figures.status}, {"score", figures.score}};
+}
+
+View figures_view(const ViewSources& sources) {
+  View view;
+  for (const auto& row : reading::rows<reading::IndicatorFigures>(sources.state))
+    put(view, sources.state.plan->nodes[row.node].id, figure_of(sources.state, row));
+  return view;
+}
+
+// A row of a role card with the value as people have set it.
+Json control_of(const ViewSources& sources, const Table& controls, std::size_t row) {
+  const std::string node = controls.text(row, "node"), port = controls.text(row, "port");
+  Json control = {{"node", node}, {"port", port}, {"label", controls.text(row, "label")}};
+  const auto path = parse_port_path(port);
+  const auto definition = path ? full_registry().port(*path) : Result<const PortDefinition*>(Error{});
+  const auto record = sources.room.scene().nodes.find(node);
+  if (definition && record != sources.room.scene().nodes.end() && record->second.types.contains(path->typification)) {
+    const PortValues& values = record->second.types.at(path->typification);
+    const auto set = values.find(path->port);
+    control["value"] = value_to_json(set == values.end() ? (*definition)->default_value : set->second, **definition);
+    control["unit"] = info((*definition)->unit).symbol;
+    if (control["label"] == "") control["label"] = (*definition)->id;
+  }
+  for (const char* number : {"minimum", "maximum", "step"}) control[number] = controls.number(row, number);
+  control["costs"] = controls.text(row, "costs_whom");
+  return control;
+}
+
+View card_view(const ViewSources& sources, std::int64_t number) {
+  View view;
+  const room::Seat* seat = sources.room.state().seat(number);
+  const State& state = sources.state;
+  const std::uint32_t node = seat == nullptr || seat->card.empty() ? static_cast<std::uint32_t>(state.plan->nodes.size())
+                                                                   : state.plan->node_index(seat->card);
+  if (node >= state.plan->nodes.size()) return view;
+  const auto group = reading::row_of<reading::GroupFigures>(state, node);
+  if (!group) return view;
+  put(view, "name", name_of(state, node));
+  put(view, "interest", group->interest);
+  put(view, "budget", {{"budget", group->budget}, {"spent", group->spent}, {"left", group->budget_left}});
+  Json goals = Json::array(), controls = Json::array();
+  for (const std::string& id : resolve(state.plan->scene, full_registry(), group->goals)) {
+    const std::uint32_t goal = state.plan->node_index(id);
+    if (goal >= state.plan->nodes.size()) continue;
+    if (const auto figures = reading::row_of<reading::IndicatorFigures>(state, goal))
+      goals.push_back(figure_of(state, {goal, *figures}));
+  }
+  for (std::size_t row = 0; row < group->controls->rows.size(); ++row)
+    controls.push_back(control_of(sources, *group->controls, row));
+  put(view, "goals", goals);
+  put(view, "controls", controls);
+  return view;
+}
+
+// Of a named vote; a secret ballot is nobody's any more once it is cast.
+Json own_ballot(const Table& ballots, const std::string& kind, std::int64_t seat) {
+  const std::size_t row = ballots.row_of("voter", room::RoomState::author_of_seat(seat));
+  if (row == ballots.rows.size()) return nullptr;
+  if (kind == "slider") return ballots.number(row, "value");
+  if (kind == "yes_no") return ballots.text(row, "answer");
+  Json list = Json::array();
+  std::string rest = ballots.text(row, "answer");
+  while (!rest.empty()) {
+    const std::size_t space = rest.find(' ');
+    list.push_back(rest.substr(0, space));
+    rest = space == std::string::npos ? "" : rest.substr(space + 1);
+  }
+  if (kind == "rank") return list;
+  if (kind == "coins") {
+    Json coins = Json::object();
+    const std::vector<double>& numbers = *ballots.numbers(row, "coins");
+    for (std::size_t k = 0; k < list.size() && k < numbers.size(); ++k) coins[list[k].get<std::string>()] = numbers[k];
+    return coins;
+  }
+  Json dots = Json::array();
+  const std::vector<double>& places = *ballots.numbers(row, "places");
+  for (std::size_t k = 0; k < list.size() && 3 * k + 2 < places.size(); ++k)
+    dots.push_back({{"place", {places[3 * k], places[3 * k + 1], places[3 * k + 2]}}, {"option", list[k]}});
+  return dots;
+}
+
+Json result_of(const Table& results) {
+  Json list = Json::array();
+  for (std::size_t row = 0; row < results.rows.size(); ++row)
+    list.push_back({{"option", results.text(row, "option")},
+                    {"label", results.text(row, "label")},
+                    {"points", results.number(row, "points")},
+                    {"share", results.number(row, "share")}});
+  return list;
+}
+
+View votes_view(const ViewSources& sources, std::int64_t seat) {
+  View view;
+  for (const auto& [node, figures] : reading::rows<reading::VoteFigures>(sources.state)) {
+    const std::string& id = sources.state.plan->nodes[node].id;
+    const auto open = sources.room.state().votes.find(id);
+    Json options = Json::array();
+    for (std::size_t row = 0; row < figures.options->rows.size(); ++row)
+      options.push_back({{"id", figures.options->text(row, "id")}, {"label", figures.options->text(row, "label")}});
+    Json vote = {{"question", figures.question.empty() ? name_of(sources.state, node) : figures.question},
+                 {"kind", figures.kind},
+                 {"options", options},
+                 {"points", figures.points},
+                 {"whole", figures.is_whole_ranking},
+                 {"least", figures.least},
+                 {"most", figures.most},
+                 {"unit", figures.unit},
+                 {"open", open != sources.room.state().votes.end()},
+                 {"secret", figures.is_secret},
+                 {"ends_at", open == sources.room.state().votes.end() ? 0 : open->second.ends_at},
+                 {"mine", own_ballot(*figures.ballots, figures.kind, seat)},
+                 {"count", figures.ballot_count},
+                 {"electorate", figures.electorate}};
+    vote["turnout"] = figures.electorate > 0 ? Json(figures.turnout) : Json();
+    vote["result"] = figures.is_shown ? result_of(*figures.results) : Json();
+    vote["leading"] = figures.is_shown ? figures.leading : "";
+    vote["mean"] = figures.is_shown ? Json(figures.mean) : Json();
+    vote["median"] = figures.is_shown ? Json(figures.median) : Json();
+    put(view, id, vote);
+  }
+  return view;
+}
+
+View comments_view(const ViewSources& sources, std::int64_t seat) {
+  View view;
+  for (const auto& [id, comment] : sources.room.state().comments) {
+    Json json = {{"seat", comment.seat},
+                 {"text", words_of(sources.room, comment.text)},
+                 {"state", room::kCommentStateNames[static_cast<std::size_t>(comment.state)]}};
+    if (!comment.anchor.node.empty()) json["node"] = comment.anchor.node;
+    if (!comment.anchor.scenario.empty()) json["scenario"] = comment.anchor.scenario;
+    if (comment.anchor.place) json["place"] = {comment.anchor.place->x, comment.anchor.place->y, comment.anchor.place->z};
+    if (comment.anchor.tick) json["tick"] = *comment.anchor.tick;
+    if (!comment.parent.empty()) json["parent"] = comment.parent;
+    if (!comment.answer.empty()) json["answer"] = words_of(sources.room, comment.answer);
+    const auto count = [&](int rating) {
+      return std::count_if(comment.ratings.begin(), comment.ratings.end(),
+                           [rating](const auto& one) { return one.second == rating; });
+    };
+    const auto mine = comment.ratings.find(seat);
+    json["plus"] = count(1);
+    json["minus"] = count(-1);
+    json["mine"] = mine == comment.ratings.end() ? 0 : mine->second;
+    put(view, id, json);
+  }
+  return view;
+}
+
+Json misfits_of(const std::vector<room::Misfit>& misfits) {
+  Json list = Json::array();
+  for (const room::Misfit& misfit : misfits) list.push_back({{"step", misfit.step}, {"why", misfit.error.text()}});
+  return list;
+}
+
+// A step that was taken back has no words, and keeps its number.
+Json words_of_steps(const ViewSources& sources, const room::Draft& draft) {
+  Json words = Json::array();
+  for (const Command& step : draft.steps())
+    words.push_back(step.id.empty() ? "" : host::label_of_step(full_registry(), step, sources.room.scene()));
+  return words;
+}
+
+View proposals_view(const ViewSources& sources) {
+  View view;
+  const room::RoomState& state = sources.room.state();
+  for (const auto& [id, proposal] : state.proposals) {
+    Json json = {{"seat", proposal.seat},
+                 {"title", proposal.title},
+                 {"why", words_of(sources.room, proposal.why)},
+                 {"state", room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]},
+                 {"steps", proposal.steps},
+                 {"kept", proposal.kept}};
+    if (!proposal.answer.empty()) json["answer"] = words_of(sources.room, proposal.answer);
+    const auto draft = sources.room.drafts().find(id);
+    if (draft != sources.room.drafts().end()) json["words"] = words_of_steps(sources, draft->second);
+    if (draft != sources.room.drafts().end() && proposal.state == room::ProposalState::proposed) {
+      const room::DraftSummary summary = sources.room.summary_of(id);
+      json["conflicts"] = Json::array();
+      for (const room::DraftConflict& conflict : summary.conflicts)
+        json["conflicts"].push_back({{"place", text_of(conflict.place)}, {"by", seat_name(state, conflict.author)}});
+      json["misfits"] = misfits_of(summary.misfits);
+    }
+    put(view, id, json);
+  }
+  return view;
+}
+
+View drafts_view(const ViewSources& sources, std::int64_t seat) {
+  View view;
+  for (const auto& [id, draft] : sources.room.drafts()) {
+    if (draft.seat() != seat || draft.state() == room::DraftState::dropped) continue;
+    put(view, id,
+        {{"title", draft.title()},
+         {"state", room::kDraftStateNames[static_cast<std::size_t>(draft.state())]},
+         {"steps", words_of_steps(sources, draft)},
+         {"misfits", misfits_of(sources.room.summary_of(id).misfits)}});
+  }
+  return view;
+}
+
+}  // namespace
+
+bool is_view(std::string_view name) {
+  return std::find(std::begin(kViewNames), std::end(kViewNames), name) != std::end(kViewNames);
+}
+
+bool is_of_seat(std::string_view view) { return view == "card" || view == "votes" || view == "comments" || view == "drafts"; }
+
+View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat) {
+  if (name == "room") return room_view(sources);
+  if (name == "plan") return plan_view(sources.state);
+  if (name == "figures") return figures_view(sources);
+  if (name == "card") return card_view(sources, seat);
+  if (name == "votes") return votes_view(sources, seat);
+  if (name == "comments") return comments_view(sources, seat);
+  if (name == "proposals") return proposals_view(sources);
+  if (name == "drafts") return drafts_view(sources, seat);
+  return {};
+}
+
+std::optional<std::string> changes_of(std::string_view name, const View* before, const View& now, std::int64_t tick,
+                                      std::int64_t seq) {
+  StateOut message{.view = std::string(name), .k = tick, .s = seq, .set = {}, .drop = {}};
+  Json set = Json::object();
+  for (const auto& [key, content] : now) {
+    const auto old = before == nullptr ? View::const_iterator() : before->find(key);
+    if (before == nullptr || old == before->end() || old->second != content) set[key] = *parse_json(content);
+  }
+  if (before != nullptr)
+    for (const auto& [key, content] : *before)
+      if (!now.contains(key)) message.drop.push_back(key);
+  if (before != nullptr && set.empty() && message.drop.empty()) return std::nullopt;
+  message.set = JsonValue::of(std::move(set));
+  return write_message(message);
+}
+
+}  // namespace bl::wire

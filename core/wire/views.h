@@ -1,0 +1,38 @@
+// What pages are shown of a room: small tables of keys and JSON, made by the server, of which only changes are sent.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/graph/state.h"
+#include "core/room/room.h"
+
+namespace bl::wire {
+
+/// Keys with their content as JSON text.
+using View = std::map<std::string, std::string>;
+
+/// What views are made of: the state of a tick that is published, and the room at that moment.
+struct ViewSources {
+  const State& state;
+  room::Room& room;
+  std::string code, title;
+};
+
+/// The names of all views. Of these, `card`, `votes`, `comments` and `drafts` are different for each seat.
+inline constexpr std::string_view kViewNames[] = {"room", "plan", "figures", "card", "votes", "comments", "proposals", "drafts"};
+bool is_view(std::string_view name);
+bool is_of_seat(std::string_view view);
+
+/// One view, as this seat sees it; empty for an unknown name.
+View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat);
+
+/// What has changed from `before` to `now` as a `state` message; nothing where nothing has. Without `before` all of it.
+std::optional<std::string> changes_of(std::string_view name, const View* before, const View& now, std::int64_t tick,
+                                      std::int64_t seq);
+
+}  // namespace bl::wire
