@@ -14,6 +14,12 @@
 
 namespace bl::journal {
 
+/// What an erasure has taken out of a file.
+struct Erased {
+  std::size_t persons = 0, texts = 0, tokens = 0;
+  std::size_t refusals = 0;  ///< of anybody, that quoted the name
+};
+
 /// One thread at a time may use it.
 class Journal {
  public:
@@ -44,6 +50,10 @@ class Journal {
   Result<void> change_room(const RoomRow& room);
   /// Everything that is stored.
   Result<Loaded> load();
+
+  /// Takes the person of a seat out of the file: the name, the words, and the token. The entries stay, because they hold neither;
+  /// so the log leads to the same hashes. The bytes are gone from the file when this returns. It may be repeated.
+  Result<Erased> erase(std::int64_t seat);
 
   const RoomRow& room() const { return room_; }
   const Registry& registry() const { return *registry_; }

@@ -1,4 +1,4 @@
-// Rows into a session file, in transactions.
+// Rows into a session file, in transactions, and out of it for good.
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
@@ -11,10 +11,17 @@ namespace {
 
 // A page that has been away for long sends again what it has not heard of: no more than this waits there for an answer.
 constexpr std::int64_t kKeptRefusals = 256;
+constexpr const char* kErased = "[erased]";
 
 std::string without_line_feed(std::string line) {
   if (line.ends_with('\n')) line.pop_back();
   return line;
+}
+
+// The text between the quotes of a JSON text.
+std::string inside_json(const std::string& text) {
+  const std::string quoted = write_json_line(Json(text));
+  return quoted.substr(1, quoted.size() - 2);
 }
 
 }  // namespace
@@ -188,6 +195,38 @@ Result<void> Journal::change_room(const RoomRow& room) {
   changed.hash_scheme = room_.hash_scheme;
   room_ = std::move(changed);
   return {};
+}
+
+Result<Erased> Journal::erase(std::int64_t seat) {
+  Erased erased;
+  const auto counted = [&](std::size_t& count, const char* statement, std::initializer_list<Cell> cells) {
+    auto done = database_.change(statement, cells);
+    if (done) count += static_cast<std::size_t>(database_.changed_rows());
+    return done;
+  };
+  auto done = change([&]() -> Result<void> {
+    std::vector<std::string> names;
+    auto read = database_.read("SELECT name, contact FROM person WHERE seat = ?", {seat}, [&](const Row& row) {
+      names = {row.text(0), row.text(1)};
+      return Result<void>();
+    });
+    // A refusal may have said whose area it was. Its reason stays.
+    for (const std::string& name : names) {
+      if (!read || name.empty()) continue;
+      read = counted(erased.refusals, "UPDATE refusal SET text = ?3, args = '{}' WHERE instr(text, ?1) OR instr(args, ?2)",
+                     {name, inside_json(name), kErased});
+    }
+    if (read) read = counted(erased.persons, "DELETE FROM person WHERE seat = ?", {seat});
+    if (read)
+      read = counted(erased.texts, "UPDATE text SET body = ?, is_erased = 1 WHERE seat = ? AND NOT is_erased", {kErased, seat});
+    if (read) read = counted(erased.tokens, "UPDATE token SET hash = '' WHERE seat = ? AND hash <> ''", {seat});
+    return read;
+  });
+  // The file is built anew from what is left, because pages keep bytes of rows that have moved.
+  if (done) done = database_.run("VACUUM");
+  if (done) done = database_.checkpoint();
+  if (!done) return told(done.error());
+  return erased;
 }
 
 }  // namespace bl::journal
