@@ -222,7 +222,7 @@ Result<Erased> Journal::erase(std::int64_t seat) {
     if (read) read = counted(erased.tokens, "UPDATE token SET hash = '' WHERE seat = ? AND hash <> ''", {seat});
     return read;
   });
-  // The file is built anew from what is left, because pages keep bytes of rows that have moved.
+  // SQLite zeroes what is freed. Built anew from what is left, the file is clean whether it did so everywhere or not.
   if (done) done = database_.run("VACUUM");
   if (done) done = database_.checkpoint();
   if (!done) return told(done.error());
