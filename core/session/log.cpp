@@ -233,11 +233,11 @@ class LogReader {
 
 }  // namespace
 
-std::string log_header(std::string_view scene_text, std::int64_t base) {
+std::string log_header(std::string_view scene_text, std::int64_t base, int hash_scheme) {
   Json header = Json::object();
   header["format"] = "behaviourlinks-log";
   header["version"] = kLogVersion;
-  header["hashes"] = kHashScheme;
+  header["hashes"] = hash_scheme;
   if (base != 0) header["base"] = base;
   // Ours, because the library's own builder takes n² for a view or a state of n keys; but it reads no more once a stop is wished.
   auto scene = parse_json(scene_text);
@@ -262,6 +262,13 @@ std::string log_line(const LogEntry& entry, const Registry& registry) {
   else if (entry.event) line.update(**entry.event->read());
   else line.update(command_to_json(registry, entry.command));
   return write_json_line(line) + "\n";
+}
+
+Result<LogEntry> log_entry_of(std::string_view line, const Registry& registry) {
+  const auto json = parse_json(line);
+  if (!json) return json.error();
+  if (!json->is_object()) return Error{ErrorCode::parse, "", "expects an object"};
+  return entry_from_json(*json, registry);
 }
 
 std::string log_line(const LogCheck& check) {

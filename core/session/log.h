@@ -10,6 +10,7 @@
 #include "core/define/command_builder.h"
 #include "core/define/payload.h"
 #include "core/define/registry.h"
+#include "core/graph/state.h"
 #include "core/session/author.h"
 
 namespace bl {
@@ -67,9 +68,11 @@ inline constexpr std::int64_t kMostTicksBetweenLines = 100000000;
 /// programs; for it, an undo of an entry that the log does not hold is an ordinary step.
 enum class LogUse { replay, recovery };
 
-/// `base`: the number of the last entry that the scene holds already.
-std::string log_header(std::string_view scene_text, std::int64_t base = 0);
+/// `base`: the number of the last entry that the scene holds already. `hash_scheme`: of the checks that follow.
+std::string log_header(std::string_view scene_text, std::int64_t base = 0, int hash_scheme = kHashScheme);
 std::string log_line(const LogEntry& entry, const Registry& registry);
+/// What `log_line` has written of an entry, read again by itself: whether it fits those before it is not checked.
+Result<LogEntry> log_entry_of(std::string_view line, const Registry& registry);
 std::string log_line(const LogCheck& check);
 /// Refuses lines that are out of order, after the end or far away in time, and undos of missing entries, each with its line
 /// number.
