@@ -14,18 +14,26 @@ constexpr double kFarAhead = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-LiveSession::LiveSession(const Registry& registry, const Scene& scene, LiveSessionOptions options)
+LiveSession::LiveSession(const Registry& registry, const Scene& scene, std::int64_t base, LiveSessionOptions options)
     : options_(std::move(options)),
-      ledger_(registry, scene),
+      ledger_(registry, scene, base),
       gestures_(ledger_),
-      shared_(std::make_unique<Shared>(registry, ledger_, gestures_, options_)) {
-  shared_->simulation.set_scene(scene);
-}
+      shared_(std::make_unique<Shared>(registry, ledger_, gestures_, options_)) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::start(const Registry& registry, const Scene& scene, const SavedState* state,
                                                         LiveSessionOptions options) {
-  std::unique_ptr<LiveSession> session(new LiveSession(registry, scene, std::move(options)));
+  const auto no_history = [](Ledger&) { return Result<void>(); };
+  return go_on(registry, scene, 0, no_history, state, std::move(options));
+}
+
+Result<std::unique_ptr<LiveSession>> LiveSession::go_on(const Registry& registry, const Scene& beginning, std::int64_t base,
+                                                        const std::function<Result<void>(Ledger&)>& history,
+                                                        const SavedState* state, LiveSessionOptions options) {
+  std::unique_ptr<LiveSession> session(new LiveSession(registry, beginning, base, std::move(options)));
   Shared& shared = *session->shared_;
+  if (auto done = history(session->ledger_); !done) return done.error();
+  (void)session->ledger_.take_changes();  // the state that follows knows them
+  shared.simulation.set_scene(session->ledger_.scene());
   if (state != nullptr)
     if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
   shared.next_tick = shared.simulation.state()->tick;
@@ -60,6 +68,12 @@ Result<void> LiveSession::submit(Submission submission) {
   const std::lock_guard lock(shared_->mutex);
   shared_->begin_to_hear();
   return ledger_.submit(std::move(submission), shared_->next_tick);
+}
+
+void LiveSession::say(const std::function<void(Ledger& ledger, std::int64_t tick)>& words) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->begin_to_hear();
+  words(ledger_, shared_->next_tick);
 }
 
 Result<void> LiveSession::show(const Command& command, std::int64_t gesture) {

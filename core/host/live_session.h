@@ -20,13 +20,13 @@ struct Moment {
   std::shared_ptr<const State> state;   ///< with people's changes since the last tick, where they are shown already
   std::shared_ptr<const State> ticked;  ///< as the last tick left it
   bool is_playing = false;
-  bool is_resting = false;  ///< the clock counts on and nothing else happens; the ticks since then are not in `state`
-  double wanted_rate = 0;   ///< wanted ticks per second
-  double tick_seconds = 0;  ///< duration of a tick, smoothed [s]
-  double rate = 0;          ///< reached ticks per second, smoothed
-  std::int64_t oldest = 0;  ///< the first tick that rewinding can reach
-  bool has_forgotten = false;              ///< ticks before `oldest` were given up: the history has reached its limit
-  std::size_t history_bytes = 0;           ///< about what the history takes
+  bool is_resting = false;        ///< the clock counts on and nothing else happens; the ticks since then are not in `state`
+  double wanted_rate = 0;         ///< wanted ticks per second
+  double tick_seconds = 0;        ///< duration of a tick, smoothed [s]
+  double rate = 0;                ///< reached ticks per second, smoothed
+  std::int64_t oldest = 0;        ///< the first tick that rewinding can reach
+  bool has_forgotten = false;     ///< ticks before `oldest` were given up: the history has reached its limit
+  std::size_t history_bytes = 0;  ///< about what the history takes
   std::shared_ptr<const TimeTable> times;  ///< where the time of the ticks goes, where somebody watches; a moment old at most
   std::string failure;  ///< why the ticks stopped: out of memory, or an error of the program; the state is the last good one
 
@@ -35,10 +35,10 @@ struct Moment {
 
 /// The holder of a session, and its clock and threads.
 struct LiveSessionOptions {
-  Author author = {};            ///< the author of the holder's commands
-  std::string origin = {};       ///< the origin of the holder's commands, such as `window`
-  int threads = 1;               ///< of the ticks
-  Clock* clock = &real_clock();  ///< must outlive the session
+  Author author = {};                                 ///< the author of the holder's commands
+  std::string origin = {};                            ///< the origin of the holder's commands, such as `window`
+  int threads = 1;                                    ///< of the ticks
+  Clock* clock = &real_clock();                       ///< must outlive the session
   std::size_t most_history_bytes = Past::kMostBytes;  ///< beyond that the oldest ticks can no longer be returned to
 };
 
@@ -46,6 +46,11 @@ class LiveSession {
  public:
   /// The scene must be usable.
   static Result<std::unique_ptr<LiveSession>> start(const Registry& registry, const Scene& scene, const SavedState* state,
+                                                    LiveSessionOptions options);
+  /// Goes on with a session: `beginning` is the scene with which its log began, behind the entry `base`; `history` applies all
+  /// entries since, without ticks; `state` is the running state that belongs to the scene after them.
+  static Result<std::unique_ptr<LiveSession>> go_on(const Registry& registry, const Scene& beginning, std::int64_t base,
+                                                    const std::function<Result<void>(Ledger&)>& history, const SavedState* state,
                                                     LiveSessionOptions options);
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
@@ -66,6 +71,9 @@ class LiveSession {
   Result<void> submit(const Command& command, std::int64_t gesture = 0, const std::string& label = "");
   /// Submits a command of any author: a device, a script, a person at another screen.
   Result<void> submit(Submission submission);
+  /// Runs words that change the ledger between two ticks, told the tick that will read them: for whoever checks what people say
+  /// before it is applied. Of the holder's thread, as all of this.
+  void say(const std::function<void(Ledger& ledger, std::int64_t tick)>& words);
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
   /// One frame of a gesture of the holder: it is shown at once, and logged at most ten times a second (`OpenGestures`).
   Result<void> show(const Command& command, std::int64_t gesture);
@@ -125,7 +133,7 @@ class LiveSession {
 
  private:
   struct Shared;
-  LiveSession(const Registry& registry, const Scene& scene, LiveSessionOptions options);
+  LiveSession(const Registry& registry, const Scene& scene, std::int64_t base, LiveSessionOptions options);
   Result<void> end_own_gestures(std::int64_t but = 0);
 
   LiveSessionOptions options_;

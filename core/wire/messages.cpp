@@ -106,6 +106,11 @@ void Welcome::declare(MessageBuilder<Welcome>& m) {
   m.field(&Welcome::resume, "resume").doc("`none` or `snapshot`: all views come anew.");
   m.field(&Welcome::token, "token").doc("Opens the seat again; only on the first visit.");
 }
+void SceneOut::declare(MessageBuilder<SceneOut>& m) {
+  m.id("scene").doc("The scene before the first entry, for windows; `ops` with all entries since follow.");
+  m.field(&SceneOut::s, "s").required().doc("Number of the last entry that it holds already.");
+  m.field(&SceneOut::scene, "scene").required().doc("The scene file.");
+}
 void Ops::declare(MessageBuilder<Ops>& m) {
   m.id("ops").doc("Entries of the log, after they are stored.");
   m.field(&Ops::e, "e").required().doc("[{s, k, a, g, c or v, by, d}].");
@@ -156,11 +161,11 @@ std::string line_of(const MessageDefinition& kind, const std::map<std::string, V
 }
 
 std::vector<const MessageDefinition*> message_kinds() {
-  return {&message_kind<Hello>(),       &message_kind<Op>(),       &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
-          &message_kind<RedoOp>(),      &message_kind<RewindOp>(), &message_kind<DraftOp>(),    &message_kind<Want>(),
-          &message_kind<Seen>(),        &message_kind<Ping>(),     &message_kind<PresenceIn>(), &message_kind<Welcome>(),
-          &message_kind<Ops>(),         &message_kind<Ack>(),      &message_kind<Nack>(),       &message_kind<StateOut>(),
-          &message_kind<PresenceOut>(), &message_kind<Say>(),      &message_kind<Pong>()};
+  return {&message_kind<Hello>(),    &message_kind<Op>(),          &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
+          &message_kind<RedoOp>(),   &message_kind<RewindOp>(),    &message_kind<DraftOp>(),    &message_kind<Want>(),
+          &message_kind<Seen>(),     &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Welcome>(),
+          &message_kind<SceneOut>(), &message_kind<Ops>(),         &message_kind<Ack>(),        &message_kind<Nack>(),
+          &message_kind<StateOut>(), &message_kind<PresenceOut>(), &message_kind<Say>(),        &message_kind<Pong>()};
 }
 
 Json message_schema() {

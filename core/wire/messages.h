@@ -77,6 +77,11 @@ struct Welcome {
   std::string resume = "snapshot", token;
   static void declare(MessageBuilder<Welcome>& m);
 };
+struct SceneOut {
+  std::int64_t s = 0;
+  JsonValue scene = {};
+  static void declare(MessageBuilder<SceneOut>& m);
+};
 struct Ops {
   JsonValue e = JsonValue::null();
   std::int64_t d = 0;

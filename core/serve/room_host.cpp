@@ -1,0 +1,423 @@
+// What is said goes to the room, then to the disk, then to those who wait for it.
+#include "core/serve/room_host.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "core/file/scene_file.h"
+#include "core/room/refusals.h"
+#include "core/wire/operations.h"
+
+namespace bl::serve {
+
+namespace {
+
+constexpr double kBetweenViews = 0.2;                                 // [s]
+constexpr std::size_t kSkipAbove = 256 << 10, kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
+constexpr std::int64_t kMostTail = 2000;                              // entries that a window is sent at once
+
+std::shared_ptr<const std::string> frame_of(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+template <class M>
+std::shared_ptr<const std::string> frame_of_message(const M& message) {
+  return frame_of(wire::write_message(message));
+}
+
+Json entry_to_json(const LogEntry& entry, std::int64_t by, const std::string& draft) {
+  Json json = {{"s", entry.seq}, {"k", entry.tick}, {"a", entry.author.id}, {"g", entry.gesture}};
+  if (entry.author.kind != AuthorKind::person) json["kind"] = entry.author.kind == AuthorKind::device ? "device" : "program";
+  if (entry.undoes != 0) json["u"] = entry.undoes;
+  if (entry.redoes != 0) json["r"] = entry.redoes;
+  if (entry.event) json["v"] = **entry.event->read();
+  else json["c"] = command_to_json(full_registry(), entry.command);
+  if (by != 0) json["by"] = by;
+  if (!draft.empty()) json["d"] = draft;
+  return json;
+}
+
+std::shared_ptr<const std::string> ops_of(const std::vector<room::EntryRecord>& records, std::int64_t stored) {
+  Json list = Json::array();
+  for (const room::EntryRecord& record : records) list.push_back(entry_to_json(record.entry, record.by, record.draft));
+  return frame_of_message(wire::Ops{JsonValue::of(std::move(list)), stored});
+}
+
+std::string role_name(Role role) { return std::string(kRoleNames[static_cast<std::size_t>(role)]); }
+
+}  // namespace
+
+// --- Connections ----------------------------------------------------------------------------------------------------
+
+void RoomHost::say(const std::function<void(room::Now now)>& words) {
+  session_->say([&](Ledger&, std::int64_t tick) { words(room::Now{tick, options_.wall_time()}); });
+  is_changed_ = true;
+}
+
+bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hello) {
+  std::int64_t seat = hello.token.empty() ? 0 : room_->seat_of_token(hello.token);
+  std::string token;
+  if (seat == 0 && !hello.token.empty()) {
+    guest->close(CloseCode::no_seat, "this token opens no seat");
+    return false;
+  }
+  if (seat == 0) {
+    room::Invitation invitation{.name = hello.name, .language = hello.lang};
+    const auto invited = std::find_if(invites_.begin(), invites_.end(),
+                                      [&](const auto& one) { return room::is_same_secret(one.second, hello.invite); });
+    if (!hello.invite.empty() && invited == invites_.end()) {
+      guest->close(CloseCode::no_seat, "this invitation is not one of this room");
+      return false;
+    }
+    if (hello.invite.empty()) invitation.is_by_code = true;
+    else
+      invitation.role = static_cast<Role>(std::find(kRoleNames.begin(), kRoleNames.end(), invited->first) - kRoleNames.begin());
+    std::variant<room::Admission, room::Refusal> admitted = room::Refusal{};
+    say([&](room::Now now) { admitted = room_->admit(invitation, now); });
+    if (const auto* refusal = std::get_if<room::Refusal>(&admitted)) {
+      guest->close(CloseCode::no_seat, refusal->text);
+      return false;
+    }
+    seat = std::get<room::Admission>(admitted).seat;
+    token = std::get<room::Admission>(admitted).token;
+  }
+  if (room_->greet(seat, hello.run, hello.unacked) < 0) {
+    guest->close(CloseCode::no_seat, "this run belongs to another seat");
+    flush();
+    return false;
+  }
+  for (auto other = visitors_.begin(); other != visitors_.end();) {
+    if (other->second.run != hello.run) {
+      ++other;
+      continue;
+    }
+    other->second.guest->close(CloseCode::replaced, "the same page has connected again");
+    other = visitors_.erase(other);
+  }
+  Visitor& visitor = visitors_[guest.get()];
+  visitor = {guest, seat, hello.run, hello.kind, {hello.views.begin(), hello.views.end()}, {}};
+  say([&](room::Now now) { room_->note_presence(seat, true, now); });
+  welcome(visitor, token, hello.have);
+  flush();
+  return true;
+}
+
+// Told once the seat is stored: a token that a crash could forget is given to nobody.
+void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t have) {
+  Guest* key = visitor.guest.get();
+  tellings_.push_back([this, key, token, have] {
+    const auto found = visitors_.find(key);
+    if (found == visitors_.end()) return;
+    Visitor& who = found->second;
+    const room::Seat* seat = room_->state().seat(who.seat);
+    if (seat == nullptr) return;
+    wire::Welcome message;
+    message.you = JsonValue::of({{"seat", who.seat},
+                                 {"role", role_name(seat->role)},
+                                 {"name", seat->name},
+                                 {"colour", seat->colour},
+                                 {"areas", seat->areas},
+                                 {"card", seat->card}});
+    message.room = JsonValue::of({{"code", code_}, {"title", title_}});
+    message.limits = JsonValue::of({{"text", room::kLongestText}, {"parts", room::kMostParts}});
+    message.epoch = 1;
+    message.seq = stored_seq_;
+    message.tick = session_->moment()->state->tick;
+    message.rate = room_->state().rate;
+    message.done = room_->greet(who.seat, who.run, 0);
+    message.token = token;
+    who.guest->send(frame_of_message(message));
+    if (who.kind == "desktop") {
+      const auto& log = session_->log();
+      const bool is_tail = have >= base_ && have <= stored_seq_ && stored_seq_ - have <= kMostTail && have > 0;
+      if (!is_tail) who.guest->send(frame_of_message(wire::SceneOut{base_, JsonValue(beginning_)}));
+      std::vector<room::EntryRecord> tail;
+      for (const LogEntry& entry : log)
+        if (entry.seq <= stored_seq_ && (!is_tail || entry.seq > have)) tail.push_back({entry, 0});
+      if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_));
+    }
+    if (!problem_.empty()) who.guest->send(frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})}));
+    show(who);
+  });
+}
+
+void RoomHost::hear(Guest& guest, std::string_view text) {
+  const auto found = visitors_.find(&guest);
+  if (found == visitors_.end()) return;
+  Visitor& visitor = found->second;
+  const auto frame = wire::read_frame(text);
+  if (!frame) return guest.close(CloseCode::bad_frame, frame.error().text());
+  const std::string t = (*frame)["t"].get<std::string>();
+  if (wire::is_operation(t)) return submit(visitor, wire::read_operation(*frame, visitor.run));
+  if (t == "ping") {
+    const auto ping = wire::read_message<wire::Ping>(*frame);
+    if (!ping) return guest.close(CloseCode::bad_frame, ping.error().text());
+    guest.send(frame_of_message(wire::Pong{ping->n, session_->moment()->state->tick}));
+  } else if (t == "want") {
+    const auto want = wire::read_message<wire::Want>(*frame);
+    if (!want) return guest.close(CloseCode::bad_frame, want.error().text());
+    visitor.wanted = {want->views.begin(), want->views.end()};
+    std::erase_if(visitor.shown, [&](const auto& one) { return !visitor.wanted.contains(one.first); });
+    is_changed_ = true;
+    show(visitor);
+  }
+}
+
+void RoomHost::submit(Visitor& visitor, const room::Operation& operation) {
+  Guest* key = visitor.guest.get();
+  if (!problem_.empty()) {
+    const room::Answer no = room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_);
+    return visitor.guest->send(frame_of(wire::write_answer(operation.id, no)));
+  }
+  room::Answer answer;
+  say([&](room::Now now) { answer = room_->submit(visitor.seat, operation, now); });
+  tellings_.push_back([this, key, id = operation.id, answer] {
+    const auto there = visitors_.find(key);
+    if (there != visitors_.end()) there->second.guest->send(frame_of(wire::write_answer(id, answer)));
+  });
+  flush();
+  follow_pace();
+}
+
+void RoomHost::leave(Guest& guest) {
+  const auto found = visitors_.find(&guest);
+  if (found == visitors_.end()) return;
+  const std::int64_t seat = found->second.seat;
+  visitors_.erase(found);
+  const bool is_elsewhere =
+      std::any_of(visitors_.begin(), visitors_.end(), [&](const auto& one) { return one.second.seat == seat; });
+  if (is_elsewhere || !problem_.empty()) return;
+  say([&](room::Now now) { room_->note_presence(seat, false, now); });
+  flush();
+}
+
+std::variant<room::Admission, room::Refusal> RoomHost::admit_by_code() {
+  if (!problem_.empty()) return room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_);
+  std::variant<room::Admission, room::Refusal> admitted = room::Refusal{};
+  say([&](room::Now now) { admitted = room_->admit({.is_by_code = true}, now); });
+  flush();
+  return admitted;
+}
+
+void RoomHost::say_for(std::int64_t seat, room::OperationKind kind, const JsonValue& content,
+                       std::function<void(const room::Answer&)> done) {
+  if (!problem_.empty()) return done(room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_));
+  const std::string run = "plain " + std::to_string(seat);
+  const std::int64_t last = std::max<std::int64_t>(0, room_->greet(seat, run, 0));
+  room::Answer answer;
+  say([&](room::Now now) { answer = room_->submit(seat, {.run = run, .id = last + 1, .kind = kind, .content = content}, now); });
+  tellings_.push_back([done = std::move(done), answer] { done(answer); });
+  flush();
+}
+
+// --- The disk -------------------------------------------------------------------------------------------------------
+
+void RoomHost::flush() {
+  room::Record record = room_->take_record();
+  if (record.is_nothing() && commits_under_way_ == 0) {
+    const auto tellings = std::exchange(tellings_, {});
+    for (const Telling& telling : tellings) telling();
+    return;
+  }
+  ++commits_under_way_;
+  std::vector<std::shared_ptr<const std::string>> entries;
+  const std::int64_t seq = session_->last_seq();
+  if (!record.entries.empty()) entries.push_back(ops_of(record.entries, seq));
+  auto done = [this, seq, tellings = std::exchange(tellings_, {}), entries = std::move(entries),
+               is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
+    options_.on_own_thread([this, seq, tellings, entries, result, is_alive] {
+      if (!is_alive.expired()) stored(seq, tellings, entries, result);
+    });
+  };
+  writer_->submit(std::move(record), std::move(done));
+}
+
+void RoomHost::stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
+                      const Result<void>& result) {
+  --commits_under_way_;
+  if (!result) {
+    if (problem_.empty()) {
+      problem_ = result.error().text();
+      problem_since_ = options_.clock->now();
+      const auto notice = frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})});
+      for (auto& [key, visitor] : visitors_) visitor.guest->send(notice);
+    }
+    return;  // who waits for an answer asks again
+  }
+  stored_seq_ = std::max(stored_seq_, seq);
+  for (const auto& frame : entries)
+    for (auto& [key, visitor] : visitors_)
+      if (visitor.kind == "desktop") visitor.guest->send(frame);
+  for (const Telling& telling : tellings) telling();
+  show();
+}
+
+// Nothing unstored was shown: the room is made again from what is stored.
+void RoomHost::recover() {
+  static constexpr double kBetweenTries = 1;  // [s]
+  if (options_.clock->now() - problem_since_ < kBetweenTries || commits_under_way_ > 0) return;
+  problem_since_ = options_.clock->now();
+  writer_->resume();
+  const auto loaded = std::make_shared<std::optional<journal::Loaded>>();
+  writer_->perform(
+      [loaded](journal::Journal& journal) -> Result<void> {
+        // Only what can be written as well is of use.
+        if (auto writes = journal.change_room(journal.room()); !writes) return writes;
+        auto all = journal.load();
+        if (!all) return all.error();
+        *loaded = std::move(*all);
+        return {};
+      },
+      [this, loaded, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
+        options_.on_own_thread([this, loaded, result, is_alive] {
+          if (is_alive.expired() || !result || !*loaded) return;
+          session_.reset();
+          room_.reset();
+          tellings_.clear();
+          next_.reset();
+          now_.reset();
+          if (auto begun = begin(**loaded); !begun) {
+            problem_ = begun.error().text();
+            return;
+          }
+          problem_.clear();
+          for (auto& [key, visitor] : visitors_) {
+            visitor.shown.clear();
+            visitor.guest->send(frame_of_message(wire::Say{"stored", {}}));
+            welcome(visitor, "", 0);
+          }
+          flush();
+        });
+      });
+}
+
+void RoomHost::keep_records() {
+  static constexpr std::int64_t kEntriesBetween = 500, kTicksBetweenHashes = 60;
+  static constexpr double kSecondsBetween = 60;
+  const auto moment = session_->moment();
+  const State& ticked = *moment->ticked;
+  // The entries of the ticks before are final: what is said now belongs to a later one.
+  if (ticked.tick / kTicksBetweenHashes > last_hash_tick_ / kTicksBetweenHashes) {
+    std::int64_t seq = base_;
+    const auto& log = session_->log();
+    for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
+      if (entry->tick < ticked.tick) {
+        seq = entry->seq;
+        break;
+      }
+    if (seq <= stored_seq_) {
+      last_hash_tick_ = ticked.tick;
+      const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
+      writer_->perform([row](journal::Journal& journal) { return journal.add_hashes(std::span(&row, 1)); },
+                       [](const Result<void>&) {});
+    }
+  }
+  const double now = options_.clock->now();
+  const std::int64_t entries = stored_seq_ - snapshot_seq_;
+  const bool is_due = entries >= kEntriesBetween || (entries > 0 && now - last_snapshot_ >= kSecondsBetween);
+  if (!is_due || commits_under_way_ > 0) return;
+  last_snapshot_ = now;
+  snapshot_seq_ = stored_seq_;
+  // Packed on the disk's own thread, of what nobody changes any more.
+  auto state = session_->coming_state();
+  const std::int64_t seq = session_->last_seq();
+  writer_->perform(
+      [state, scene = session_->said(), seq](journal::Journal& journal) {
+        const SavedState saved = save(*state);
+        journal::Snapshot snapshot{.seq = seq,
+                                   .tick = state->tick,
+                                   .epoch = journal.room().epoch,
+                                   .hash = hex_digits(state->hash),
+                                   .scene = journal::pack(write_scene(scene, full_registry(), &saved))};
+        return journal.add_snapshot(snapshot);
+      },
+      [](const Result<void>&) {});
+}
+
+// --- What is shown --------------------------------------------------------------------------------------------------
+
+void RoomHost::follow_pace() {
+  const room::RoomState& state = room_->state();
+  session_->set_rate(state.rate);
+  session_->play(!state.is_paused && !state.is_closed);
+}
+
+void RoomHost::turn() {
+  if (!problem_.empty()) return recover();
+  session_->say([&](Ledger&, std::int64_t tick) { room_->pass({tick, options_.wall_time()}); });
+  flush();
+  for (auto& [key, visitor] : visitors_)
+    if (room_->state().seat(visitor.seat) == nullptr)
+      visitor.guest->close(CloseCode::removed, "the facilitator has closed this seat");
+    else if (visitor.guest->unsent() > kCloseAbove) visitor.guest->close(CloseCode::draining, "too much waits to be taken");
+  const double now = options_.clock->now();
+  if (now - last_views_ < kBetweenViews) return;
+  last_views_ = now;
+  keep_records();
+  publish();
+}
+
+// Views of a moment that has read unstored entries wait until these are stored.
+void RoomHost::publish() {
+  const auto moment = session_->moment();
+  if (next_ || (moment == seen_ && !is_changed_)) return;
+  seen_ = moment;
+  is_changed_ = false;
+  Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
+  const wire::ViewSources from = sources(*moment->state);
+  for (const auto& [key, visitor] : visitors_)
+    for (const std::string& name : visitor.wanted) {
+      if (!wire::is_view(name)) continue;
+      auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
+      if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
+    }
+  next_ = std::move(made);
+  show();
+}
+
+void RoomHost::show() {
+  if (!next_ || next_->seq > stored_seq_) return;
+  now_ = std::move(next_);
+  next_.reset();
+  for (auto& [key, visitor] : visitors_) show(visitor);
+}
+
+void RoomHost::show(Visitor& visitor) {
+  if (!now_ || visitor.guest->unsent() > kSkipAbove) return;
+  for (const std::string& name : visitor.wanted) {
+    std::shared_ptr<const wire::View> view;
+    if (!wire::is_of_seat(name)) {
+      if (const auto found = now_->shared.find(name); found != now_->shared.end()) view = found->second;
+    } else if (const auto seat = now_->by_seat.find(visitor.seat); seat != now_->by_seat.end()) {
+      if (const auto found = seat->second.find(name); found != seat->second.end()) view = found->second;
+    }
+    if (!view) {
+      is_changed_ = true;  // it was not wanted by anybody when these views were made
+      continue;
+    }
+    std::shared_ptr<const wire::View>& shown = visitor.shown[name];
+    if (shown == view) continue;
+    if (auto changes = wire::changes_of(name, shown.get(), *view, now_->tick, now_->seq))
+      visitor.guest->send(frame_of(std::move(*changes)));
+    shown = view;
+  }
+}
+
+wire::View RoomHost::view(std::string_view name, std::int64_t seat) {
+  return wire::make_view(name, sources(*session_->moment()->state), seat);
+}
+
+RoomHost::Health RoomHost::health() const {
+  Health health;
+  for (const auto& [number, seat] : room_->state().seats) health.seats += seat.is_removed ? 0 : 1;
+  health.guests = visitors_.size();
+  const auto moment = session_->moment();
+  health.tick = moment->state->tick;
+  health.seq = stored_seq_;
+  health.hash = hex_digits(moment->ticked->hash);
+  health.problem = problem_;
+  health.disk_seconds = writer_->latency().median;
+  return health;
+}
+
+}  // namespace bl::serve

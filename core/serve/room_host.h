@@ -1,0 +1,130 @@
+// A room that runs: its session ticks, what people say is stored, and they are told once it is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/host/live_session.h"
+#include "core/journal/writer.h"
+#include "core/room/room.h"
+#include "core/serve/guest.h"
+#include "core/wire/messages.h"
+#include "core/wire/views.h"
+
+namespace bl::serve {
+
+struct RoomHostOptions {
+  room::Allowances allowances = {};
+  room::RandomBytes random = room::system_random_bytes;
+  host::Clock* clock = &host::real_clock();
+  std::function<std::int64_t()> wall_time;                   ///< [ms since 1970]
+  std::function<void(std::function<void()>)> on_own_thread;  ///< runs a task on the thread that uses the host; from any thread
+};
+
+/// All of it belongs to one thread, but for the ticks and the disk, which have threads of their own.
+class RoomHost {
+ public:
+  /// Opens the session file: a new one with this scene, or one that is there, which is continued where it was.
+  static Result<std::unique_ptr<RoomHost>> open(const std::string& journal_path, const std::string& code,
+                                                const std::string& scene_path, RoomHostOptions options);
+  ~RoomHost();
+  RoomHost(const RoomHost&) = delete;
+  RoomHost& operator=(const RoomHost&) = delete;
+
+  const std::string& code() const { return code_; }
+  const std::string& title() const { return title_; }
+  /// By role: keys that give a seat of that role; the same ones for as long as the session file exists.
+  const std::map<std::string, std::string>& invites() const { return invites_; }
+
+  // Connections.
+  /// The first message of a guest. False where the guest is sent away.
+  bool greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hello);
+  /// Any later frame.
+  void hear(Guest& guest, std::string_view frame);
+  void leave(Guest& guest);
+  /// To be called some ten times a second: sends what has changed, and lets time pass.
+  void turn();
+  /// Says goodbye, stores what there is, and stops.
+  void close();
+
+  // For pages without scripts, which have no connection.
+  /// A seat by the code of the room; its token, or why there is none.
+  std::variant<room::Admission, room::Refusal> admit_by_code();
+  std::int64_t seat_of_token(std::string_view token) const { return room_->seat_of_token(token); }
+  /// Says something for a seat, and calls back once it is stored.
+  void say_for(std::int64_t seat, room::OperationKind kind, const JsonValue& content,
+               std::function<void(const room::Answer&)> done);
+  wire::View view(std::string_view name, std::int64_t seat);
+
+  struct Health {
+    std::size_t seats = 0, guests = 0;
+    std::int64_t tick = 0, seq = 0;
+    std::string hash, problem;
+    double disk_seconds = 0;
+  };
+  Health health() const;
+
+ private:
+  struct Visitor {
+    std::shared_ptr<Guest> guest;
+    std::int64_t seat = 0;
+    std::string run, kind;
+    std::set<std::string> wanted;
+    std::map<std::string, std::shared_ptr<const wire::View>> shown;  // by view: what was sent last
+  };
+  /// Something to be told once the record that it stands in is stored.
+  using Telling = std::function<void()>;
+  struct Published {
+    std::int64_t seq = 0, tick = 0;
+    std::map<std::string, std::shared_ptr<const wire::View>> shared;
+    std::map<std::int64_t, std::map<std::string, std::shared_ptr<const wire::View>>> by_seat;
+  };
+
+  RoomHost(std::string code, RoomHostOptions options) : code_(std::move(code)), options_(std::move(options)) {}
+  Result<void> begin(const journal::Loaded& loaded);
+  Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning) const;
+  void make_invites(const std::vector<room::TokenRecord>& tokens);
+  void submit(Visitor& visitor, const room::Operation& operation);
+  void say(const std::function<void(room::Now now)>& words);
+  /// Hands to the disk what has been said, and what is to be told after it.
+  void flush();
+  void stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
+              const Result<void>& result);
+  void recover();
+  void follow_pace();
+  void publish();
+  void show();
+  void show(Visitor& visitor);
+  void keep_records();
+  void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
+  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_}; }
+
+  std::string code_, title_;
+  RoomHostOptions options_;
+  std::unique_ptr<host::LiveSession> session_;
+  std::unique_ptr<room::Room> room_;
+  std::unique_ptr<journal::Writer> writer_;
+  std::string beginning_;  // the scene file before the first entry
+  std::int64_t base_ = 0;
+  std::map<std::string, std::string> invites_;  // by role
+  std::map<Guest*, Visitor> visitors_;
+  std::vector<Telling> tellings_;  // of what has been said since the last flush
+  std::int64_t stored_seq_ = 0;
+  int commits_under_way_ = 0;
+  std::string problem_;  // why nothing can be stored
+  double problem_since_ = 0, last_views_ = 0, last_snapshot_ = 0;
+  std::int64_t snapshot_seq_ = 0, last_hash_tick_ = -1;
+  bool is_changed_ = true;                                 // since the last views
+  std::shared_ptr<const host::Moment> seen_;               // the moment of the last views
+  std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
+  std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
+  std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
+};
+
+}  // namespace bl::serve

@@ -1,0 +1,155 @@
+// A room begins with a scene, or goes on from its session file.
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/file_io.h"
+#include "core/file/scene_file.h"
+#include "core/serve/room_host.h"
+#include "core/session/session.h"
+
+namespace bl::serve {
+
+namespace {
+
+constexpr std::int64_t kInviteSeat = 0;  // the row of tokens that holds the key of all invitations
+
+Result<Scene> usable_scene(const std::string& text, const std::string& place) {
+  SceneReading reading = read_scene(text, full_registry());
+  if (!reading.is_usable()) return reading.first_error().within(place);
+  for (const Problem& problem : check_scene(reading.scene, full_registry()))
+    if (problem.is_error) return problem.error.within(place);
+  return std::move(reading.scene);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path, const std::string& code,
+                                                 const std::string& scene_path, RoomHostOptions options) {
+  std::unique_ptr<RoomHost> host(new RoomHost(code, std::move(options)));
+  const journal::Journal::Options how{.opened_at = host->options_.wall_time()};
+  const bool is_there = std::filesystem::exists(journal_path);
+  Result<std::unique_ptr<journal::Journal>> journal = Error{};
+  if (is_there) {
+    journal = journal::Journal::open(journal_path, full_registry(), how);
+  } else {
+    const auto text = read_file(scene_path);
+    if (!text) return text.error();
+    const auto scene = usable_scene(*text, scene_path);
+    if (!scene) return scene.error();
+    const std::string title = settings_of(*scene).title;
+    journal::RoomRow row{.code = code, .title = title.empty() ? std::filesystem::path(scene_path).stem().string() : title};
+    row.scene = *text;
+    row.created = host->options_.wall_time();
+    journal = journal::Journal::create(journal_path, row, full_registry(), how);
+  }
+  if (!journal) return journal.error();
+  auto loaded = (*journal)->load();
+  if (!loaded) return loaded.error();
+  host->code_ = (*journal)->room().code;
+  host->title_ = (*journal)->room().title;
+  host::Clock* clock = host->options_.clock;
+  host->writer_ = std::make_unique<journal::Writer>(
+      std::move(*journal), journal::Writer::Clock{[clock] { return clock->now(); },
+                                                  [clock](std::condition_variable& wake, std::unique_lock<std::mutex>& lock,
+                                                          double until) { clock->wait(wake, lock, until); }});
+  if (auto begun = host->begin(*loaded); !begun) return begun.error();
+  host->flush();
+  return host;
+}
+
+Result<void> RoomHost::begin(const journal::Loaded& loaded) {
+  beginning_ = loaded.room.scene;
+  base_ = loaded.room.base;
+  const auto scene = usable_scene(beginning_, "the scene of the session file");
+  if (!scene) return scene.error();
+  const auto state = state_after(loaded, *scene);
+  if (!state) return state.error();
+  const auto history = [&](Ledger& ledger) -> Result<void> {
+    room_ = std::make_unique<room::Room>(ledger, room::RoomOptions{options_.allowances, options_.random});
+    for (const room::EntryRecord& record : loaded.room.stored.entries)
+      if (auto done = room_->replay(record); !done) return done.error().within("entry " + std::to_string(record.entry.seq));
+    room_->restore(loaded.room.stored);
+    return {};
+  };
+  host::LiveSessionOptions how{.author = {"room", AuthorKind::program}, .origin = "room", .threads = 1, .clock = options_.clock};
+  auto session = host::LiveSession::go_on(full_registry(), *scene, base_, history, &*state, how);
+  if (!session) return session.error();
+  session_ = std::move(*session);
+  stored_seq_ = session_->last_seq();
+  snapshot_seq_ = loaded.snapshot ? loaded.snapshot->seq : base_;
+  last_snapshot_ = options_.clock->now();
+  session_->let_rest(true);
+  make_invites(loaded.room.stored.tokens);
+  say([&](room::Now now) {
+    for (const auto& [number, seat] : std::map(room_->state().seats))
+      if (seat.is_here) room_->note_presence(number, false, now);
+  });
+  follow_pace();
+  return {};
+}
+
+// The ticks since the newest snapshot are taken again, with what was said in them.
+Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Scene& beginning) const {
+  Scene scene = beginning;
+  std::optional<SavedState> saved;
+  std::int64_t seq = loaded.room.base;
+  const auto text = loaded.snapshot ? journal::unpack(loaded.snapshot->scene) : Result<std::string>(loaded.room.scene);
+  if (!text) return text.error();
+  SceneReading reading = read_scene(*text, full_registry());
+  if (loaded.snapshot) {
+    scene = std::move(reading.scene);
+    seq = loaded.snapshot->seq;
+  }
+  saved = std::move(reading.state);
+  auto session = Session::start(full_registry(), scene, saved ? &*saved : nullptr, 1);
+  if (!session) return session.error();
+  const auto run_to = [&](std::int64_t tick) {
+    while ((*session)->state()->tick < tick) (*session)->tick();
+  };
+  for (const room::EntryRecord& record : loaded.room.stored.entries) {
+    if (record.entry.seq <= seq || !record.entry.is_command()) continue;
+    run_to(record.entry.tick);
+    // Undo marks of gestures before the snapshot are not known here; what counts is what the entry does to the scene.
+    LogEntry entry = record.entry;
+    entry.undoes = entry.redoes = 0;
+    entry.is_abandoned = false;
+    entry.source = {};
+    if (auto done = (*session)->submit({.command = entry.command, .author = entry.author}); !done)
+      return done.error().within("entry " + std::to_string(entry.seq));
+  }
+  for (const journal::HashRow& row : loaded.hashes) run_to(row.tick);
+  for (const room::EntryRecord& record : loaded.room.stored.entries) run_to(record.entry.tick);
+  return save(*(*session)->coming_state());
+}
+
+// All keys follow from one, which is stored: whoever was invited before a crash is invited after it.
+void RoomHost::make_invites(const std::vector<room::TokenRecord>& tokens) {
+  std::string key;
+  for (const room::TokenRecord& token : tokens)
+    if (token.seat == kInviteSeat) key = token.hash;
+  if (key.empty()) {
+    key = room::hex_of(options_.random(32));
+    room::Record record;
+    record.tokens.push_back({kInviteSeat, key});
+    writer_->submit(std::move(record), [](const Result<void>&) {});
+  }
+  for (const Role role :
+       {Role::facilitator, Role::designer, Role::stakeholder, Role::participant, Role::viewer, Role::recorder}) {
+    const std::string name(kRoleNames[static_cast<std::size_t>(role)]);
+    invites_[name] = room::keyed_digest_of(key, name, 16);
+  }
+}
+
+RoomHost::~RoomHost() { close(); }
+
+void RoomHost::close() {
+  if (!is_alive_) return;
+  for (auto& [key, visitor] : visitors_) visitor.guest->close(CloseCode::draining, "the room is being closed");
+  visitors_.clear();
+  is_alive_.reset();
+  session_.reset();
+  writer_.reset();  // stores what waits
+}
+
+}  // namespace bl::serve
