@@ -210,6 +210,11 @@ void RoomHost::say_for(std::int64_t seat, room::OperationKind kind, const JsonVa
   flush();
 }
 
+void RoomHost::when_stored(std::function<void()> done) {
+  tellings_.push_back(std::move(done));
+  flush();
+}
+
 // --- The disk -------------------------------------------------------------------------------------------------------
 
 void RoomHost::flush() {

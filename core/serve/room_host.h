@@ -60,6 +60,8 @@ class RoomHost {
   /// Says something for a seat, and calls back once it is stored.
   void say_for(std::int64_t seat, room::OperationKind kind, const JsonValue& content,
                std::function<void(const room::Answer&)> done);
+  /// Calls back once all that was said until now is stored.
+  void when_stored(std::function<void()> done);
   wire::View view(std::string_view name, std::int64_t seat);
 
   struct Health {

@@ -1,0 +1,28 @@
+// Requests and answers of HTTP as plain data, so that pages are made and tested without a socket.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace bl::serve {
+
+struct Request {
+  std::string method, target, body;  ///< `target` as sent, with its query
+  std::string host;                  ///< the field Host
+};
+
+struct Response {
+  int status = 200;
+  std::string type = "text/html; charset=utf-8", body = {};
+  std::map<std::string, std::string> fields = {};  ///< besides those that all answers have
+};
+
+using Reply = std::function<void(Response)>;
+
+/// The fields of a form: `a=1&b=two+words`, with its escapes undone. A field that stands twice has its last value.
+std::map<std::string, std::string> form_fields(const std::string& text);
+/// The path without its query.
+std::string path_of(const std::string& target);
+
+}  // namespace bl::serve

@@ -1,0 +1,159 @@
+// Which request gets which answer.
+#include "core/serve/pages.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/json_text.h"
+#include "core/drawing/markup.h"
+#include "core/file/file_io.h"
+#include "core/serve/plain_page.h"
+
+namespace bl::serve {
+
+namespace {
+
+Response sentence(int status, const std::string& text) {
+  return {.status = status, .type = "text/plain; charset=utf-8", .body = text + "\n"};
+}
+
+Response moved(const std::string& where) {
+  Response response = sentence(303, "See " + where);
+  response.fields["Location"] = where;
+  return response;
+}
+
+std::string type_of_file(const std::string& name) {
+  static const std::map<std::string, std::string> kTypes = {{".html", "text/html; charset=utf-8"},
+                                                            {".js", "text/javascript; charset=utf-8"},
+                                                            {".css", "text/css; charset=utf-8"},
+                                                            {".svg", "image/svg+xml"},
+                                                            {".png", "image/png"},
+                                                            {".json", "application/json"},
+                                                            {".woff2", "font/woff2"},
+                                                            {".webmanifest", "application/manifest+json"}};
+  const auto found = kTypes.find(std::filesystem::path(name).extension().string());
+  return found == kTypes.end() ? "application/octet-stream" : found->second;
+}
+
+// A name of the built page: letters, digits, `-`, `_` and single dots; nothing that leads out of its folder.
+bool is_plain_name(const std::string& name) {
+  const auto is_fine = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && name[0] != '.' && name.find("..") == std::string::npos &&
+         std::all_of(name.begin(), name.end(), is_fine);
+}
+
+// Codes are typed on phones, in whatever case.
+std::string code_in(std::string text) {
+  std::erase_if(text, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+}  // namespace
+
+Response Pages::door() const {
+  drawing::Markup page;
+  page.raw(
+      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>BehaviourLinks</title><link rel=\"stylesheet\" "
+      "href=\"/plain.css\"></head><body><main><h1>Join a session</h1><form method=\"get\" action=\"/\"><label for=\"code\">Code "
+      "of the room</label><input id=\"code\" name=\"code\" autocomplete=\"off\" autocapitalize=\"characters\" "
+      "required><button>Join</button></form></main></body></html>");
+  return {.body = page.str()};
+}
+
+Response Pages::health() const {
+  Json rooms = Json::array();
+  double disk = 0;
+  for (const auto& [code, room] : *rooms_) {
+    const RoomHost::Health health = room->health();
+    Json one = {{"code", code},        {"seats", health.seats}, {"guests", health.guests},
+                {"tick", health.tick}, {"seq", health.seq},     {"hash", health.hash}};
+    if (!health.problem.empty()) one["problem"] = health.problem;
+    rooms.push_back(std::move(one));
+    disk = std::max(disk, health.disk_seconds);
+  }
+  const Json all = {{"rooms", rooms}, {"disk_ms", disk * 1000}};
+  return {.type = "application/json", .body = write_json_line(all) + "\n", .fields = {{"Cache-Control", "no-store"}}};
+}
+
+Response Pages::file(const std::string& path, bool is_immutable) const {
+  auto content = folder_.empty() ? Result<std::string>(Error{}) : read_file(folder_ + "/" + path);
+  if (!content) return sentence(404, "There is no such page.");
+  Response response{.type = type_of_file(path), .body = std::move(*content)};
+  response.fields["Cache-Control"] = is_immutable ? "public, max-age=31536000, immutable" : "no-cache";
+  return response;
+}
+
+void Pages::answer(const Request& request, const Reply& reply) {
+  const std::string path = path_of(request.target);
+  const bool is_read = request.method == "GET" || request.method == "HEAD";
+  if (!is_read && request.method != "POST") {
+    Response response = sentence(405, "This server answers GET, HEAD and POST.");
+    response.fields["Allow"] = "GET, HEAD, POST";
+    return reply(std::move(response));
+  }
+  if (path.starts_with("/plain/")) {
+    const std::string rest = path.substr(7);
+    const std::size_t slash = rest.find('/');
+    const auto room = rooms_->find(code_in(rest.substr(0, slash)));
+    if (room == rooms_->end()) return reply(sentence(404, "There is no room with this code."));
+    const std::string what = slash == std::string::npos ? "" : rest.substr(slash + 1);
+    return plain(*room->second, request, what, reply);
+  }
+  if (!is_read) return reply(sentence(404, "There is no such form."));
+  if (path == "/health") return reply(health());
+  if (path == "/plain.css")
+    return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});
+  if (path.starts_with("/assets/")) {
+    const std::string name = path.substr(8);
+    return reply(is_plain_name(name) ? file("assets/" + name, true) : sentence(404, "There is no such page."));
+  }
+  if (path == "/") {
+    const std::size_t query = request.target.find('?');
+    const auto fields =
+        query == std::string::npos ? std::map<std::string, std::string>() : form_fields(request.target.substr(query + 1));
+    const auto code = fields.find("code");
+    if (code != fields.end() && rooms_->contains(code_in(code->second))) return reply(moved("/" + code_in(code->second)));
+    return reply(door());
+  }
+  const auto room = rooms_->find(code_in(path.substr(1)));
+  if (room == rooms_->end() || path.find('/', 1) != std::string::npos)
+    return reply(sentence(404, "There is no room with this code."));
+  Response page = file("index.html", false);
+  return reply(page.status == 200 ? std::move(page) : moved("/plain/" + room->first));
+}
+
+void Pages::plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply) {
+  if (request.method != "POST")
+    return reply(what.empty() ? Response{.body = plain_door(room, "")} : sentence(404, "There is no such page."));
+  const auto fields = form_fields(request.body);
+  const std::string token = fields.contains("token") ? fields.at("token") : "";
+  const auto show = [&room, reply](std::int64_t seat, const std::string& key, const std::string& notice) {
+    reply({.body = plain_room(room, seat, key, notice), .fields = {{"Cache-Control", "no-store"}}});
+  };
+  if (what == "join") {
+    const auto admitted = room.admit_by_code();
+    if (const auto* refusal = std::get_if<room::Refusal>(&admitted))
+      return reply({.status = 403, .body = plain_door(room, refusal->text)});
+    const auto& admission = std::get<room::Admission>(admitted);
+    return room.when_stored([show, admission] { show(admission.seat, admission.token, ""); });
+  }
+  const std::int64_t seat = room.seat_of_token(token);
+  if (seat == 0) return reply({.status = 403, .body = plain_door(room, "Your seat is gone; please join again.")});
+  if (what.empty()) return show(seat, token, "");
+  if (what != "vote" && what != "comment") return reply(sentence(404, "There is no such form."));
+  const auto wish = what == "vote" ? wish_of_vote(room, seat, fields) : wish_of_comment(room, seat, fields);
+  if (const auto* why = std::get_if<std::string>(&wish)) return show(seat, token, *why);
+  const auto& asked = std::get<PlainWish>(wish);
+  room.say_for(seat, asked.kind, asked.content, [show, seat, token, what](const room::Answer& answer) {
+    const auto* refusal = std::get_if<room::Refusal>(&answer);
+    const std::string done = what == "vote" ? "Your ballot is counted." : "Your comment is stored.";
+    show(seat, token, refusal == nullptr ? done : "Not taken: " + refusal->text + ".");
+  });
+}
+
+}  // namespace bl::serve

@@ -1,0 +1,33 @@
+// What the server answers to requests: the built page, the state of health, and pages without scripts.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/serve/http.h"
+#include "core/serve/room_host.h"
+
+namespace bl::serve {
+
+using Rooms = std::map<std::string, std::unique_ptr<RoomHost>>;
+
+class Pages {
+ public:
+  /// `folder` holds the built page; where it is empty or has no index.html, the pages without scripts take its place.
+  Pages(Rooms& rooms, std::string folder) : rooms_(&rooms), folder_(std::move(folder)) {}
+
+  /// Calls back once, perhaps later: what a form says is stored first.
+  void answer(const Request& request, const Reply& reply);
+
+ private:
+  Response door() const;
+  Response health() const;
+  Response file(const std::string& path, bool is_immutable) const;
+  void plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply);
+
+  Rooms* rooms_;
+  std::string folder_;
+};
+
+}  // namespace bl::serve
