@@ -1,7 +1,10 @@
-// A stakeholder group: people with goals and a budget, and how far both are kept.
+// A stakeholder group: people with goals and a budget, how far both are kept, and the role card of whoever speaks for it.
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -14,6 +17,8 @@ struct StakeholderGroup {
     std::string interest;
     Selection goals;
     double budget = 0, spent = 0;
+    Table controls{{"node", "port", "label", "minimum", "maximum", "step", "costs_whom"}, {}}, allowed{{"command"}, {}};
+    std::vector<std::string> areas;
   };
   struct Goal {
     double score = 0;
@@ -42,6 +47,7 @@ struct StakeholderGroup {
         .unit(Unit::euro)
         .combine(CombineRule::total)
         .doc("What is spent: what people have set, and all that links of cost add to it.");
+    declare_role_card(t);
     t.out(&Out::budget_left, "budget_left")
         .traced()
         .shown_first()
@@ -57,7 +63,63 @@ struct StakeholderGroup {
     t.set("goals", &Sets::goals).reads(&Goal::score, "indicator.score", Unit::ratio).reads(&Goal::status, "indicator.status");
   }
 
+  static void declare_role_card(TypificationBuilder<StakeholderGroup>& t) {
+    t.in(&In::controls, "controls")
+        .column({.id = "node",
+                 .is_text = true,
+                 .is_required = true,
+                 .names = NameOf::node,
+                 .default_value = std::string(),
+                 .doc = "Id of the node that is controlled."})
+        .column({.id = "port",
+                 .is_text = true,
+                 .is_required = true,
+                 .names = NameOf::port,
+                 .default_value = std::string(),
+                 .doc = "The port that is controlled, written `typification.port`."})
+        .column({.id = "label", .is_text = true, .default_value = std::string(), .doc = "What it is called on the card."})
+        .column({.id = "minimum", .doc = "The smallest number that may be set, in the unit of the port."})
+        .column({.id = "maximum", .is_required = true, .doc = "The largest number that may be set; above the smallest."})
+        .column({.id = "step", .minimum = 0, .doc = "Step, counted from the smallest number; 0 for none."})
+        .column({.id = "costs_whom",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "Who pays or loses when this number grows, in words."})
+        .doc("The role card: the numbers that whoever speaks for the group may set, and how far.");
+    t.in(&In::allowed, "allowed")
+        .column({.id = "command",
+                 .is_text = true,
+                 .is_required = true,
+                 .is_key = true,
+                 .names = NameOf::command,
+                 .default_value = std::string(),
+                 .doc = "Id of a command, such as `add_node`."})
+        .doc("The role card: what else whoever speaks for the group may do.");
+    t.in(&In::areas, "areas").doc("The role card: the areas in which this holds, each the tag of its nodes.");
+  }
+
+  static Result<void> check_card(const Table& controls) {
+    std::set<std::pair<std::string, std::string>> seen;
+    for (std::size_t row = 0; row < controls.rows.size(); ++row) {
+      const std::string place = "controls/" + std::to_string(row) + "/";
+      const double minimum = controls.number(row, "minimum"), maximum = controls.number(row, "maximum"),
+                   step = controls.number(row, "step");
+      if (!(minimum < maximum))
+        return Error{ErrorCode::out_of_range, place + "maximum",
+                     "the maximum (" + shortest(maximum) + ") has to lie above the minimum (" + shortest(minimum) + ")"};
+      if (step > maximum - minimum)
+        return Error{ErrorCode::out_of_range, place + "step",
+                     "the step (" + shortest(step) + ") is larger than the range (" + shortest(maximum - minimum) +
+                         "): make it smaller, or 0 for none"};
+      if (!seen.emplace(controls.text(row, "node"), controls.text(row, "port")).second)
+        return Error{ErrorCode::duplicate, place + "port",
+                     "this port of `" + controls.text(row, "node") + "` stands in an earlier row too: keep one of them"};
+    }
+    return {};
+  }
+
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
+    if (auto card = check_card(in.controls); !card) return card.error();
     Out out;
     out.budget_left = in.budget - in.spent;
     out.is_within_budget = out.budget_left >= 0;

@@ -53,6 +53,10 @@ struct Tick {
 enum class CombineRule { none, sum, blend, min, max, collect, total };
 std::string_view name_of(CombineRule rule);
 
+/// What the texts of a column are ids of. The check of a scene looks whether it is there; an empty text is no id. A row that
+/// names a node and a port means that port of that node.
+enum class NameOf { nothing, node, port, command };
+
 /// Does each field of a column hold a list?
 enum class ListOf { nothing, numbers, indices };
 
@@ -63,6 +67,7 @@ struct ColumnDefinition {
   bool is_required = false;
   ListOf list = ListOf::nothing;
   bool is_key = false;  ///< a text that names the row, so that people can change different rows at the same time
+  NameOf names = NameOf::nothing;
   Unit unit = Unit::none;
   Scalar default_value = 0.0;
   double minimum = -std::numeric_limits<double>::infinity(), maximum = std::numeric_limits<double>::infinity();

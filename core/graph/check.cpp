@@ -23,6 +23,39 @@ void check_selection(const Scene& scene, const Selection& selection, const std::
                              did_you_mean(selection.typification, keys_of(registry.typifications()))}});
 }
 
+// What one field of a table names, and why that is not there; empty where it is. `node` is the node that the row names, if any.
+std::string why_not_there(const Scene& scene, const ColumnDefinition& column, const std::string& name, const std::string& node,
+                          const Registry& registry) {
+  if (column.names == NameOf::node && !scene.nodes.contains(name))
+    return "there is no node `" + name + "`" + did_you_mean_among(name, scene.nodes);
+  if (column.names == NameOf::command && registry.command(name) == nullptr)
+    return "unknown command `" + name + "`" + did_you_mean(name, keys_of(registry.commands()));
+  if (column.names != NameOf::port) return "";
+  const auto path = parse_port_path(name);
+  if (!path) return "expects a port written `typification.port`, found `" + name + "`";
+  if (const auto found = registry.port(*path); !found) return found.error().message;
+  const auto named = scene.nodes.find(node);
+  if (named == scene.nodes.end() || path->typification == kBaseNode || named->second.types.contains(path->typification))
+    return "";
+  return "the node `" + node + "` is not a `" + path->typification + "`, and has no such port";
+}
+
+// Rows stay when what they name goes: a name of nothing is told and refuses no file.
+void check_table(const Scene& scene, const PortDefinition& port, const Table& table, const std::string& place,
+                 const Registry& registry, std::vector<Problem>& problems) {
+  const auto names_node = [](const ColumnDefinition& column) { return column.names == NameOf::node; };
+  const auto node = std::find_if(port.columns.begin(), port.columns.end(), names_node);
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    for (const ColumnDefinition& column : port.columns) {
+      if (column.names == NameOf::nothing) continue;
+      const std::string& name = table.text(row, column.id);
+      if (name.empty()) continue;
+      const std::string of_row = node == port.columns.end() ? std::string() : table.text(row, node->id);
+      if (std::string why = why_not_there(scene, column, name, of_row, registry); !why.empty())
+        problems.push_back({false, {ErrorCode::not_found, place + "/" + std::to_string(row) + "/" + column.id, std::move(why)}});
+    }
+}
+
 void check_node(const Scene& scene, const std::string& id, const NodeRecord& node, const Registry& registry,
                 std::vector<Problem>& problems) {
   for (const auto& [type_id, text] : node.ghosts)
@@ -38,6 +71,8 @@ void check_node(const Scene& scene, const std::string& id, const NodeRecord& nod
       if (const auto* selection = std::get_if<Shared<Selection>>(&value))
         check_selection(scene, **selection, place, registry, problems);
       const PortDefinition* definition = type->find_port(port);
+      if (const auto* table = std::get_if<Shared<Table>>(&value); table != nullptr && definition != nullptr)
+        check_table(scene, *definition, **table, place, registry, problems);
       if (definition != nullptr && definition->kind == ValueKind::port) {
         const auto path = parse_port_path(std::get<std::string>(value));
         if (path && !(path->typification == kBaseNode && path->port == "id"))

@@ -40,6 +40,52 @@ TEST(StakeholderGroup, CountsItsMoney) {
   EXPECT_EQ(over.number("it", "stakeholder_group.is_within_budget"), 0);
 }
 
+TEST(StakeholderGroup, ARoleCardHasRangesThatCanBe) {
+  const auto fault = [](const std::string& rows) {
+    World world = World::from_text(one_node("stakeholder_group", R"("controls": [)" + rows + "]"));
+    world.tick();
+    return world.node_error("it", "stakeholder_group");
+  };
+  const std::string budget = R"({"node": "it", "port": "stakeholder_group.budget", "maximum": )";
+  EXPECT_EQ(fault(budget + R"(9, "step": 3})"), "");
+  EXPECT_EQ(fault(budget + "0}"),
+            "nodes/it/stakeholder_group/controls/0/maximum: the maximum (0) has to lie above the minimum (0)");
+  EXPECT_EQ(
+      fault(budget + R"(9, "step": 10})"),
+      "nodes/it/stakeholder_group/controls/0/step: the step (10) is larger than the range (9): make it smaller, or 0 for none");
+  EXPECT_EQ(fault(budget + "9}, " + budget + "8}"),
+            "nodes/it/stakeholder_group/controls/1/port: this port of `it` stands in an earlier row too: keep one of them");
+}
+
+TEST(StakeholderGroup, ARoleCardNamesWhatIsThere) {
+  const auto problems = [](const std::string& card) {
+    const SceneReading reading =
+        read_scene(scene_text(R"({"id": "house", "types": {"smart_volume": {}}}, {"id": "it", "types": {"stakeholder_group": {)" +
+                              card + "}}}"),
+                   full_registry());
+    EXPECT_TRUE(reading.is_usable()) << "what is named may come and go";
+    std::string all;
+    for (const Problem& problem : check_scene(reading.scene, full_registry())) all += problem.error.text() + "\n";
+    return all;
+  };
+  const auto control = [](const std::string& node, const std::string& port) {
+    return R"("controls": [{"node": ")" + node + R"(", "port": ")" + port + R"(", "maximum": 9}])";
+  };
+  const std::string place = "nodes/it/stakeholder_group/";
+  EXPECT_EQ(problems(control("house", "smart_volume.demand")), "");
+  EXPECT_EQ(problems(control("house", "node.position")), "");
+  EXPECT_EQ(problems(control("hous", "smart_volume.demand")),
+            place + "controls/0/node: there is no node `hous`, did you mean `house`?\n");
+  EXPECT_EQ(problems(control("house", "smart_volume.demnd")),
+            place + "controls/0/port: `smart_volume` has no port `demnd`, did you mean `demand`?\n");
+  EXPECT_EQ(problems(control("house", "street.lanes")),
+            place + "controls/0/port: the node `house` is not a `street`, and has no such port\n");
+  EXPECT_EQ(problems(control("house", "demand")),
+            place + "controls/0/port: expects a port written `typification.port`, found `demand`\n");
+  EXPECT_EQ(problems(R"("allowed": [{"command": "add_node"}, {"command": "add_nod"}])"),
+            place + "allowed/1/command: unknown command `add_nod`, did you mean `add_node`?\n");
+}
+
 TEST(StakeholderGroup, SceneIsWhatItSays) {
   World world = World::from_file("scenes/nodes/stakeholder_group.json");
   EXPECT_TRUE(world.settle(20));
