@@ -14,7 +14,7 @@ namespace bl::journal {
 
 /// The room that a file belongs to. Times are those of the host's clock [ms since 1970]; 0: none.
 struct RoomRow {
-  std::string code, title;
+  std::string code = {}, title = {};
   std::int64_t epoch = 1;         ///< grows each time the room begins anew
   std::string build = {};         ///< of the program that wrote the file last
   std::string registry = {};      ///< a hash of the types that it knew
