@@ -166,6 +166,8 @@ Result<void> Journal::add_snapshot(const Snapshot& snapshot) {
     auto done = database_.change("INSERT OR REPLACE INTO snapshot VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                                  {snapshot.seq, snapshot.tick, snapshot.epoch, snapshot.hash, snapshot.name,
                                   Blob{snapshot.scene.bytes}, snapshot.scene.size, snapshot.scene.digest});
+    if (done && !snapshot.hash.empty())
+      done = database_.change("INSERT OR REPLACE INTO hash VALUES (?, ?, ?)", {snapshot.seq, snapshot.tick, snapshot.hash});
     if (!done) return done;
     return database_.change(
         "DELETE FROM snapshot WHERE name = '' AND rowid NOT IN "

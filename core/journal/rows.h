@@ -14,7 +14,7 @@ namespace bl::journal {
 
 /// The room that a file belongs to. Times are those of the host's clock [ms since 1970]; 0: none.
 struct RoomRow {
-  std::string code, title;
+  std::string code = {}, title = {};
   std::int64_t epoch = 1;         ///< grows each time the room begins anew
   std::string build = {};         ///< of the program that wrote the file last
   std::string registry = {};      ///< a hash of the types that it knew
@@ -35,7 +35,7 @@ struct HashRow {
 /// that no commit waits for that.
 struct Snapshot {
   std::int64_t seq = 0, tick = 0, epoch = 1;
-  std::string hash;       ///< of the state
+  std::string hash;       ///< of the state; it is kept among the other hashes as well
   std::string name = {};  ///< of a scenario; a snapshot with a name is kept for ever, of the others the newest two
   Packed scene;           ///< the text of the scene file, with its state
 };

@@ -106,6 +106,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"plan", 12},
                                                {"past", 1},
                                                {"load", 1},
+                                               {"journal", 3},
                                                {"tick_growth", 1}}));
   EXPECT_EQ(hashes.size(), 23u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;

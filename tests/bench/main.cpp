@@ -32,7 +32,7 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
       ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan",
-                             "past", "load", "tick_growth"}))
+                             "past", "load", "journal", "tick_growth"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")

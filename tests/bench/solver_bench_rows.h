@@ -122,6 +122,7 @@ BenchTables bench_plan(const SolverBench& bench);
 BenchTables bench_past(const SolverBench& bench);
 /// Reading a scene file, the first state, the first tick.
 BenchTables bench_load(const SolverBench& bench);
+BenchTables bench_journal(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

@@ -49,6 +49,12 @@ struct ReplayOptions {
 };
 int replay_command(const ReplayOptions& options);
 
+struct EraseOptions {
+  std::string session;
+  long long seat = 0;
+};
+int erase_command(const EraseOptions& options);
+
 struct CompareOptions {
   std::string first, second;
   long long ticks = -1;        ///< -1: until settled

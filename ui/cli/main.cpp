@@ -108,13 +108,29 @@ void declare_check(CLI::App& app, CheckOptions& o) {
 }
 
 void declare_replay(CLI::App& app, ReplayOptions& o) {
-  CLI::App& c = *app.add_subcommand("replay", "Runs a log again and compares every hash in it.");
-  c.add_option("log", o.log, "The log, as `run --log` wrote it.")->type_name("LOG")->required();
+  CLI::App& c = *app.add_subcommand("replay", "Runs a log or a stored session again and compares every hash in it.");
+  c.add_option("log", o.log, "The log, as `run --log` wrote it, or a session file (.blsession).")->type_name("LOG")->required();
   files_of(c).reads({"log"});
   add_threads(c, o.threads);
   c.footer(
       "Example:\n  behaviourlinks run scene.json --log run.log && behaviourlinks replay run.log --threads 2\n\n"
+      "A session file is not changed.\n\n"
       "Exit codes: 0 no hash differs; 2 bad input; 3 a hash differs. Hashes of logs of older programs cannot be compared.");
+}
+
+void declare_erase(CLI::App& app, EraseOptions& o) {
+  CLI::App& c = *app.add_subcommand("erase", "Takes a person out of a session file: the name, the words and the token.");
+  c.add_option("session", o.session, "The session file (.blsession).")->type_name("FILE")->required();
+  c.add_option("--seat", o.seat, "The number of the person's seat.")
+      ->type_name("N")
+      ->required()
+      ->check(CLI::Range(1ll, 1000000000ll));
+  files_of(c).reads({"session"});
+  c.footer(
+      "What the person changed in the scene stays, under the number of the seat, so `replay` comes to the same hashes. Copies\n"
+      "of the file are not reached: erase there as well.\n\n"
+      "Example:\n  behaviourlinks erase quarter.blsession --seat 3\n\n"
+      "Exit codes: 0 nothing of the person is left; 2 bad input, or the file is in use.");
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
@@ -147,6 +163,7 @@ struct Options {
   PlaceOptions place;
   CheckOptions check;
   ReplayOptions replay;
+  EraseOptions erase;
   CompareOptions compare;
   DocsOptions docs;
   SchemaOptions schema;
@@ -165,6 +182,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_check(app, o.check);
   declare_papers(app, o.docs, o.schema);
   declare_replay(app, o.replay);
+  declare_erase(app, o.erase);
   declare_compare(app, o.compare);
   declare_cells(app, o.cells);
   declare_fit(app, o.fit);
@@ -181,6 +199,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("docs")) return docs_command(o.docs);
   if (app.got_subcommand("schema")) return schema_command(o.schema);
   if (app.got_subcommand("replay")) return replay_command(o.replay);
+  if (app.got_subcommand("erase")) return erase_command(o.erase);
   if (app.got_subcommand("compare")) return compare_command(o.compare);
   if (app.got_subcommand("cells")) return cells_command(o.cells);
   if (app.got_subcommand("fit")) return fit_command(o.fit);

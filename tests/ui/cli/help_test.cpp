@@ -7,7 +7,7 @@ namespace bl::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"run",   "open", "new",    "check",  "docs",   "schema",  "replay",
+const std::vector<std::string> kCommands = {"run",   "open", "new",    "check",  "docs",   "schema",  "replay", "erase",
                                             "cells", "fit",  "assign", "import", "script", "compare", "place"};
 
 TEST(Help, AloneIsAnOverview) {
