@@ -72,6 +72,8 @@ class Room {
   void note_presence(std::int64_t seat, bool is_here, Now now);
   /// Lets time pass: a pen whose holder does not answer, or has left, goes to whoever asked first.
   void pass(Now now);
+  /// Could pass() do anything, sooner or later?
+  bool waits_for_time() const;
   static constexpr std::int64_t kPenAnswer = 20000, kPenLeave = 30000;  // [ms]
 
   // What they say.

@@ -269,6 +269,13 @@ void Room::note_presence(std::int64_t seat, bool is_here, Now now) {
   note_as_room("presence", {{"seat", seat}, {"is_here", is_here}}, now);
 }
 
+bool Room::waits_for_time() const {
+  return std::any_of(state_.areas.begin(), state_.areas.end(), [&](const auto& one) {
+    const Area& area = one.second;
+    return area.pen != 0 && (!area.asking.empty() || left_at_.contains(area.pen));
+  });
+}
+
 void Room::pass(Now now) {
   std::vector<std::pair<std::string, std::int64_t>> given;
   for (const auto& [name, area] : state_.areas) {

@@ -43,6 +43,13 @@ std::shared_ptr<const std::string> ops_of(const std::vector<room::EntryRecord>& 
   return frame_of_message(wire::Ops{JsonValue::of(std::move(list)), stored});
 }
 
+std::set<std::string> known_views(const std::vector<std::string>& names) {
+  std::set<std::string> known;
+  for (const std::string& name : names)
+    if (wire::is_view(name)) known.insert(name);
+  return known;
+}
+
 std::string role_name(Role role) { return std::string(kRoleNames[static_cast<std::size_t>(role)]); }
 
 }  // namespace
@@ -95,7 +102,7 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
     other = visitors_.erase(other);
   }
   Visitor& visitor = visitors_[guest.get()];
-  visitor = {guest, seat, hello.run, hello.kind, {hello.views.begin(), hello.views.end()}, {}};
+  visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views), {}};
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
   welcome(visitor, token, hello.have);
   flush();
@@ -156,7 +163,7 @@ void RoomHost::hear(Guest& guest, std::string_view text) {
   } else if (t == "want") {
     const auto want = wire::read_message<wire::Want>(*frame);
     if (!want) return guest.close(CloseCode::bad_frame, want.error().text());
-    visitor.wanted = {want->views.begin(), want->views.end()};
+    visitor.wanted = known_views(want->views);
     std::erase_if(visitor.shown, [&](const auto& one) { return !visitor.wanted.contains(one.first); });
     is_changed_ = true;
     show(visitor);
@@ -219,6 +226,7 @@ void RoomHost::when_stored(std::function<void()> done) {
 
 void RoomHost::flush() {
   room::Record record = room_->take_record();
+  if (record.is_nothing() && tellings_.empty()) return;
   if (record.is_nothing() && commits_under_way_ == 0) {
     const auto tellings = std::exchange(tellings_, {});
     for (const Telling& telling : tellings) telling();
@@ -349,8 +357,11 @@ void RoomHost::follow_pace() {
 
 void RoomHost::turn() {
   if (!problem_.empty()) return recover();
-  session_->say([&](Ledger&, std::int64_t tick) { room_->pass({tick, options_.wall_time()}); });
-  flush();
+  // Whoever says something wakes the ticks; a room where nothing happens lets them rest.
+  if (room_->waits_for_time()) {
+    session_->say([&](Ledger&, std::int64_t tick) { room_->pass({tick, options_.wall_time()}); });
+    flush();
+  }
   for (auto& [key, visitor] : visitors_)
     if (room_->state().seat(visitor.seat) == nullptr)
       visitor.guest->close(CloseCode::removed, "the facilitator has closed this seat");
@@ -372,7 +383,6 @@ void RoomHost::publish() {
   const wire::ViewSources from = sources(*moment->state);
   for (const auto& [key, visitor] : visitors_)
     for (const std::string& name : visitor.wanted) {
-      if (!wire::is_view(name)) continue;
       auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
       if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
     }

@@ -248,6 +248,7 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
     const bool is_ambiguous = request.count(http::field::transfer_encoding) > 0 && request.count(http::field::content_length) > 0;
     if (is_ambiguous || request.count(http::field::host) > 1)
       return refuse(http::status::bad_request, "The request says its length or its host twice.");
+    if (shared_.is_stopping) return refuse(http::status::service_unavailable, "The room is being closed.");
     if (websocket::is_upgrade(request)) return upgrade(std::move(request));
     keeps_alive_ = request.keep_alive();
     is_head_ = request.method() == http::verb::head;

@@ -86,6 +86,15 @@ fill_corpus() {
       printf '0{"cases": [{"boundary": {"planes": [[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,9]]}, "sites": [[1,2,3]], "weights": [1e1]}]}' >"$corpus/cells"
       printf '7x,y,z,weight,demand,demand_min,demand_max,group,name\n1,2,3,4,5,,,a,b\n2;3\n' >"$corpus/table"
       ;;
+    frame)
+      printf '%s\n' '{"t":"op","id":1,"c":{"command":"set_port","arguments":{"node":"a","port":"smart_volume.demand","value":5}}}' \
+        '{"t":"room","id":1,"e":{"event":"define_area","arguments":{"area":"n","nodes":{"ids":["a"]}}}}' \
+        '{"t":"room","id":1,"e":{"event":"comment","arguments":{"id":"c","text":"x"}}}' '{"t":"room","id":1,"e":{"event":"open_vote","arguments":{"vote":"poll"}}}' \
+        '{"t":"op","id":1,"c":{"command":"cast_vote","arguments":{"node":"poll","voter":"seat 2","ballot":"yes"}}}' \
+        '{"t":"draft","id":1,"do":"begin","draft":"d"}' '{"t":"undo","id":1}' '{"t":"op","id":1,"draft":"d","c":{"command":"remove_node","arguments":{"id":"b"}}}' \
+        '{"t":"room","id":1,"e":{"event":"propose","arguments":{"draft":"d"}}}' '{"t":"rewind","id":1,"to":2}' '{"t":"redo","id":1}' \
+        '{"t":"op","id":1,"c":{"command":"batch","arguments":{"commands":[{"command":"rename_node","arguments":{"id":"a","name":"A"}}]}}}' >"$corpus/session"
+      ;;
     osm)
       printf '<osm version="0.6"><node id="1" lat="60" lon="25"/><node id="2" lat="60" lon="25.001"/><node id="3" lat="60.001" lon="25.001"/><way id="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/><tag k="height" v="12,5 m"/></way><way id="2"><nd ref="1"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="oneway" v="-1"/></way><relation id="3"><member type="way" ref="1" role="outer"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation></osm>' >"$corpus/xml"
       ;;

@@ -55,6 +55,14 @@ struct EraseOptions {
 };
 int erase_command(const EraseOptions& options);
 
+struct ServeOptions {
+  std::vector<std::string> sources;  ///< scenes and session files
+  int port = 8080;
+  std::string bind = "0.0.0.0", journal, invites, page, certificate, key;
+  bool is_live = false, scripts = false;
+};
+int serve_command(const ServeOptions& options);
+
 struct CompareOptions {
   std::string first, second;
   long long ticks = -1;        ///< -1: until settled
@@ -90,6 +98,7 @@ int docs_command(const DocsOptions& options);
 
 struct SchemaOptions {
   std::string out;
+  bool is_of_messages = false;
 };
 int schema_command(const SchemaOptions& options);
 

@@ -15,6 +15,8 @@ void declare_import(CLI::App& app, making::ImportOptions& o);
 void declare_place(CLI::App& app, PlaceOptions& o);
 void declare_script(CLI::App& app, ScriptOptions& o);
 
+void declare_serve(CLI::App& app, ServeOptions& o);
+
 void declare_cells(CLI::App& app, CellsOptions& o);
 void declare_fit(CLI::App& app, FitFileOptions& o);
 void declare_assign(CLI::App& app, AssignOptions& o);

@@ -148,8 +148,9 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
       "TYPE may be such a file itself; the pages of all its types are then shown. Types of plugins are included "
       "with\n`behaviourlinks --plugins DIR docs`.\n\nExample:\n  behaviourlinks docs keep_distance\n  behaviourlinks docs "
       "fair_share --from scene.json\n  behaviourlinks docs links/scripts/fair_share.lua");
-  CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files.");
+  CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files, or of the messages of rooms.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
+  s.add_flag("--messages", schema.is_of_messages, "The schema of the messages between a room and its pages instead.");
   files_of(s).writes("--out", FileKind::figures);
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }
@@ -164,6 +165,7 @@ struct Options {
   CheckOptions check;
   ReplayOptions replay;
   EraseOptions erase;
+  ServeOptions serve;
   CompareOptions compare;
   DocsOptions docs;
   SchemaOptions schema;
@@ -182,6 +184,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_check(app, o.check);
   declare_papers(app, o.docs, o.schema);
   declare_replay(app, o.replay);
+  declare_serve(app, o.serve);
   declare_erase(app, o.erase);
   declare_compare(app, o.compare);
   declare_cells(app, o.cells);
@@ -199,6 +202,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("docs")) return docs_command(o.docs);
   if (app.got_subcommand("schema")) return schema_command(o.schema);
   if (app.got_subcommand("replay")) return replay_command(o.replay);
+  if (app.got_subcommand("serve")) return serve_command(o.serve);
   if (app.got_subcommand("erase")) return erase_command(o.erase);
   if (app.got_subcommand("compare")) return compare_command(o.compare);
   if (app.got_subcommand("cells")) return cells_command(o.cells);

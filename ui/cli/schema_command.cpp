@@ -1,16 +1,18 @@
-// `schema`: the JSON Schema of scene files.
+// `schema`: the JSON Schema of scene files, or of the messages of rooms.
 #include <nlohmann/json.hpp>
 
 #include "core/define/schema.h"
 #include "core/file/file_io.h"
 #include "core/file/scene_file.h"
+#include "core/wire/messages.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
 
 int schema_command(const SchemaOptions& options) {
-  const std::string text = write_json(scene_schema(full_registry(), settings_type(), kSceneVersion));
+  const std::string text =
+      write_json(options.is_of_messages ? wire::message_schema() : scene_schema(full_registry(), settings_type(), kSceneVersion));
   if (options.out.empty()) {
     print_page(text);
     return kDone;

@@ -1,0 +1,59 @@
+// Frames from the network, as a page might send them: nothing crashes, a refused operation changes nothing, and each is answered
+// once.
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/scene_file.h"
+#include "core/room/room.h"
+#include "core/wire/operations.h"
+#include "tests/fuzz/require.h"
+
+namespace {
+
+using namespace bl;
+using bl::fuzz::require;
+
+constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+  {"id": "a", "types": {"smart_volume": {"demand": 900}}}, {"id": "b", "types": {"smart_volume": {}}},
+  {"id": "card", "types": {"stakeholder_group": {}}}, {"id": "poll", "types": {"vote": {"kind": "yes_no"}}}],
+  "links": [{"id": "l", "kind": "keep_distance", "from": "a", "to": "b"}]})";
+
+struct World {
+  World()
+      : ledger(full_registry(), read_scene(kScene, full_registry()).scene),
+        room(ledger, {.random = [](std::size_t n) { return std::string(n, 'k'); }}) {
+    for (const Role role : {Role::facilitator, Role::designer, Role::participant})
+      (void)room.admit({.role = role, .areas = {}, .card = "card"}, {0, 0});
+  }
+  Ledger ledger;
+  room::Room room;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static auto world = std::make_unique<World>();
+  if (world->ledger.log().size() > 400) world = std::make_unique<World>();
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  // Each line is a frame of the next seat.
+  for (std::int64_t seat = 1; !text.empty(); seat = seat % 3 + 1) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto frame = wire::read_frame(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!frame || !wire::is_operation((*frame)["t"].get<std::string>())) continue;
+    const std::string run = "run " + std::to_string(seat);
+    room::Operation operation = wire::read_operation(*frame, run);
+    operation.id = world->room.greet(seat, run, 0) + 1;
+    const auto before = hash_of(world->ledger.scene());
+    const room::Answer answer = world->room.submit(seat, operation, {0, 0});
+    if (std::holds_alternative<room::Refusal>(answer))
+      require(hash_of(world->ledger.scene()) == before, "a refusal changed the scene");
+    require(world->room.submit(seat, operation, {0, 0}) == answer, "the same operation got two answers");
+    (void)wire::read_frame(wire::write_answer(operation.id, answer));
+    (void)world->room.take_record();
+  }
+  return 0;
+}

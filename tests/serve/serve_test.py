@@ -1,0 +1,333 @@
+#!/usr/bin/env python3
+"""Rooms over the network, from outside: joining, answers, views, pages without scripts, bad requests, kills, and replay.
+
+usage: serve_test.py PROGRAM SOURCE_FOLDER [unittest arguments]"""
+import asyncio
+import json
+import os
+import re
+import socket
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import websockets
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from room_client import Page, Server  # noqa: E402
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+QUARTER = os.path.join(SOURCE, "scenes/start/quarter.json")
+VOTE = os.path.join(SOURCE, "scenes/nodes/vote.json")
+
+
+def wait(coroutine):
+    return asyncio.run(coroutine)
+
+
+class RoomCase(unittest.TestCase):
+    scene = QUARTER
+    more = ()
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.server = Server(PROGRAM, self.scene, self.folder.name, *self.more).start()
+
+    def tearDown(self):
+        if self.server.process.poll() is None:
+            self.assertEqual(self.server.stop(), 0, "Ctrl-C closes the room in order")
+        self.server.process.stdout.close()
+        self.folder.cleanup()
+
+    def replay(self):
+        done = subprocess.run([PROGRAM, "replay", self.server.journal], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def page(self, role=None, **more):
+        return Page(self.server, self.server.invites[role] if role else None, **more)
+
+
+class Joining(RoomCase):
+    def test_by_code_and_by_invitation(self):
+        async def go():
+            lead = await self.page("facilitator", views=["room", "plan"]).connect()
+            self.assertEqual(lead.you["role"], "facilitator")
+            guest = await self.page(views=["room", "plan", "figures"]).connect()
+            self.assertEqual(guest.you["role"], "participant")
+            await guest.until(lambda: "plan" in guest.view and "room" in guest.view)
+            self.assertEqual(len(guest.view["room"]["seats"]), 2)
+            self.assertTrue([key for key in guest.view["plan"] if key.startswith("n/")])
+            refused = await guest.command("rename_node", id=next(iter(guest.view["plan"]))[2:] or "x", name="Mine")
+            self.assertEqual((refused["t"], refused["why"]), ("nack", "right"))
+            self.assertEqual((await lead.event("set_phase", name="Look", activities=["comment"]))["t"], "ack")
+            await guest.until(lambda: guest.view["room"]["phase"]["name"] == "Look")
+            # The page is loaded again: the same seat, by its token.
+            seat = guest.you["seat"]
+            await guest.close()
+            guest.run += "b"
+            guest.next, guest.answers = 1, {}
+            await guest.connect()
+            self.assertEqual(guest.you["seat"], seat)
+            await guest.close()
+            await lead.close()
+        wait(go())
+
+    def test_nobody_gets_in_who_does_not_belong(self):
+        async def go():
+            for change, code in (({"invite": "0" * 16}, 4401), ({"token": "0" * 32}, 4401), ({"room": "ZZZZ"}, 4401)):
+                hello = {"t": "hello", "room": self.server.code, "run": "r", **change}
+                async with websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin=self.server.url("")) as connection:
+                    await connection.send(json.dumps(hello))
+                    with self.assertRaises(websockets.ConnectionClosed):
+                        await connection.recv()
+                    self.assertEqual(connection.close_code, code, change)
+            with self.assertRaises(websockets.InvalidStatusCode) as refused:
+                await websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin="http://elsewhere.example")
+            self.assertEqual(refused.exception.status_code, 403)
+            # A page without the address of its server is none.
+            async with websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws") as connection:
+                await connection.send(json.dumps({"t": "hello", "room": self.server.code, "run": "r"}))
+                with self.assertRaises(websockets.ConnectionClosed):
+                    await connection.recv()
+            for frame, code in (("{", 4400), ('{"t": "op"}', 4408), ('{"t": "hello"}', 4400), ("[" * 500 + "]" * 500, 4400)):
+                async with websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin=self.server.url("")) as connection:
+                    await connection.send(frame)
+                    with self.assertRaises(websockets.ConnectionClosed):
+                        await connection.recv()
+                    self.assertEqual(connection.close_code, code, frame[:40])
+        wait(go())
+        self.assertEqual(self.server.health()["rooms"][0]["seats"], 0)
+
+    def test_a_newer_connection_of_the_same_page_replaces_the_older(self):
+        async def go():
+            one = await self.page("facilitator").connect()
+            two = Page(self.server)
+            two.run, two.token = one.run, one.token
+            await two.connect()
+            await one.until(lambda: one.closed)
+            self.assertEqual(one.closed[0], 4409)
+            await two.close()
+        wait(go())
+
+
+class Operations(RoomCase):
+    def test_each_is_answered_once(self):
+        async def go():
+            lead = await self.page("facilitator", kind="desktop", views=[]).connect()
+            await lead.until(lambda: lead.scene)
+            node = lead.scene["scene"]["nodes"][0]["id"]
+            done = await lead.command("rename_node", id=node, name="One")
+            self.assertEqual(done["t"], "ack")
+            await lead.until(lambda: done["s"] in lead.entries)
+            self.assertEqual(lead.entries[done["s"]]["c"]["arguments"]["name"], "One")
+            # The same again, in another form even: the same answer, and nothing happens.
+            await lead.socket.send(json.dumps({"t": "op", "id": done["id"], "c": {"command": "rename_node", "arguments": {"id": node, "name": "Two"}}}))
+            bad = await lead.answer({"t": "op", "c": {"command": "rename_node"}})
+            self.assertEqual((bad["why"], bad["place"]), ("bad", "arguments"))
+            odd = await lead.answer({"t": "op", "c": {"command": "rename_node"}, "colour": "red"})
+            self.assertEqual((odd["why"], odd["place"]), ("bad", "colour"))
+            undone = await lead.answer({"t": "undo"})
+            self.assertEqual(undone["t"], "ack")
+            self.assertEqual(lead.next - 1, len(lead.answers))
+            await lead.close()
+        wait(go())
+
+    def test_a_flood_holds_up_nobody_else(self):
+        async def go():
+            lead = await self.page("facilitator").connect()
+            flood = await self.page().connect()
+            for number in range(1, 400):
+                await flood.socket.send(json.dumps({"t": "room", "id": number, "e": {"event": "mark", "arguments": {"text": "x"}}}))
+                flood.sent_at[number] = time.monotonic()
+            latencies = []
+            for k in range(10):
+                began = time.monotonic()
+                self.assertEqual((await lead.event("mark", text="decided %d" % k))["t"], "ack")
+                latencies.append(time.monotonic() - began)
+            self.assertLess(sorted(latencies)[5], 0.5)
+            self.assertLess(len(flood.answers), 150, "who sends too fast waits")
+            await lead.close()
+            await flood.close()
+        wait(go())
+
+    def test_kill_and_come_back(self):
+        async def go():
+            lead = await self.page("facilitator", kind="desktop", views=[]).connect()
+            guests = [await self.page(views=["comments"], seed=k, doubled=0.1).connect() for k in range(4)]
+            await lead.until(lambda: lead.scene)
+            nodes = [node["id"] for node in lead.scene["scene"]["nodes"]]
+            kills = int(os.environ.get("BL_KILLS", "6"))
+            for k in range(kills):
+                for page in [lead, *guests]:
+                    if page is lead:
+                        await page.say({"t": "op", "c": {"command": "rename_node", "arguments": {"id": nodes[k % len(nodes)], "name": "Name %d" % k}}})
+                    await page.say({"t": "room", "e": {"event": "comment", "arguments": {"id": "c%d-%d" % (page.you["seat"], k), "text": "words %d" % k}}})
+                await asyncio.sleep(0.002 * (k % 12))
+                self.server.kill()
+                for page in [lead, *guests]:
+                    await page.until(lambda: page.closed)
+                self.server.process.stdout.close()
+                self.server.start()
+                self.assertLess(self.server.start_seconds, 5)
+                for page in [lead, *guests]:
+                    page.closed = None
+                    await page.connect()
+            for page in [lead, *guests]:
+                await page.until(lambda: not page.waiting)
+                self.assertTrue(all(answer["t"] == "ack" for answer in page.answers.values()), page.answers)
+            last = max(answer["s"] for answer in lead.answers.values())
+            await lead.until(lambda: last in lead.entries)
+            self.acknowledged = {(page.run, number): answer["s"] for page in [lead, *guests] for number, answer in page.answers.items()}
+            for page in [lead, *guests]:
+                await page.close()
+        wait(go())
+        self.assertEqual(self.server.stop(), 0)
+        # In the file: every acknowledged operation, once, in order.
+        rows = sqlite3.connect(self.server.journal).execute("SELECT seq, line FROM entry ORDER BY seq").fetchall()
+        self.assertEqual([row[0] for row in rows], list(range(1, len(rows) + 1)))
+        found = {}
+        for seq, line in rows:
+            entry = json.loads(line)
+            if "operation" in entry:
+                key = (entry["origin"], entry["operation"])
+                self.assertNotIn(key, found, "done twice")
+                found[key] = seq
+        self.assertEqual(found, self.acknowledged)
+        self.assertIn("agrees with all", self.replay())
+
+    def test_a_second_server_on_the_file_is_told_who_holds_it(self):
+        second = subprocess.run([PROGRAM, "serve", self.server.journal, "--port", "0", "--bind", "127.0.0.1"], capture_output=True, text=True, timeout=30)
+        self.assertEqual(second.returncode, 2)
+        self.assertIn(str(self.server.process.pid), second.stderr)
+
+
+class Votes(RoomCase):
+    scene = VOTE
+
+    def test_a_vote_moves_what_links_make_of_it(self):
+        async def go():
+            lead = await self.page("facilitator", views=["votes"]).connect()
+            await lead.until(lambda: lead.view.get("votes"))
+            name, vote = next(iter(lead.view["votes"].items()))
+            opened = await lead.event("open_vote", vote=name)
+            self.assertEqual(opened["t"], "ack", opened)
+            pages = [await self.page(views=["votes"]).connect() for _ in range(5)]
+            for page in pages:
+                await page.until(lambda: page.view.get("votes", {}).get(name, {}).get("open"))
+                ballot = {"yes_no": "yes", "slider": vote["most"]}.get(vote["kind"])
+                if ballot is None:
+                    first = vote["options"][0]["id"]
+                    ballot = {"coins": {first: vote["points"]}, "rank": [option["id"] for option in vote["options"]],
+                              "dots": [{"place": [0, 0, 0], "option": first}]}[vote["kind"]]
+                answer = await page.command("cast_vote", node=name, voter="seat %d" % page.you["seat"], ballot=ballot)
+                self.assertEqual(answer["t"], "ack", answer)
+            stolen = await pages[0].command("cast_vote", node=name, voter="seat 1", ballot=ballot)
+            self.assertEqual(stolen["why"], "right")
+            self.assertEqual((await lead.event("close_vote", vote=name))["t"], "ack")
+            await lead.until(lambda: lead.view["votes"][name]["count"] >= 5 and not lead.view["votes"][name]["open"])
+            for page in [lead, *pages]:
+                await page.close()
+        wait(go())
+        self.assertEqual(self.server.stop(), 0)
+        self.replay()
+
+
+class WithoutScripts(RoomCase):
+    scene = VOTE
+
+    def post(self, path, **fields):
+        data = urllib.parse.urlencode(fields).encode()
+        with urllib.request.urlopen(urllib.request.Request(self.server.url(path), data=data), timeout=10) as answer:
+            self.assertNotIn("token", answer.url)
+            return answer.read().decode()
+
+    def test_join_and_comment(self):
+        status, headers, door = self.server.get("/plain/" + self.server.code)
+        self.assertEqual(status, 200)
+        self.assertIn("Take part", door.decode())
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        inside = self.post(f"/plain/{self.server.code}/join")
+        token = re.search(r'name="token" value="([0-9a-f]{32})"', inside)[1]
+        said = self.post(f"/plain/{self.server.code}/comment", token=token, text="<b>More trees</b> & water\r\nplease")
+        self.assertIn("Your comment is stored.", said)
+        self.assertIn("&lt;b&gt;More trees&lt;/b&gt; &amp; water", said)
+        self.assertNotIn("<b>More", said)
+        self.assertIn("write something first", self.post(f"/plain/{self.server.code}/comment", token=token, text="  "))
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            self.post(f"/plain/{self.server.code}/comment", token="0" * 32, text="x")
+        self.assertEqual(refused.exception.code, 403)
+
+
+class BadRequests(RoomCase):
+    def raw(self, data, wait_for=3):
+        with socket.create_connection(("127.0.0.1", self.server.port), timeout=wait_for) as connection:
+            connection.sendall(data)
+            answer = b""
+            try:
+                while part := connection.recv(65536):
+                    answer += part
+            except (socket.timeout, ConnectionResetError):
+                pass
+            return answer
+
+    def test_no_file_outside_and_no_crash(self):
+        for path in ("/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/assets/../index.html", "/assets/%2e%2e%2findex.html",
+                     "/assets/..%5c..%5cx", "/assets/a%00.js", "/" + "A" * 3000, "/health/../health", "//etc/passwd", "/plain/../../x"):
+            answer = self.raw(f"GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode())
+            self.assertRegex(answer.split(b"\r\n")[0], rb"HTTP/1.1 (4\d\d|303)", path)
+            self.assertNotIn(b"root:", answer)
+        for request in (b"GET / HTTP/1.1\r\n" + b"X: " + b"a" * 100000 + b"\r\n\r\n",
+                        b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+                        b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: -5\r\n\r\n", b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 99999999\r\n\r\n",
+                        b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", b"BREW / HTTP/1.1\r\nHost: x\r\n\r\n", b"\x00\x01\x02\r\n\r\n",
+                        b"GET / HTTP/9.9\r\nHost: x\r\n\r\n", b"GET\r\n\r\n"):
+            answer = self.raw(request, 7)
+            self.assertTrue(answer == b"" or re.match(rb"HTTP/1.[01] 4\d\d", answer), (request[:60], answer[:80]))
+        self.assertEqual(self.server.health()["rooms"][0]["code"], self.server.code)
+
+    def test_who_sends_slowly_is_sent_away(self):
+        began = time.monotonic()
+        slow = [socket.create_connection(("127.0.0.1", self.server.port)) for _ in range(50)]
+        for connection in slow:
+            connection.sendall(b"GET / HT")
+        for connection in slow:
+            connection.settimeout(8)
+            self.assertIn(connection.recv(10), (b"", b"HTTP/1.1 4"))
+            connection.close()
+        self.assertLess(time.monotonic() - began, 7.5)
+
+
+class Files(unittest.TestCase):
+    def serve(self, *arguments):
+        return subprocess.run([PROGRAM, "serve", "--port", "0", "--bind", "127.0.0.1", *arguments], capture_output=True, text=True, timeout=30)
+
+    def test_bad_sources_have_reasons(self):
+        with tempfile.TemporaryDirectory() as folder:
+            journal = ["--journal", os.path.join(folder, "a.blsession")]
+            missing = self.serve("nowhere.json", *journal)
+            self.assertEqual(missing.returncode, 2)
+            self.assertIn("nowhere.json", missing.stderr)
+            broken = os.path.join(folder, "broken.json")
+            with open(broken, "w") as file:
+                file.write('{"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"plot": {"polygon": 4}}}]}')
+            refused = self.serve(broken, *journal)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("polygon", refused.stderr)
+            self.assertFalse(os.path.exists(journal[1]), "nothing is left behind")
+            other = os.path.join(folder, "other.blsession")
+            with open(other, "w") as file:
+                file.write("a letter")
+            self.assertEqual(self.serve(other).returncode, 2)
+            with open(other) as file:
+                self.assertEqual(file.read(), "a letter")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,43 @@
+// Declares `serve`.
+#include "ui/cli/declarations.h"
+#include "ui/cli/file_rule.h"
+
+namespace bl::cli {
+
+void declare_serve(CLI::App& app, ServeOptions& o) {
+  CLI::App& c =
+      *app.add_subcommand("serve", "Opens a room for a scene: people join by a code, and everything they say is stored.");
+  c.add_option("sources", o.sources, "Scene files, each for a room of its own; or session files, which are continued.")
+      ->type_name("SCENE|FILE.blsession")
+      ->required();
+  c.add_option("--port", o.port, "The port for pages and connections; 0 for any free one. Default: 8080.")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+  c.add_option("--bind", o.bind, "The address of this computer to listen on. Default: all of them.")->type_name("ADDRESS");
+  c.add_option(
+       "--journal", o.journal,
+       "The session file, or the folder for it. A file that is there is continued. Default: NAME.blsession in the present "
+       "folder, after the scene.")
+      ->type_name("FILE|DIR");
+  c.add_option("--invites", o.invites, "Writes the keys of all roles as JSON: {\"CODE\": {\"facilitator\": \"...\", ...}}.")
+      ->type_name("FILE");
+  c.add_option(
+       "--page", o.page,
+       "Folder of the built page. Default: the variable BEHAVIOURLINKS_PAGE; without either, pages without scripts are shown.")
+      ->type_name("DIR");
+  auto* certificate = c.add_option("--certificate", o.certificate, "Certificate chain for TLS, as PEM.")->type_name("FILE");
+  auto* key = c.add_option("--key", o.key, "Its private key, as PEM.")->type_name("FILE")->needs(certificate);
+  certificate->needs(key);
+  c.add_flag("--live", o.is_live, "Lets facilitators set addresses of sensors and actuators, and names of files.");
+  c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
+  files_of(c).reads({"sources", "--journal", "--page", "--certificate", "--key"}).writes("--invites", FileKind::figures);
+  c.footer(
+      "One line for each room says its code and its address; another one the address of the facilitator. Whoever opens the "
+      "first\n"
+      "address takes part under the name of an animal. What is acknowledged is on the disk. Ctrl-C closes the rooms in order.\n"
+      "GET /health says how the rooms are.\n\n"
+      "Example:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n\n"
+      "Exit codes: 0 closed in order; 2 bad input, or the port or the file is in use.");
+}
+
+}  // namespace bl::cli

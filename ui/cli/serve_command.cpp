@@ -1,0 +1,135 @@
+// `serve`: opens rooms for scenes and session files, and serves them until it is stopped.
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netdb.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/json_text.h"
+#include "core/file/file_io.h"
+#include "core/serve/server.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t wall_time() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+// Four letters without vowels, so that no code is a word, and without L, which looks like I: 160 000 of them.
+std::string new_code() {
+  static constexpr std::string_view kLetters = "BCDFGHJKMNPQRSTVWXYZ";
+  std::string code;
+  for (const char byte : room::system_random_bytes(4)) code += kLetters[static_cast<unsigned char>(byte) % kLetters.size()];
+  return code;
+}
+
+// The first address of this machine that others can reach; 127.0.0.1 where there is none.
+std::string own_address() {
+  ifaddrs* all = nullptr;
+  std::string found = "127.0.0.1";
+  if (getifaddrs(&all) != 0) return found;
+  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+    const bool is_usable = one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET && (one->ifa_flags & IFF_UP) != 0 &&
+                           (one->ifa_flags & IFF_LOOPBACK) == 0;
+    char text[NI_MAXHOST] = "";
+    if (is_usable && getnameinfo(one->ifa_addr, sizeof(sockaddr_in), text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0) {
+      found = text;
+      break;
+    }
+  }
+  freeifaddrs(all);
+  return found;
+}
+
+bool is_session_file(const std::string& path) { return fs::path(path).extension() == ".blsession"; }
+
+// Where the session of a scene is kept: in the folder or file that was named, or in the present folder under the scene's name.
+std::string journal_of(const ServeOptions& options, const std::string& source) {
+  if (is_session_file(source)) return source;
+  const std::string name = fs::path(source).stem().string() + ".blsession";
+  if (options.journal.empty()) return name;
+  std::error_code ignored;
+  return fs::is_directory(options.journal, ignored) || options.sources.size() > 1 ? (fs::path(options.journal) / name).string()
+                                                                                  : options.journal;
+}
+
+Result<void> write_invites(const std::string& path, const serve::Rooms& rooms) {
+  Json all = Json::object();
+  for (const auto& [code, room] : rooms) all[code] = room->invites();
+  return write_file(path, write_json(all) + "\n");
+}
+
+}  // namespace
+
+int serve_command(const ServeOptions& options) {
+  serve::ServerOptions how{.address = options.bind,
+                           .port = static_cast<std::uint16_t>(options.port),
+                           .page_folder = options.page,
+                           .certificate = options.certificate,
+                           .key = options.key};
+  if (how.page_folder.empty())
+    if (const char* page = std::getenv("BEHAVIOURLINKS_PAGE")) how.page_folder = page;
+  auto server = serve::Server::open(how);
+  if (!server) {
+    print_error("serve", server.error());
+    return kBadInput;
+  }
+  serve::Rooms& rooms = (*server)->rooms();
+  serve::RoomHostOptions room_options;
+  room_options.allowances = {.scripts = options.scripts, .live = options.is_live};
+  room_options.wall_time = wall_time;
+  room_options.on_own_thread = [&server](std::function<void()> task) { (*server)->post(std::move(task)); };
+  for (const std::string& source : options.sources) {
+    std::string code = new_code();
+    while (rooms.contains(code)) code = new_code();
+    auto room = serve::RoomHost::open(journal_of(options, source), code, source, room_options);
+    if (!room) {
+      print_error(source, room.error());
+      return kBadInput;
+    }
+    code = (*room)->code();
+    if (!rooms.emplace(code, std::move(*room)).second) {
+      print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
+      return kBadInput;
+    }
+  }
+  if (!options.invites.empty())
+    if (auto written = write_invites(options.invites, rooms); !written) {
+      print_error(options.invites, written.error());
+      return kBadInput;
+    }
+  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
+  const std::string scheme = options.certificate.empty() ? "http" : "https";
+  for (const auto& [code, room] : rooms) {
+    const std::string address =
+        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string((*server)->port()) + "/" + code;
+    print_line("room " + code + " at " + address);
+    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
+  }
+  if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");
+  catch_interrupts();
+  // Signals set a flag; this thread looks at it, because a handler may not do more.
+  std::thread watch([&server] {
+    while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    (*server)->stop();
+  });
+  (*server)->run();
+  watch.join();
+  return kDone;
+}
+
+}  // namespace bl::cli
