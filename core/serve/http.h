@@ -10,6 +10,7 @@ namespace bl::serve {
 struct Request {
   std::string method, target, body;  ///< `target` as sent, with its query
   std::string host;                  ///< the field Host
+  bool takes_gzip = false;
 };
 
 struct Response {

@@ -80,11 +80,17 @@ Response Pages::health() const {
   return {.type = "application/json", .body = write_json_line(all) + "\n", .fields = {{"Cache-Control", "no-store"}}};
 }
 
-Response Pages::file(const std::string& path, bool is_immutable) const {
-  auto content = folder_.empty() ? Result<std::string>(Error{}) : read_file(folder_ + "/" + path);
+// The build leaves a packed file beside each one.
+Response Pages::file(const std::string& path, bool is_immutable, bool takes_gzip) const {
+  if (folder_.empty()) return sentence(404, "There is no such page.");
+  auto packed = takes_gzip ? read_file(folder_ + "/" + path + ".gz") : Result<std::string>(Error{});
+  auto content = packed ? std::move(packed) : read_file(folder_ + "/" + path);
   if (!content) return sentence(404, "There is no such page.");
+  const bool is_packed = takes_gzip && content->starts_with("\x1f\x8b");
   Response response{.type = type_of_file(path), .body = std::move(*content)};
   response.fields["Cache-Control"] = is_immutable ? "public, max-age=31536000, immutable" : "no-cache";
+  response.fields["Vary"] = "Accept-Encoding";
+  if (is_packed) response.fields["Content-Encoding"] = "gzip";
   return response;
 }
 
@@ -110,7 +116,8 @@ void Pages::answer(const Request& request, const Reply& reply) {
     return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});
   if (path.starts_with("/assets/")) {
     const std::string name = path.substr(8);
-    return reply(is_plain_name(name) ? file("assets/" + name, true) : sentence(404, "There is no such page."));
+    return reply(is_plain_name(name) ? file("assets/" + name, true, request.takes_gzip)
+                                     : sentence(404, "There is no such page."));
   }
   if (path == "/") {
     const std::size_t query = request.target.find('?');
@@ -123,7 +130,7 @@ void Pages::answer(const Request& request, const Reply& reply) {
   const auto room = rooms_->find(code_in(path.substr(1)));
   if (room == rooms_->end() || path.find('/', 1) != std::string::npos)
     return reply(sentence(404, "There is no room with this code."));
-  Response page = file("index.html", false);
+  Response page = file("index.html", false, request.takes_gzip);
   return reply(page.status == 200 ? std::move(page) : moved("/plain/" + room->first));
 }
 

@@ -23,7 +23,7 @@ class Pages {
  private:
   Response door() const;
   Response health() const;
-  Response file(const std::string& path, bool is_immutable) const;
+  Response file(const std::string& path, bool is_immutable, bool takes_gzip) const;
   void plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply);
 
   Rooms* rooms_;

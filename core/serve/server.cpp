@@ -254,7 +254,8 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
     is_head_ = request.method() == http::verb::head;
     version_ = request.version();
     host_ = plain_host(text_of(request[http::field::host]));
-    const Request plain{std::string(request.method_string()), std::string(request.target()), request.body(), host_};
+    const Request plain{std::string(request.method_string()), std::string(request.target()), request.body(), host_,
+                        text_of(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos};
     shared_.pages->answer(plain, [self = this->shared_from_this()](Response response) { self->write(std::move(response)); });
   }
 
