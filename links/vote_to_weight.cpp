@@ -37,7 +37,8 @@ struct VoteToWeight {
     l.id("vote_to_weight").label("Vote to number");
     l.doc(
         "Lets the result of a vote act on the scene. The share of an option becomes a number between two others, and the numbers "
-        "of all rows are added. The link proposes nothing before the result counts, and says why.");
+        "of all rows are added. The link proposes nothing before the result counts, and says why; the target is then what people "
+        "have set.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::mapping, "mapping")
         .column({.id = "option",

@@ -99,5 +99,31 @@ TEST(VoteToWeight, SceneGivesWhatWasVoted) {
   EXPECT_EQ(world.link_error("l3_garage"), "");
 }
 
+// Whatever people vote, the block holds as much as before; only who gets it changes.
+TEST(VoteToWeight, StudySharesOutTheWholeBlock) {
+  World world = World::from_file("scenes/studies/vote_on_demands.json");
+  world.tick(3);
+  const auto demands = [&](const std::string& use, int count) {
+    double sum = 0;
+    for (int i = 1; i <= count; ++i) sum += world.number(use + "-" + std::to_string(i), "smart_volume.demand");
+    return sum;
+  };
+  const auto all = [&] { return demands("homes", 6) + demands("work", 4) + demands("culture", 2); };
+  EXPECT_NEAR(all(), 84000, 1e-6);
+  EXPECT_NEAR(world.number("homes-1", "smart_volume.storey_height"), world.number("storeys", "vote.mean"), 1e-9);
+  const double culture = demands("culture", 2);
+  const auto open = [&](bool is_open) {
+    return world.submit(command<SetPort>({"people", {"vote.is_open"}, JsonValue::of(Json(is_open))}));
+  };
+  ASSERT_EQ(open(true), "");
+  ASSERT_EQ(world.submit(command<CastVote>({"people", "newcomer", {R"({"culture": 10})"}}), "newcomer"), "");
+  world.tick(3);
+  EXPECT_EQ(all(), 12000) << "an open vote proposes nothing: the demands are what people have set";
+  ASSERT_EQ(open(false), "");
+  world.tick(3);
+  EXPECT_NEAR(all(), 84000, 1e-6);
+  EXPECT_GT(demands("culture", 2), culture + 1000);
+}
+
 }  // namespace
 }  // namespace bl
