@@ -60,10 +60,11 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, const Re
   auto database = Database::open(path, Database::Access::write, options.vfs);
   if (!database) return database.error();
   auto journal = over(path, std::move(*database), registry);
+  // SQLite opens for reading only what it may not write, and fails at the first lock.
+  if (journal->database_.is_read_only())
+    return Error{ErrorCode::io, path, "the file may not be changed: you lack the right to write it, or its disk is read-only"};
   auto done = journal->database_.run(kAlone);
   if (done) done = journal->check_kind();
-  if (done && journal->database_.is_read_only())
-    done = Error{ErrorCode::io, path, "the file may not be changed: you lack the right to write it"};
   if (done) done = journal->prepare(options);
   if (done) done = journal->check_pages(was_cut_off);
   if (done) done = journal->take_in();

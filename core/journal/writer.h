@@ -47,7 +47,8 @@ class Writer {
   void submit(room::Record record, Done done);
   /// Other work with the file, in its place among the commits: a snapshot, hashes, an erasure.
   void perform(Task task, Done done);
-  /// The caller has gone back to what is stored: later commits are tried again.
+  /// Later work is tried again. Whoever calls it then goes back to what is stored (`perform` can read it), and only then submits
+  /// more.
   void resume();
   /// Why nothing is written at the moment; empty where all is well.
   std::string problem() const;

@@ -368,17 +368,85 @@ TEST(Journal, WhatIsNoSessionFileIsToldApart) {
             said("no/such", "the file cannot be opened: No such file or directory"));
 }
 
+// What a process is told that has not the rights of the administrator, who may do all; "" where nothing.
+std::string told_to_others(const std::function<std::string()>& attempt) {
+  int answer[2];
+  if (pipe(answer) != 0) return "no pipe";
+  const pid_t other = fork();
+  if (other == 0) {
+    const bool is_lowered = geteuid() != 0 || (setgid(65534) == 0 && setuid(65534) == 0);
+    const std::string said = is_lowered ? attempt() : "the rights stay";
+    (void)!write(answer[1], said.data(), said.size());
+    _exit(0);
+  }
+  close(answer[1]);
+  std::string said(1000, '\0');
+  const ssize_t count = read(answer[0], said.data(), said.size());
+  close(answer[0]);
+  waitpid(other, nullptr, 0);
+  said.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  return said;
+}
+
 TEST(Journal, ThePermissionToWriteIsAskedForAtOnce) {
-  if (geteuid() == 0) GTEST_SKIP() << "root may write everything";
+  using std::filesystem::perms;
   const Folder folder;
   const std::string path = folder.path("a.blsession");
   { fresh(path); }
-  std::filesystem::permissions(path, std::filesystem::perms::owner_read);
-  EXPECT_EQ(why(Journal::open(path, full_registry(), {})),
-            path + ": the file may not be changed: you lack the right to write it");
-  EXPECT_EQ(why(Journal::open_to_read(path, full_registry())), "");
-  std::filesystem::permissions(path, std::filesystem::perms::none);
-  EXPECT_EQ(why(Journal::open_to_read(path, full_registry())), path + ": the file cannot be opened: Permission denied");
+  std::filesystem::permissions(folder.path(""), perms::all);
+  std::filesystem::permissions(path, perms::owner_read | perms::group_read | perms::others_read);
+  const auto open = [&] { return why(Journal::open(path, full_registry(), {})); };
+  const auto open_to_read = [&] { return why(Journal::open_to_read(path, full_registry())); };
+  EXPECT_EQ(told_to_others(open),
+            path + ": the file may not be changed: you lack the right to write it, or its disk is read-only");
+  EXPECT_EQ(told_to_others(open_to_read), "");
+  // Not even the folder may be written: SQLite cannot make its small files there.
+  std::filesystem::permissions(folder.path(""), perms::owner_all | perms::others_read | perms::others_exec);
+  EXPECT_EQ(told_to_others(open_to_read), "");
+  std::filesystem::permissions(path, perms::none);
+  EXPECT_EQ(told_to_others(open), path + ": the file cannot be opened: Permission denied");
+  EXPECT_EQ(told_to_others(open_to_read), path + ": the file cannot be opened: Permission denied");
+}
+
+// A process that stores and tells is killed at any moment, again and again: all that it told is there, once and in order.
+TEST(Journal, AKilledProcessLosesNothingThatItTold) {
+  const Folder folder;
+  const std::string path = folder.path("a.blsession");
+  { fresh(path); }
+  Random random(13);
+  std::int64_t told = 0;
+  for (int kill_number = 0; kill_number < 40; ++kill_number) {
+    int answer[2];
+    ASSERT_EQ(pipe(answer), 0);
+    const pid_t other = fork();
+    ASSERT_GE(other, 0);
+    if (other == 0) {
+      auto journal = Journal::open(path, full_registry(), {});
+      if (!journal) _exit(1);
+      RandomRecords records(its_scene(), static_cast<std::uint64_t>(kill_number), (*journal)->last_seq());
+      while ((*journal)->commit(records.next_of(1 + kill_number % 5))) {
+        const std::int64_t seq = (*journal)->last_seq();
+        (void)!write(answer[1], &seq, sizeof seq);
+      }
+      _exit(1);
+    }
+    close(answer[1]);
+    // It has begun; then it is ended in the middle of something.
+    std::int64_t seq = 0;
+    ASSERT_EQ(read(answer[0], &seq, sizeof seq), static_cast<ssize_t>(sizeof seq)) << kill_number;
+    usleep(static_cast<useconds_t>(random.below(20000)));
+    kill(other, SIGKILL);
+    waitpid(other, nullptr, 0);
+    do told = seq;
+    while (read(answer[0], &seq, sizeof seq) == static_cast<ssize_t>(sizeof seq));
+    close(answer[0]);
+    const auto journal = again(path);
+    ASSERT_NE(journal, nullptr);
+    EXPECT_GE(journal->last_seq(), told);
+    EXPECT_LE(journal->last_seq(), told + 5);  // the one that was not told
+    EXPECT_EQ(journal->load()->room.stored.entries.size(), static_cast<std::size_t>(journal->last_seq()));
+  }
+  std::printf("40 kills, %lld entries\n", static_cast<long long>(told));
 }
 
 // Another process is told who has the file. It ends by a kill, and then the file is free, with what was stored.
