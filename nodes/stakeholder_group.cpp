@@ -70,13 +70,13 @@ struct StakeholderGroup {
                  .is_required = true,
                  .names = NameOf::node,
                  .default_value = std::string(),
-                 .doc = "Id of the node that is controlled."})
+                 .doc = "Id of the node that is controlled, or of a link."})
         .column({.id = "port",
                  .is_text = true,
                  .is_required = true,
                  .names = NameOf::port,
                  .default_value = std::string(),
-                 .doc = "The port that is controlled, written `typification.port`."})
+                 .doc = "The port that is controlled, written `typification.port`; of a link `strength` or a parameter."})
         .column({.id = "label", .is_text = true, .default_value = std::string(), .doc = "What it is called on the card."})
         .column({.id = "minimum", .doc = "The smallest number that may be set, in the unit of the port."})
         .column({.id = "maximum", .is_required = true, .doc = "The largest number that may be set; above the smallest."})

@@ -23,14 +23,24 @@ void check_selection(const Scene& scene, const Selection& selection, const std::
                              did_you_mean(selection.typification, keys_of(registry.typifications()))}});
 }
 
-// What one field of a table names, and why that is not there; empty where it is. `node` is the node that the row names, if any.
+// The strength of a link, or a parameter of its kind; a ghost may have any.
+std::string why_no_part_of_link(const LinkRecord& link, const std::string& name, const Registry& registry) {
+  const LinkDefinition* kind = registry.link(link.kind);
+  if (name == "strength" || kind == nullptr || kind->find_port(name) != nullptr) return "";
+  return "a link `" + link.kind + "` has no `" + name + "`" + did_you_mean(name, port_ids(*kind));
+}
+
+// What one field of a table names, and why that is not there; empty where it is. `node` is the node or link that the row names,
+// if any.
 std::string why_not_there(const Scene& scene, const ColumnDefinition& column, const std::string& name, const std::string& node,
                           const Registry& registry) {
-  if (column.names == NameOf::node && !scene.nodes.contains(name))
+  if (column.names == NameOf::node && !scene.nodes.contains(name) && !scene.links.contains(name))
     return "there is no node `" + name + "`" + did_you_mean_among(name, scene.nodes);
   if (column.names == NameOf::command && registry.command(name) == nullptr)
     return "unknown command `" + name + "`" + did_you_mean(name, keys_of(registry.commands()));
   if (column.names != NameOf::port) return "";
+  if (const auto link = scene.links.find(node); link != scene.links.end() && !scene.nodes.contains(node))
+    return why_no_part_of_link(link->second, name, scene.scripts.types(registry));
   const auto path = parse_port_path(name);
   if (!path) return "expects a port written `typification.port`, found `" + name + "`";
   if (const auto found = registry.port(*path); !found) return found.error().message;

@@ -1,0 +1,165 @@
+// A room that runs, without a network: guests that write down what they are sent, and a file that is closed and opened again.
+#include "core/serve/room_host.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/define/json_text.h"
+#include "tests/support/world.h"
+
+namespace bl::serve {
+namespace {
+
+struct FakeGuest : Guest {
+  void send(std::shared_ptr<const std::string> frame) override { frames.push_back(*parse_json(*frame)); }
+  void close(CloseCode code, const std::string& why) override {
+    if (closed == 0) closed = static_cast<int>(code), reason = why;
+  }
+  std::size_t unsent() const override { return is_stalled ? (2u << 20) : 0; }
+
+  const Json* last(const char* t) const {
+    for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame)
+      if ((*frame)["t"] == t) return &*frame;
+    return nullptr;
+  }
+  std::vector<Json> frames;
+  int closed = 0;
+  std::string reason;
+  bool is_stalled = false;
+};
+
+class RoomHosts : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("behaviourlinks_room_" + std::to_string(::getpid()) + "_" +
+                                                        ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    path_ = folder_ / "room.blsession";
+    open();
+  }
+  void TearDown() override {
+    host_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void open() {
+    RoomHostOptions options;
+    options.wall_time = [this] { return at_ += 10; };
+    options.on_own_thread = [this](std::function<void()> task) {
+      const std::lock_guard lock(mutex_);
+      tasks_.push_back(std::move(task));
+      wake_.notify_all();
+    };
+    auto opened = RoomHost::open(path_, "BKRT", std::string(BL_SOURCE_DIR) + "/scenes/start/quarter.json", options);
+    ASSERT_TRUE(opened.ok()) << opened.error().text();
+    host_ = std::move(*opened);
+  }
+  void run_until(const std::function<bool()>& is_over) {
+    for (int k = 0; k < 2000 && !is_over(); ++k) {
+      std::deque<std::function<void()>> tasks;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return !tasks_.empty(); });
+        tasks = std::exchange(tasks_, {});
+      }
+      for (auto& task : tasks) task();
+      host_->turn();
+    }
+    ASSERT_TRUE(is_over());
+  }
+  std::shared_ptr<FakeGuest> join(const std::string& run, const std::string& role, std::vector<std::string> views,
+                                  const std::string& token = "") {
+    auto guest = std::make_shared<FakeGuest>();
+    wire::Hello hello;
+    hello.run = run;
+    hello.token = token;
+    hello.views = std::move(views);
+    if (!role.empty()) hello.invite = host_->invites().at(role);
+    EXPECT_TRUE(host_->greet(guest, hello));
+    run_until([&] { return guest->last("welcome") != nullptr; });
+    return guest;
+  }
+
+  std::filesystem::path folder_, path_;
+  std::unique_ptr<RoomHost> host_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  std::int64_t at_ = 1000;
+};
+
+TEST_F(RoomHosts, AnAnswerComesAfterTheDisk) {
+  const auto lead = join("a", "facilitator", {"room", "plan"});
+  EXPECT_EQ((*lead->last("welcome"))["you"]["role"], "facilitator");
+  const std::string frame = R"({"t": "room", "id": 1, "e": {"event": "mark", "arguments": {"text": "Begin"}}})";
+  host_->hear(*lead, frame);
+  EXPECT_EQ(lead->last("ack"), nullptr) << "not before it is stored";
+  run_until([&] { return lead->last("ack") != nullptr; });
+  const Json first = *lead->last("ack");
+  host_->hear(*lead, frame);
+  run_until([&] { return std::count(lead->frames.begin(), lead->frames.end(), first) == 2; });
+  run_until([&] { return lead->last("state") != nullptr; });
+}
+
+TEST_F(RoomHosts, ItGoesOnWhereItWas) {
+  auto lead = join("a", "facilitator", {"room"});
+  const std::string token = (*lead->last("welcome"))["token"], invite = host_->invites().at("designer");
+  host_->hear(*lead,
+              R"({"t": "op", "id": 1, "c": {"command": "set_setting", "arguments": {"setting": "title", "value": "Ours"}}})");
+  host_->hear(*lead, R"({"t": "room", "id": 2, "e": {"event": "set_phase", "arguments": {"name": "Look"}}})");
+  run_until([&] { return lead->last("ack") != nullptr && (*lead->last("ack"))["id"] == 2; });
+  run_until([&] { return host_->health().tick > 70; });
+  const std::int64_t seq = host_->health().seq;
+  host_.reset();
+  open();
+  EXPECT_EQ(host_->invites().at("designer"), invite);
+  EXPECT_GE(host_->health().tick, 60) << "the hash of the sixtieth tick was stored";
+  EXPECT_GE(host_->health().seq, seq);
+  lead = join("a", "", {"room"}, token);
+  EXPECT_EQ((*lead->last("welcome"))["done"], 2);
+  EXPECT_FALSE(lead->last("welcome")->contains("token"));
+  run_until([&] { return lead->last("state") != nullptr; });
+  EXPECT_EQ((*lead->last("state"))["set"]["phase"]["name"], "Look");
+}
+
+TEST_F(RoomHosts, AGuestThatTakesNothingIsSentAwayAndNobodyElse) {
+  const auto lead = join("a", "facilitator", {"room"}), slow = join("b", "", {"room"});
+  slow->is_stalled = true;
+  run_until([&] { return slow->closed != 0; });
+  EXPECT_EQ(slow->closed, 4503);
+  EXPECT_EQ(lead->closed, 0);
+  host_->leave(*slow);
+  host_->leave(*slow);
+}
+
+TEST_F(RoomHosts, WhoIsRemovedIsToldSo) {
+  const auto lead = join("a", "facilitator", {}), guest = join("b", "", {"room"});
+  host_->hear(*lead, R"({"t": "room", "id": 1, "e": {"event": "remove_seat", "arguments": {"seat": 2}}})");
+  run_until([&] { return guest->closed != 0; });
+  EXPECT_EQ(guest->closed, 4403);
+}
+
+TEST_F(RoomHosts, ARoomAtRestLetsTheTicksSleep) {
+  const auto lead = join("a", "facilitator", {"room", "plan"});
+  std::int64_t before = -1;
+  // Settled: the tick counts on without new moments, and nothing more is sent.
+  for (int quiet = 0; quiet < 3;) {
+    const std::size_t sent = lead->frames.size();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
+    run_until([&] { return std::chrono::steady_clock::now() > end; });
+    quiet = lead->frames.size() == sent ? quiet + 1 : 0;
+    ASSERT_LT(++before, 200) << "it never comes to rest";
+  }
+}
+
+}  // namespace
+}  // namespace bl::serve
