@@ -199,6 +199,7 @@ class Judge {
   }
 
   Given in_range(const Touch& touch, const std::string& port, double minimum, double maximum) const {
+    if (is_undo()) return std::nullopt;  // what was there before was somebody's to set
     const std::optional<double> value = number_after(touch, port);
     if (!value || minimum >= maximum || (*value >= minimum && *value <= maximum)) return std::nullopt;
     return no(Reason::range, touch, "goes from " + Json(minimum).dump() + " to " + Json(maximum).dump() + " on your role card",

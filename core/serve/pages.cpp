@@ -10,6 +10,7 @@
 #include "core/drawing/markup.h"
 #include "core/file/file_io.h"
 #include "core/serve/plain_page.h"
+#include "core/serve/qr_code.h"
 
 namespace bl::serve {
 
@@ -80,6 +81,16 @@ Response Pages::health() const {
   return {.type = "application/json", .body = write_json_line(all) + "\n", .fields = {{"Cache-Control", "no-store"}}};
 }
 
+// The address as the one who asks has it: that is the one that others reach as well.
+Response Pages::qr(const std::string& name, const std::string& host) const {
+  const std::string code = code_in(name.substr(0, name.find('.')));
+  if (!rooms_->contains(code) || host.empty() || !name.ends_with(".svg"))
+    return sentence(404, "There is no room with this code.");
+  auto svg = qr_svg(scheme_ + "://" + host + "/" + code);
+  return svg ? Response{.type = "image/svg+xml", .body = std::move(*svg), .fields = {{"Cache-Control", "no-cache"}}}
+             : sentence(414, svg.error().message);
+}
+
 // The build leaves a packed file beside each one.
 Response Pages::file(const std::string& path, bool is_immutable, bool takes_gzip) const {
   if (folder_.empty()) return sentence(404, "There is no such page.");
@@ -112,6 +123,7 @@ void Pages::answer(const Request& request, const Reply& reply) {
   }
   if (!is_read) return reply(sentence(404, "There is no such form."));
   if (path == "/health") return reply(health());
+  if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request.host));
   if (path == "/plain.css")
     return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});
   if (path.starts_with("/assets/")) {

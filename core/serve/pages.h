@@ -14,8 +14,10 @@ using Rooms = std::map<std::string, std::unique_ptr<RoomHost>>;
 
 class Pages {
  public:
-  /// `folder` holds the built page; where it is empty or has no index.html, the pages without scripts take its place.
-  Pages(Rooms& rooms, std::string folder) : rooms_(&rooms), folder_(std::move(folder)) {}
+  /// `folder` holds the built page; where it is empty or has no index.html, the pages without scripts take its place. `scheme`:
+  /// http or https.
+  Pages(Rooms& rooms, std::string folder, std::string scheme)
+      : rooms_(&rooms), folder_(std::move(folder)), scheme_(std::move(scheme)) {}
 
   /// Calls back once, perhaps later: what a form says is stored first.
   void answer(const Request& request, const Reply& reply);
@@ -23,11 +25,12 @@ class Pages {
  private:
   Response door() const;
   Response health() const;
+  Response qr(const std::string& name, const std::string& host) const;
   Response file(const std::string& path, bool is_immutable, bool takes_gzip) const;
   void plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply);
 
   Rooms* rooms_;
-  std::string folder_;
+  std::string folder_, scheme_;
 };
 
 }  // namespace bl::serve

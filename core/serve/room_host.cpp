@@ -304,27 +304,24 @@ void RoomHost::recover() {
       });
 }
 
+// The entries of the ticks before are final: what is said now belongs to a later one. They go to the disk before the hash does.
+void RoomHost::store_hash() {
+  const State& ticked = *session_->moment()->ticked;
+  std::int64_t seq = base_;
+  const auto& log = session_->log();
+  for (auto entry = log.rbegin(); entry != log.rend() && seq == base_; ++entry)
+    if (entry->tick < ticked.tick) seq = entry->seq;
+  if (ticked.tick == last_hash_tick_) return;
+  last_hash_tick_ = ticked.tick;
+  const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
+  writer_->perform([row](journal::Journal& journal) { return journal.add_hashes(std::span(&row, 1)); },
+                   [](const Result<void>&) {});
+}
+
 void RoomHost::keep_records() {
   static constexpr std::int64_t kEntriesBetween = 500, kTicksBetweenHashes = 60;
   static constexpr double kSecondsBetween = 60;
-  const auto moment = session_->moment();
-  const State& ticked = *moment->ticked;
-  // The entries of the ticks before are final: what is said now belongs to a later one.
-  if (ticked.tick / kTicksBetweenHashes > last_hash_tick_ / kTicksBetweenHashes) {
-    std::int64_t seq = base_;
-    const auto& log = session_->log();
-    for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
-      if (entry->tick < ticked.tick) {
-        seq = entry->seq;
-        break;
-      }
-    if (seq <= stored_seq_) {
-      last_hash_tick_ = ticked.tick;
-      const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
-      writer_->perform([row](journal::Journal& journal) { return journal.add_hashes(std::span(&row, 1)); },
-                       [](const Result<void>&) {});
-    }
-  }
+  if (session_->moment()->ticked->tick / kTicksBetweenHashes > last_hash_tick_ / kTicksBetweenHashes) store_hash();
   const double now = options_.clock->now();
   const std::int64_t entries = stored_seq_ - snapshot_seq_;
   const bool is_due = entries >= kEntriesBetween || (entries > 0 && now - last_snapshot_ >= kSecondsBetween);

@@ -103,6 +103,7 @@ class RoomHost {
   void publish();
   void show();
   void show(Visitor& visitor);
+  void store_hash();
   void keep_records();
   void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
   wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_}; }

@@ -147,6 +147,7 @@ void RoomHost::close() {
   if (!is_alive_) return;
   for (auto& [key, visitor] : visitors_) visitor.guest->close(CloseCode::draining, "the room is being closed");
   visitors_.clear();
+  if (session_ && writer_ && problem_.empty()) store_hash();
   is_alive_.reset();
   session_.reset();
   writer_.reset();  // stores what waits

@@ -90,9 +90,11 @@ class SocketGuest : public Guest, public std::enable_shared_from_this<SocketGues
     timeouts.idle_timeout = kIdle;
     timeouts.keep_alive_pings = true;
     socket_.set_option(timeouts);
-    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+    // A protocol is named only to who has asked for it (RFC 6455, 4.2.2).
+    const bool asks = text_of(request[http::field::sec_websocket_protocol]).find("bl1") != std::string_view::npos;
+    socket_.set_option(websocket::stream_base::decorator([asks](websocket::response_type& response) {
       add_security(response, "");
-      response.set(http::field::sec_websocket_protocol, "bl1");
+      if (asks) response.set(http::field::sec_websocket_protocol, "bl1");
     }));
     socket_.read_message_max(kMostHello);
     socket_.text(true);
@@ -334,7 +336,7 @@ class BeastServer : public Server {
       return Error{ErrorCode::io, "port " + std::to_string(options.port),
                    "cannot be opened: " + error.message() +
                        (error == asio::error::address_in_use ? "; another server may run there, choose another --port" : "")};
-    shared_.pages.emplace(shared_.rooms, options.page_folder);
+    shared_.pages.emplace(shared_.rooms, options.page_folder, options.certificate.empty() ? "http" : "https");
     return {};
   }
 

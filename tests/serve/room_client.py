@@ -26,15 +26,16 @@ class Server:
         source = self.journal if os.path.exists(self.journal) else self.scene
         command = [self.program, "serve", source, "--port", str(self.port), "--bind", "127.0.0.1",
                    "--journal", self.journal, "--invites", self.invites_file, *self.more]
-        self.log = open(os.path.join(self.folder, "server.log"), "ab")
         began = time.monotonic()
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.log, text=True)
+        with open(os.path.join(self.folder, "server.log"), "ab") as log:
+            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
         line = self.process.stdout.readline()
         self.start_seconds = time.monotonic() - began
         match = re.fullmatch(r"room ([A-Z]+) at https?://([^/:]+):(\d+)/([A-Z]+)\n", line)
         assert match, f"not ready: {line!r}"
         self.code, self.port = match[1], int(match[3])
-        self.invites = json.load(open(self.invites_file))[self.code]
+        with open(self.invites_file) as file:
+            self.invites = json.load(file)[self.code]
         return self
 
     def kill(self):
@@ -44,9 +45,7 @@ class Server:
     def stop(self):
         """Ctrl-C; the exit code."""
         self.process.send_signal(signal.SIGINT)
-        code = self.process.wait(timeout=20)
-        self.log.close()
-        return code
+        return self.process.wait(timeout=20)
 
     def url(self, path):
         return f"http://127.0.0.1:{self.port}{path}"
@@ -85,7 +84,7 @@ class Page:
             hello["token"] = self.token
         elif self.invite:
             hello["invite"] = self.invite
-        self.welcome = None
+        self.welcome = self.closed = None
         await self.socket.send(json.dumps(hello))
         self.reader = asyncio.ensure_future(self.read())
         await self.until(lambda: self.welcome or self.closed)

@@ -3,6 +3,7 @@
 #include <net/if.h>
 #include <netdb.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
+#include "core/serve/qr_code.h"
 #include "core/serve/server.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -118,6 +120,7 @@ int serve_command(const ServeOptions& options) {
     const std::string address =
         scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string((*server)->port()) + "/" + code;
     print_line("room " + code + " at " + address);
+    if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
     complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
   }
   if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");

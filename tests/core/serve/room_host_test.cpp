@@ -117,6 +117,7 @@ TEST_F(RoomHosts, ItGoesOnWhereItWas) {
               R"({"t": "op", "id": 1, "c": {"command": "set_setting", "arguments": {"setting": "title", "value": "Ours"}}})");
   host_->hear(*lead, R"({"t": "room", "id": 2, "e": {"event": "set_phase", "arguments": {"name": "Look"}}})");
   run_until([&] { return lead->last("ack") != nullptr && (*lead->last("ack"))["id"] == 2; });
+  host_->hear(*lead, R"({"t": "room", "id": 3, "e": {"event": "set_pace", "arguments": {"rate": 20}}})");
   run_until([&] { return host_->health().tick > 70; });
   const std::int64_t seq = host_->health().seq;
   host_.reset();
@@ -125,7 +126,7 @@ TEST_F(RoomHosts, ItGoesOnWhereItWas) {
   EXPECT_GE(host_->health().tick, 60) << "the hash of the sixtieth tick was stored";
   EXPECT_GE(host_->health().seq, seq);
   lead = join("a", "", {"room"}, token);
-  EXPECT_EQ((*lead->last("welcome"))["done"], 2);
+  EXPECT_EQ((*lead->last("welcome"))["done"], 3);
   EXPECT_FALSE(lead->last("welcome")->contains("token"));
   run_until([&] { return lead->last("state") != nullptr; });
   EXPECT_EQ((*lead->last("state"))["set"]["phase"]["name"], "Look");
@@ -150,6 +151,7 @@ TEST_F(RoomHosts, WhoIsRemovedIsToldSo) {
 
 TEST_F(RoomHosts, ARoomAtRestLetsTheTicksSleep) {
   const auto lead = join("a", "facilitator", {"room", "plan"});
+  host_->hear(*lead, R"({"t": "room", "id": 1, "e": {"event": "set_pace", "arguments": {"rate": 20}}})");
   std::int64_t before = -1;
   // Settled: the tick counts on without new moments, and nothing more is sent.
   for (int quiet = 0; quiet < 3;) {
