@@ -1,0 +1,3 @@
+// stub
+import { en } from "./en";
+export const nl = en;
