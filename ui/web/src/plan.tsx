@@ -10,7 +10,7 @@ import { t } from "./words";
 
 interface Frame { x: number; y: number; width: number; height: number }
 
-const kMost = 12, kTap = 10, kLongTap = 600, kMargin = 0.03;
+const kMost = 12, kTap = 10, kNear = 14, kLongTap = 600, kMargin = 0.03;
 const kOrder = ["boundary", "plot", "street", "building", "volume"];
 const extents = new WeakMap<PlanItem, Extent | null>();
 
@@ -60,6 +60,19 @@ function framed(all: Frame, aspect: number, zoom: number, centre: [number, numbe
   return { x: inside(centre[0], width, all.x, all.width), y: inside(centre[1], height, all.y, all.height), width, height };
 }
 
+// A finger that misses a small thing narrowly means it all the same.
+function nearest(items: [string, PlanItem][], place: [number, number], reach: number): string | null {
+  let best: string | null = null, least = reach;
+  for (const [id, item] of items) {
+    const found = item.kind === "volume" || item.kind === "building" ? extent(item) : null;
+    if (!found) continue;
+    const dx = Math.max(found.x - place[0], 0, place[0] - found.x - found.width), dy = Math.max(found.y - place[1], 0, place[1] - found.y - found.height);
+    const far = Math.hypot(dx, dy);
+    if (far < least) [best, least] = [id, far];
+  }
+  return best;
+}
+
 interface View { zoom: number; centre: [number, number] }
 
 function Shape({ id, item, isSelected }: { id: string; item: PlanItem; isSelected: boolean }): JSX.Element {
@@ -67,28 +80,34 @@ function Shape({ id, item, isSelected }: { id: string; item: PlanItem; isSelecte
   return <path class={`shape ${item.kind} ${unmet} ${isSelected ? "selected" : ""}`} data-node={id} d={item.d} fill={item.kind === "street" ? "none" : item.fill} />;
 }
 
-// Names where they fit; a name that is longer than its outline is cut into two lines before it is left out.
-function Label({ item, unit, size }: { item: PlanItem; unit: number; size: number }): JSX.Element | null {
+// In one line, or in the two that are most alike.
+function lines_of(name: string, room: number): string[] {
+  const words = name.split(" ");
+  if (name.length <= room || words.length < 2) return [name];
+  let best: string[] = [name], least = Infinity;
+  for (let i = 1; i < words.length; ++i) {
+    const lines = [words.slice(0, i).join(" "), words.slice(i).join(" ")];
+    const longest = Math.max(...lines.map((line) => line.length));
+    if (longest < least) [best, least] = [lines, longest];
+  }
+  return best;
+}
+
+// Names where they fit, if need be a little smaller; where they do not, a touch tells the name.
+function Label({ item, unit, size, isFixed }: { item: PlanItem; unit: number; size: number; isFixed: boolean }): JSX.Element | null {
   const found = extent(item);
   if (!found || item.kind === "boundary" || item.kind === "plot" || !item.name) return null;
-  const [x, y] = middle_of(found);
-  const font = size * unit, room = (item.kind === "street" ? Math.max(found.width, found.height) : found.width) / (font * 0.56);
-  const words = item.name.split(" ");
-  let lines = [item.name];
-  if (item.name.length > room && words.length > 1) {
-    let cut = 1;
-    for (let i = 1; i < words.length; ++i) {
-      const longest = (at: number): number => Math.max(words.slice(0, at).join(" ").length, words.slice(at).join(" ").length);
-      if (longest(i) < longest(cut)) cut = i;
-    }
-    lines = [words.slice(0, cut).join(" "), words.slice(cut).join(" ")];
+  const [x, y] = middle_of(found), isStreet = item.kind === "street";
+  for (const font of isFixed ? [size * unit] : [size * unit, size * unit * 0.82]) {
+    const width = isStreet ? Math.max(found.width, found.height) : found.width, room = width / (font * 0.58), lines = lines_of(item.name, room);
+    if (Math.max(...lines.map((line) => line.length)) > room || (!isStreet && found.height < font * 1.15 * lines.length)) continue;
+    return (
+      <text class={`name ${item.kind}`} font-size={font} stroke-width={font * 0.22}>
+        {lines.map((line, i) => <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>{line}</tspan>)}
+      </text>
+    );
   }
-  if (Math.max(...lines.map((line) => line.length)) > room || found.height < font * 1.1 * lines.length) return null;
-  return (
-    <text class={`name ${item.kind}`} font-size={font} stroke-width={font * 0.22}>
-      {lines.map((line, i) => <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>{line}</tspan>)}
-    </text>
-  );
+  return null;
 }
 
 function PinShape({ pin, unit, size }: { pin: Pin; unit: number; size: number }): JSX.Element {
@@ -152,7 +171,7 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
     });
 
   useFingers(box, { at, zoomAt, moveBy, isStill: isStill ?? false, zoom: () => live.current.view.zoom, unit: () => live.current.frame.width / live.current.size[0] }, (place, node) =>
-    binding?.onTap([round(place[0]), round(-place[1]), 0], node),
+    binding?.onTap([round(place[0]), round(-place[1]), 0], node ?? nearest(items, place, kNear * (live.current.frame.width / live.current.size[0]))),
   );
 
   // What is chosen elsewhere comes into sight.
@@ -177,12 +196,12 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
   const count = items.filter(([, item]) => item.kind === "volume" || item.kind === "building").length;
   const viewBox = `${frame.x} ${frame.y} ${frame.width} ${frame.height}`;
   return (
-    <div class={`plan ${view.zoom > 1 ? "zoomed" : ""} ${isStill ? "still" : ""}`} onKeyDown={isStill ? undefined : keys}>
+    <div style={{ "--aspect": `${all.width / all.height}` }} class={`plan ${view.zoom > 1 ? "zoomed" : ""} ${isStill ? "still" : ""}`} onKeyDown={isStill ? undefined : keys}>
       <div class="paper" ref={box}>
         {items.length === 0 ? <p class="empty">{t("no_plan")}</p> : null}
         <svg viewBox={viewBox} role="img" aria-label={t("plan_of", { n: count })}>
           {items.map(([id, item]) => <Shape key={id} id={id} item={item} isSelected={id === selected} />)}
-          {items.map(([id, item]) => <Label key={id} item={item} unit={unit} size={label} />)}
+          {items.map(([id, item]) => <Label key={id} item={item} unit={unit} size={label} isFixed={isStill ?? false} />)}
           {(binding?.pins ?? []).map((pin) => <PinShape key={pin.id} pin={pin} unit={unit} size={label} />)}
         </svg>
       </div>

@@ -27,7 +27,6 @@ export class Ui {
   }
   go(tab: Tab): void {
     this.set({ tab });
-    window.scrollTo(0, 0);
     const title = document.querySelector<HTMLElement>("main h1");
     if (title) title.focus();
   }

@@ -33,7 +33,7 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
 // The vote that is open, or else the last one with a result.
 function vote_shown(s: Session): Vote | null {
   const votes = Object.values(s.views.votes);
-  return votes.find((vote) => vote.open) ?? [...votes].reverse().find((vote) => vote.result !== null) ?? null;
+  return votes.find((vote) => vote.open) ?? [...votes].reverse().find((vote) => vote.result !== null && vote.count > 0) ?? null;
 }
 
 function VoteLayout({ s }: { s: Session }): JSX.Element {
@@ -52,7 +52,7 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
 function CompareLayout({ s }: { s: Session }): JSX.Element {
   const all = Object.values(s.views.proposals).filter((one) => one.state === "proposed"), [left, right] = all;
   if (!left || !right) return <PlanLayout s={s} pins={[]} />;
-  return <div class="stage text"><CompareTable s={s} left={left} right={right} /></div>;
+  return <div class="stage text"><CompareTable s={s} left={left} right={right} isShort /></div>;
 }
 
 function CommentsLayout({ s }: { s: Session }): JSX.Element {

@@ -23,7 +23,10 @@ export function Join({ s, language, onLanguage, onGo }: { s: Session; language: 
           ) : <p class="faint">{t("connecting")}</p>}
         </div>
         <button class="main" disabled={!you} onClick={onGo}>{t("go")}<Icon name="right" /></button>
-        <p class="small">{t("consent", { name: you?.name ?? "…" })} <button class="link" onClick={() => read(true)}>{t("consent_more")}</button></p>
+        <div class="consent">
+          <p class="small">{t("consent", { name: you?.name ?? "…" })}</p>
+          <button class="link" onClick={() => read(true)}>{t("consent_more")}</button>
+        </div>
         <div class="foot">
           <LanguageChoice language={language} onLanguage={onLanguage} />
           <StatusLine s={s} />
@@ -57,7 +60,7 @@ export function CodeScreen({ onCode }: { onCode(code: string): void }): JSX.Elem
       <p>{t("bad_code")}</p>
       <form onSubmit={(event) => { event.preventDefault(); if (code.trim()) onCode(code.trim().toUpperCase()); }}>
         <label class="field"><span>{t("code")}</span>
-          <input class="code" value={code} autocapitalize="characters" autocomplete="off" spellcheck={false} maxLength={8} onInput={(event) => set(event.currentTarget.value)} />
+          <input class="letters" value={code} autocapitalize="characters" autocomplete="off" spellcheck={false} maxLength={8} onInput={(event) => set(event.currentTarget.value)} />
         </label>
         <button class="main" type="submit">{t("go")}<Icon name="right" /></button>
       </form>

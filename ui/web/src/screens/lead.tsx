@@ -199,12 +199,12 @@ export function join_address(s: Session): string {
 
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
-    <div class="largecode">
+    <main class="largecode">
       <CodePicture text={join_address(s)} />
-      <p class="bigcode">{s.views.room.code}</p>
+      <h1 class="bigcode">{s.views.room.code}</h1>
       <p>{join_address(s)}</p>
       <button class="quiet" onClick={onClose}>{t("close")}</button>
-    </div>
+    </main>
   );
 }
 

@@ -26,7 +26,7 @@ export function task_of(s: Session, ui: Ui): Task {
     return { kind: "ideas", title: t("now_draft"), text: t("now_draft_text"), action: t("start"), go: "ideas", more: () => ui.set({ part: "proposals" }) };
   const counted = open.find(([, vote]) => vote.mine !== null);
   if (counted) return { kind: "votes", title: t("now_vote_done"), text: t("now_vote_change"), action: t("change_vote"), go: "votes", isDone: true };
-  if (Object.values(s.views.votes).some((vote) => vote.result !== null && !vote.open))
+  if (Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open))
     return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
   if (!phase || activities.length > 0) return { kind: "plan", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
   return { kind: "now", title: t("now_wait"), text: t("now_wait_text") };

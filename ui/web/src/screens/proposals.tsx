@@ -66,7 +66,7 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
 }
 
 /// Two proposals, one row for each thing that can differ.
-export function CompareTable({ s, left, right }: { s: Session; left: Proposal; right: Proposal }): JSX.Element {
+export function CompareTable({ s, left, right, isShort }: { s: Session; left: Proposal; right: Proposal; isShort?: boolean }): JSX.Element {
   const list = (words: string[]): JSX.Element => (words.length > 0 ? <ul>{words.map((word, i) => <li key={i}>{word}</li>)}</ul> : <>{t("none")}</>);
   const both = [left, right];
   return (
@@ -75,9 +75,9 @@ export function CompareTable({ s, left, right }: { s: Session; left: Proposal; r
       <tbody>
         <tr><th scope="row">{t("compare_state")}</th>{both.map((one, i) => <td key={i}>{state_word(one.state)}<br /><span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span></td>)}</tr>
         <tr><th scope="row">{t("proposal_why")}</th>{both.map((one, i) => <td key={i}>{one.why || t("none")}</td>)}</tr>
-        <tr><th scope="row">{t("proposal_steps")}</th>{both.map((one, i) => <td key={i}>{list(one.words)}</td>)}</tr>
-        <tr><th scope="row">{t("proposal_conflicts")}</th>{both.map((one, i) => <td key={i}>{list(one.conflicts.map((conflict) => t("conflict_at", { place: conflict.place, by: conflict.by })))}</td>)}</tr>
-        <tr><th scope="row">{t("proposal_misfits")}</th>{both.map((one, i) => <td key={i}>{list(one.misfits.map((misfit) => t("misfit_at", { n: misfit.step + 1, why: misfit.why })))}</td>)}</tr>
+        <tr><th scope="row">{t("proposal_steps")}</th>{both.map((one, i) => <td key={i}>{list(isShort ? one.words.slice(0, 3) : one.words)}</td>)}</tr>
+        {isShort ? null : <><tr><th scope="row">{t("proposal_conflicts")}</th>{both.map((one, i) => <td key={i}>{list(one.conflicts.map((conflict) => t("conflict_at", { place: conflict.place, by: conflict.by })))}</td>)}</tr>
+        <tr><th scope="row">{t("proposal_misfits")}</th>{both.map((one, i) => <td key={i}>{list(one.misfits.map((misfit) => t("misfit_at", { n: misfit.step + 1, why: misfit.why })))}</td>)}</tr></>}
       </tbody>
     </table>
   );

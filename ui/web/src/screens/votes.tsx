@@ -50,7 +50,7 @@ function Rank({ vote, ballot, set }: BallotProps): JSX.Element {
   return (
     <>
       <p class="how">{t("rank_how")}</p>
-      <ol class="ranked">
+      {ranked.length === 0 ? null : <ol class="ranked">
         {ranked.map((id, i) => {
           const label = option_label(vote, id);
           return (
@@ -58,11 +58,11 @@ function Rank({ vote, ballot, set }: BallotProps): JSX.Element {
               <b class="place">{i + 1}</b><span class="grow">{label}</span>
               <button class="round" aria-label={t("rank_up", { label })} disabled={i === 0} onClick={() => set(rank_moved(vote, ballot, id, -1))}><Icon name="up" /></button>
               <button class="round" aria-label={t("rank_down", { label })} disabled={i === ranked.length - 1} onClick={() => set(rank_moved(vote, ballot, id, 1))}><Icon name="down" /></button>
-              <button class="round" aria-label={t("rank_remove", { label })} onClick={() => set(ranked.filter((one) => one !== id))}><Icon name="cross" /></button>
+              {vote.whole ? null : <button class="round" aria-label={t("rank_remove", { label })} onClick={() => set(ranked.filter((one) => one !== id))}><Icon name="cross" /></button>}
             </li>
           );
         })}
-      </ol>
+      </ol>}
       {rest.length > 0 ? (
         <>
           {ranked.length > 0 ? <h3>{t("rank_rest")}</h3> : null}
@@ -267,7 +267,7 @@ function ClosedVote({ vote }: { vote: Vote }): JSX.Element {
 
 export function Votes({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const all = Object.entries(s.views.votes), open = all.filter(([, vote]) => vote.open);
-  const closed = all.filter(([, vote]) => !vote.open && (vote.result !== null || vote.mine !== null || vote.count > 0));
+  const closed = all.filter(([, vote]) => !vote.open && (vote.mine !== null || vote.count > 0));
   // Stays on its vote after that is sent, so that people see it counted.
   const [at, go] = useState(() => open.find(([id, vote]) => vote.mine === null && s.mark(`vote/${id}`) === null)?.[0] ?? "");
   const shown = open.find(([id]) => id === at) ?? open[0];
