@@ -11,9 +11,11 @@ const ids = (question: Question): Set<string> => new Set(question.options.map((o
 /// Null where the ballot counts. The room checks the same (core/vote); here people learn it before they send.
 export function gap_of(question: Question, ballot: Ballot | null): Gap | null {
   switch (question.kind) {
-    case "yes_no": return ballot === "yes" || ballot === "no" ? null : { what: "answer", n: 1 };
+    case "yes_no":
+      return ballot === "yes" || ballot === "no" ? null : { what: "answer", n: 1 };
     case "rank": {
-      const ranked = ranking(question, ballot).length, all = question.options.length;
+      const ranked = ranking(question, ballot).length,
+        all = question.options.length;
       if (ranked === 0 && !question.whole) return { what: "rank", n: 1 };
       return question.whole && ranked < all ? { what: "rank_all", n: all - ranked } : null;
     }
@@ -47,7 +49,9 @@ export function rank_added(question: Question, ballot: Ballot | null, id: string
 
 /// Moves an option up (-1) or down (+1).
 export function rank_moved(question: Question, ballot: Ballot | null, id: string, by: -1 | 1): string[] {
-  const ranked = ranking(question, ballot), at = ranked.indexOf(id), to = at + by;
+  const ranked = ranking(question, ballot),
+    at = ranked.indexOf(id),
+    to = at + by;
   const other = ranked[to];
   if (at < 0 || other === undefined) return ranked;
   ranked[to] = id;
@@ -56,7 +60,8 @@ export function rank_moved(question: Question, ballot: Ballot | null, id: string
 }
 
 export function coins(question: Question, ballot: Ballot | null): Record<string, number> {
-  const known = ids(question), out: Record<string, number> = {};
+  const known = ids(question),
+    out: Record<string, number> = {};
   if (ballot === null || typeof ballot !== "object" || Array.isArray(ballot)) return out;
   for (const [id, count] of Object.entries(ballot)) if (known.has(id) && count > 0) out[id] = Math.floor(count);
   return out;
@@ -67,7 +72,8 @@ export function coins_left(question: Question, ballot: Ballot | null): number {
 }
 
 export function coins_put(question: Question, ballot: Ballot | null, id: string, by: -1 | 1): Record<string, number> {
-  const out = coins(question, ballot), count = (out[id] ?? 0) + by;
+  const out = coins(question, ballot),
+    count = (out[id] ?? 0) + by;
   if (count < 0 || (by > 0 && coins_left(question, ballot) <= 0)) return out;
   if (count === 0) delete out[id];
   else out[id] = count;
@@ -86,6 +92,9 @@ export function same(a: unknown, b: unknown): boolean {
   if (a === b) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
   if (Array.isArray(a) !== Array.isArray(b)) return false;
-  const keys = Object.keys(a), others = Object.keys(b);
-  return keys.length === others.length && keys.every((key) => same((a as Record<string, unknown>)[key], (b as Record<string, unknown>)[key]));
+  const keys = Object.keys(a),
+    others = Object.keys(b);
+  return (
+    keys.length === others.length && keys.every((key) => same((a as Record<string, unknown>)[key], (b as Record<string, unknown>)[key]))
+  );
 }

@@ -1,6 +1,7 @@
 // The world of the connection in a browser: sockets, localStorage, clock and chance, all without a secure context.
-import type { Link, World } from "./connection";
-import { Store, random_name } from "./queue";
+import { random_name } from "./queue";
+import type { Store } from "./queue";
+import type { Link, World } from "./world";
 
 /// localStorage, or memory where the browser refuses it; what did not fit is told by `set`.
 export function browser_store(): Store {
@@ -48,7 +49,9 @@ export function socket_address(): string {
 function open(address: string): Link {
   const socket = new WebSocket(address, "bl1");
   const link: Link = {
-    onopen: null, onmessage: null, onclose: null,
+    onopen: null,
+    onmessage: null,
+    onclose: null,
     send: (text) => {
       if (socket.readyState === WebSocket.OPEN) socket.send(text);
     },

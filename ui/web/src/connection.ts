@@ -1,95 +1,59 @@
 // The life of a connection: it keeps one seat in a room and gives every operation exactly one answer, whatever the network does.
-import { Item, Queue, Store, kLease } from "./queue";
-import type { Deed, Json, Nack, Seen, ViewName, Welcome, Why } from "./wire";
+import { Queue, kLease } from "./queue";
+import type { Item } from "./queue";
+import { Timers, back_off, kLongestWait } from "./timers";
+import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
+import type { Answer, Link, Listener, Options, Stage, World } from "./world";
 
-/// A WebSocket, as far as it is used here.
-export interface Link {
-  send(text: string): void;
-  close(): void;
-  onopen: (() => void) | null;
-  onmessage: ((text: string) => void) | null;
-  onclose: ((code: number, reason: string) => void) | null;
-}
-
-/// Everything outside: the clock, the sockets, the store, chance, and whether anybody looks.
-export interface World {
-  now(): number;
-  set(milliseconds: number, then: () => void): number;
-  clear(timer: number): void;
-  open(): Link;
-  store: Store;
-  chance(): number;  ///< in [0, 1)
-  name(): string;    ///< a new random name
-  isVisible(): boolean;
-}
-
-export type Answer =
-  | { kind: "saved"; seq: number; tick: number }
-  | { kind: "refused"; why: Why | "seat"; place: string; text: string; args: Record<string, Json> }
-  | { kind: "elsewhere" };  ///< another page of this person sends it
-
-export type Stage = "connecting" | "open" | "waiting" | "door" | "removed" | "old";
-
-export interface Listener {
-  changed(): void;
-  welcomed(welcome: Welcome): void;
-  told(message: { t: string; [key: string]: unknown }): void;
-  answered(item: Item, answer: Answer): void;
-  reload(): void;
-}
-
-export interface Options {
-  room: string;
-  prefix: string;        ///< of the keys in the store; another one for the beamer of the same machine
-  run: string | null;    ///< of this page's life before a reload
-  lang: string;
-  views: ViewName[];
-  invite: string | null;
-}
-
-const kPing = 5000, kPongWait = 4000, kWakeWait = 1500, kHelloWait = 5000, kLongest = 5000, kFirst = 200, kGrowth = 1.7, kJitter = 0.4;
-const kLonely = 60000;    // after so long, an operation is sent with the value that the person saw
-const kSilence = 8000;    // an operation without an answer on a living connection is sent again
-const kBurst = 20, kPerSecond = 8;  // below the limits of the server: 30, and 10 in a second
-const kLargest = 16000;   // of a message [bytes]
-const kRetries = 8;       // of what the server cannot take for the moment
-const kCovered = 20;
-export const kMostWaiting = 5000;
-
-/// The delay before attempt `n` (from 0) to connect again [ms].
-export function back_off(n: number, chance: number): number {
-  return Math.min(kLongest, kFirst * Math.pow(kGrowth, n)) * (1 + kJitter * (2 * chance - 1));
-}
+// Heartbeats and patience [ms].
+const kPing = 5000;
+const kPongWait = 4000;
+const kWakeWait = 1500;
+const kHelloWait = 5000;
+const kLonely = 60000; // after so long, an operation is sent with the value that the person saw
+const kSilence = 8000; // an operation without an answer on a living connection is sent again
+// Below the limits of the server: 30 at once, and 10 in a second.
+const kBurst = 20;
+const kPerSecond = 8;
+const kLargest = 16000; // of a message [bytes]
+const kMostWaiting = 5000;
+const kRetries = 8; // of what the server cannot take for the moment
+const kCovered = 20; // answers to later operations alone, after which an earlier one counts as answered
 
 export class Connection {
   stage: Stage = "connecting";
-  since: number;           ///< of the stage being "open" or not
-  seq = 0;                 ///< the last entry that the server has told of
+  since: number; ///< of the stage being "open" or not
+  seq = 0; ///< the last entry that the server has told of
   queue: Queue;
   private link: Link | null = null;
   private views: Set<ViewName>;
   private attempt = 0;
-  private isGreeted = false;   // the welcome has come on this link
-  private timers = new Map<string, number>();
+  private isGreeted = false; // the welcome has come on this link
+  private timers: Timers;
   private pinged = 0;
-  private sent = new Map<number, { at: number; order: number }>();  // what has gone out on this link
+  private sent = new Map<number, { at: number; order: number }>(); // what has gone out on this link
   private order = 0;
   private tokens = kBurst;
   private filled = 0;
   private retries = new Map<number, number>();
-  private covered = new Map<number, number>();  // how often only a later operation was answered
-  private held = 0;            // until then nothing is sent
+  private covered = new Map<number, number>(); // how often only a later operation was answered
+  private held = 0; // until then nothing is sent
   private jumped = false;
   private isStopped = false;
-  private opened = 0;          // when the link was asked for
+  private opened = 0; // when the link was asked for
   private me: string;
 
-  constructor(private world: World, private options: Options, private listener: Listener) {
+  constructor(
+    private world: World,
+    private options: Options,
+    private listener: Listener,
+  ) {
     this.me = world.name();
+    this.timers = new Timers(world);
     this.since = world.now();
     this.views = new Set(options.views);
-    const { store } = world, now = world.now();
-    const own = options.run === null ? null : Queue.take(store, options.prefix, options.run, this.me, now);
+    Queue.tidy(world.store, options.prefix, world.now());
+    const own = options.run === null ? null : Queue.take(world.store, options.prefix, options.run, this.me, world.now());
     this.queue = own ?? this.oldRun() ?? this.newRun();
   }
 
@@ -111,15 +75,14 @@ export class Connection {
   /// Ends the page's part in it; what waits stays in the store.
   stop(): void {
     this.isStopped = true;
-    for (const timer of this.timers.values()) this.world.clear(timer);
-    this.timers.clear();
+    this.timers.stopAll();
     this.dropLink();
-    this.queue.release();
+    this.queue.release(this.world.now());
   }
 
   /// The page leaves: the next page may go on with the run.
   leave(): void {
-    this.queue.release();
+    this.queue.release(this.world.now());
   }
 
   /// Puts an operation in line. It has an answer at once where it can never be sent.
@@ -160,32 +123,20 @@ export class Connection {
 
   /// The page is hidden: phones slow its clock down, so it asks nothing.
   sleep(): void {
-    this.stopTimer("ping");
-    this.stopTimer("pong");
+    this.timers.stop("ping");
+    this.timers.stop("pong");
     if (this.isGreeted) this.send({ t: "presence", n: ++this.order, hidden: true });
-  }
-
-  presence(state: { cursor?: number[]; holds?: string[] }): void {
-    if (this.isGreeted) this.send({ t: "presence", n: ++this.order, ...state });
   }
 
   // --- Runs ---------------------------------------------------------------------------------------------------------
 
   private newRun(): Queue {
     const { store, name, now } = this.world;
-    const queue = Queue.take(store, this.options.prefix, name(), this.me, now());
-    if (!queue) throw new Error("a new run has no owner");
-    return queue;
+    return Queue.fresh(store, this.options.prefix, name(), this.me, now());
   }
 
-  // What an earlier page of this person has left unanswered.
   private oldRun(): Queue | null {
-    const { store, now } = this.world;
-    for (const run of Queue.left(store, this.options.prefix, now())) {
-      const queue = Queue.take(store, this.options.prefix, run, this.me, now());
-      if (queue && queue.items.length > 0) return queue;
-    }
-    return null;
+    return Queue.leftOver(this.world.store, this.options.prefix, this.me, this.world.now());
   }
 
   // A page that has nothing to send itself sends what closed pages have left, by their runs.
@@ -210,7 +161,7 @@ export class Connection {
   // --- Sockets ------------------------------------------------------------------------------------------------------
 
   private connect(): void {
-    this.stopTimer("retry");
+    this.timers.stop("retry");
     this.dropLink();
     if (this.isStopped) return;
     if (this.stage !== "open" && this.stage !== "door" && this.stage !== "waiting") this.stage = "connecting";
@@ -226,14 +177,14 @@ export class Connection {
     link.onclose = (code, reason) => {
       if (this.link === link) this.closed(code, reason);
     };
-    this.timer("hello", kHelloWait, () => this.lost());
+    this.timers.start("hello", kHelloWait, () => this.lost());
   }
 
   private dropLink(): void {
     const link = this.link;
     this.link = null;
     this.isGreeted = false;
-    for (const name of ["hello", "ping", "pong", "pump", "silence", "calm"]) this.stopTimer(name);
+    for (const name of ["hello", "ping", "pong", "pump", "silence", "calm"]) this.timers.stop(name);
     this.sent.clear();
     if (!link) return;
     link.onopen = link.onmessage = link.onclose = null;
@@ -245,7 +196,14 @@ export class Connection {
     const token = this.token;
     const who = token ? { token } : invite ? { invite } : {};
     this.send({
-      t: "hello", room, run: this.queue.run, kind: "page", ...who, unacked: this.queue.lastAnswered, views: [...this.views], lang,
+      t: "hello",
+      room,
+      run: this.queue.run,
+      kind: "page",
+      ...who,
+      unacked: this.queue.lastAnswered,
+      views: [...this.views],
+      lang,
     });
   }
 
@@ -258,7 +216,7 @@ export class Connection {
     this.dropLink();
     this.setStage(this.stage === "door" ? "door" : "waiting");
     if (delay <= 0) this.connect();
-    else this.timer("retry", delay, () => this.connect());
+    else this.timers.start("retry", delay, () => this.connect());
   }
 
   private setStage(stage: Stage): void {
@@ -272,26 +230,31 @@ export class Connection {
     this.attempt += 1;
     const wait = back_off(this.attempt - 1, this.world.chance());
     switch (code) {
-      case 4401: return this.noSeat();
-      case 4403: return this.end("removed");
+      case 4401:
+        return this.noSeat();
+      case 4403:
+        return this.end("removed");
       case 4409:
         this.changeRun();
         return this.reconnect(wait);
-      case 4426: return this.old();
+      case 4426:
+        return this.old();
       case 4400:
       case 4413:
-      case 4429: return this.reconnect(Math.max(wait, kLongest));
+      case 4429:
+        return this.reconnect(Math.max(wait, kLongestWait));
       case 4503: {
         const told = /\d+/.exec(reason);
         return this.reconnect(told ? Math.min(60000, Number(told[0])) : wait);
       }
-      default: return this.reconnect(wait);
+      default:
+        return this.reconnect(wait);
     }
   }
 
   private end(stage: Stage): void {
     this.dropLink();
-    this.stopTimer("retry");
+    this.timers.stop("retry");
     this.setStage(stage);
   }
 
@@ -302,7 +265,7 @@ export class Connection {
     if (!had) {
       this.dropLink();
       this.setStage("door");
-      this.timer("retry", kLongest, () => this.connect());
+      this.timers.start("retry", kLongestWait, () => this.connect());
       return;
     }
     const items = [...this.queue.items];
@@ -315,7 +278,8 @@ export class Connection {
   private old(): void {
     const { store } = this.world;
     const key = `${this.options.prefix}reloaded`;
-    const before = Number(store.get(key) ?? "0"), now = this.world.now();
+    const before = Number(store.get(key) ?? "0"),
+      now = this.world.now();
     this.end("old");
     if (now - before < 60000) return;
     store.set(key, String(now));
@@ -336,26 +300,30 @@ export class Connection {
       return;
     }
     switch (message.t) {
-      case "welcome": return this.welcome(message as unknown as Welcome);
-      case "ack": return this.acknowledged(Number(message.id), Number(message.s), Number(message.k));
-      case "nack": return this.refused(message as unknown as Nack);
+      case "welcome":
+        return this.welcome(message as unknown as Welcome);
+      case "ack":
+        return this.acknowledged(Number(message.id), Number(message.s), Number(message.k));
+      case "nack":
+        return this.refused(message as unknown as Nack);
       case "pong":
-        if (message.n === this.pinged) this.stopTimer("pong");
+        if (message.n === this.pinged) this.timers.stop("pong");
         return;
       case "state":
         this.seq = Math.max(this.seq, Number(message.s) || 0);
         break;
-      default: break;
+      default:
+        break;
     }
     if (typeof message.t === "string") this.listener.told(message as { t: string });
   }
 
   private welcome(welcome: Welcome): void {
-    this.stopTimer("hello");
+    this.timers.stop("hello");
     this.isGreeted = true;
     if (welcome.token) this.world.store.set(`${this.options.prefix}token`, welcome.token);
     this.seq = Math.max(this.seq, welcome.seq);
-    this.timer("calm", 3000, () => {
+    this.timers.start("calm", 3000, () => {
       this.attempt = 0;
       this.jumped = false;
     });
@@ -408,8 +376,9 @@ export class Connection {
     const first = this.queue.items[0];
     if (!first) return;
     if (next < first.id) return this.jump();
-    const missing = this.sent.get(next), told = this.sent.get(id);
-    if (missing && told && missing.order > told.order) return;  // sent again meanwhile
+    const missing = this.sent.get(next),
+      told = this.sent.get(id);
+    if (missing && told && missing.order > told.order) return; // sent again meanwhile
     this.unsend(next);
     this.pump();
   }
@@ -431,7 +400,7 @@ export class Connection {
   private hold(delay: number, id: number): void {
     this.held = this.world.now() + delay;
     this.unsend(id);
-    this.timer("pump", delay, () => this.pump());
+    this.timers.start("pump", delay, () => this.pump());
   }
 
   private unsend(from: number): void {
@@ -444,20 +413,20 @@ export class Connection {
   private pump(): void {
     if (!this.isGreeted) return;
     const now = this.world.now();
-    if (now < this.held) return this.timer("pump", this.held - now, () => this.pump());
+    if (now < this.held) return this.timers.start("pump", this.held - now, () => this.pump());
     this.tokens = Math.min(kBurst, this.tokens + ((now - this.filled) / 1000) * kPerSecond);
     this.filled = now;
     for (const item of this.queue.items) {
       if (this.sent.has(item.id)) continue;
       if (this.tokens < 1) {
-        this.timer("pump", 1000 / kPerSecond, () => this.pump());
+        this.timers.start("pump", 1000 / kPerSecond, () => this.pump());
         break;
       }
       this.tokens -= 1;
       this.sent.set(item.id, { at: now, order: ++this.order });
       this.send(this.messageOf(item, now));
     }
-    if (this.queue.items.length > 0 && !this.timers.has("silence")) this.timer("silence", kSilence, () => this.silence());
+    if (this.queue.items.length > 0 && !this.timers.has("silence")) this.timers.start("silence", kSilence, () => this.silence());
   }
 
   private messageOf(item: Item, now: number): object {
@@ -476,13 +445,13 @@ export class Connection {
   private lives(): void {
     if (this.queue.isOurs()) this.queue.live(this.world.now());
     this.takeOver();
-    this.timer("lives", kLease / 3, () => this.lives());
+    this.timers.start("lives", kLease / 3, () => this.lives());
   }
 
   // --- Heartbeat ----------------------------------------------------------------------------------------------------
 
   private schedulePing(): void {
-    if (this.world.isVisible()) this.timer("ping", kPing, () => this.ping(kPongWait));
+    if (this.world.isVisible()) this.timers.start("ping", kPing, () => this.ping(kPongWait));
   }
 
   private ping(wait: number): void {
@@ -490,28 +459,11 @@ export class Connection {
     this.pinged += 1;
     this.send({ t: "ping", n: this.pinged });
     const due = this.world.now() + wait;
-    this.timer("pong", wait, () => {
+    this.timers.start("pong", wait, () => {
       // A timer that comes much too late means that the page was frozen: its messages have not been read yet.
       if (this.world.now() - due > 1000) this.ping(kWakeWait);
       else this.reconnect(0);
     });
     this.schedulePing();
-  }
-
-  // --- Timers -------------------------------------------------------------------------------------------------------
-
-  private timer(name: string, delay: number, then: () => void): void {
-    this.stopTimer(name);
-    this.timers.set(name, this.world.set(delay, () => {
-      this.timers.delete(name);
-      then();
-    }));
-  }
-
-  private stopTimer(name: string): void {
-    const timer = this.timers.get(name);
-    if (timer === undefined) return;
-    this.world.clear(timer);
-    this.timers.delete(name);
   }
 }

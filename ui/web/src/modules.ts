@@ -6,4 +6,5 @@ export * from "./outline";
 export * from "./qr";
 export * from "./queue";
 export * from "./session";
+export * from "./timers";
 export * from "./words";

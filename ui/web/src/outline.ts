@@ -1,6 +1,11 @@
 // Outlines of the plan as points: where a thing lies, how large it is, and where its name can stand.
 
-export interface Extent { x: number; y: number; width: number; height: number }
+export interface Extent {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
 
 const kArguments: Record<string, number> = { m: 2, l: 2, h: 1, v: 1, c: 6, s: 4, q: 4, t: 2, a: 7, z: 0 };
 
@@ -8,7 +13,12 @@ const kArguments: Record<string, number> = { m: 2, l: 2, h: 1, v: 1, c: 6, s: 4,
 export function points_of(path: string): [number, number][] {
   const tokens = path.match(/[a-zA-Z]|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?/g) ?? [];
   const points: [number, number][] = [];
-  let x = 0, y = 0, startX = 0, startY = 0, letter = "", at = 0;
+  let x = 0,
+    y = 0,
+    startX = 0,
+    startY = 0,
+    letter = "",
+    at = 0;
   while (at < tokens.length) {
     const token = tokens[at] ?? "";
     if (/^[a-zA-Z]$/.test(token)) {
@@ -20,13 +30,15 @@ export function points_of(path: string): [number, number][] {
       }
       continue;
     }
-    const kind = letter.toLowerCase(), count = kArguments[kind];
+    const kind = letter.toLowerCase(),
+      count = kArguments[kind];
     if (!count) break;
     const numbers = tokens.slice(at, at + count).map(Number);
     if (numbers.length < count || numbers.some((value) => Number.isNaN(value))) break;
     at += count;
     const isRelative = letter === kind;
-    const last = numbers[count - 1] ?? 0, before = numbers[count - 2] ?? 0;
+    const last = numbers[count - 1] ?? 0,
+      before = numbers[count - 2] ?? 0;
     if (kind === "h") x = isRelative ? x + last : last;
     else if (kind === "v") y = isRelative ? y + last : last;
     else {
@@ -36,7 +48,7 @@ export function points_of(path: string): [number, number][] {
     if (kind === "m") {
       startX = x;
       startY = y;
-      letter = isRelative ? "l" : "L";  // more pairs after a move are lines
+      letter = isRelative ? "l" : "L"; // more pairs after a move are lines
     }
     points.push([x, y]);
   }
@@ -45,7 +57,10 @@ export function points_of(path: string): [number, number][] {
 
 export function extent_of(points: [number, number][]): Extent | null {
   if (points.length === 0) return null;
-  let left = Infinity, right = -Infinity, top = Infinity, bottom = -Infinity;
+  let left = Infinity,
+    right = -Infinity,
+    top = Infinity,
+    bottom = -Infinity;
   for (const [x, y] of points) {
     left = Math.min(left, x);
     right = Math.max(right, x);

@@ -19,14 +19,20 @@ import { Tab, Ui, useWatched, useWide } from "./ui";
 import type { ViewName } from "./wire";
 import { Key, Language, best_language, language_now, locale, set_language, t } from "./words";
 
-interface Address { code: string; invite: string | null; isBeamer: boolean; language: Language | null }
+interface Address {
+  code: string;
+  invite: string | null;
+  isBeamer: boolean;
+  language: Language | null;
+}
 
 // The fragment never leaves the browser. It goes from the address bar at once, so that nobody passes an invitation on by showing it.
 function read_address(): Address {
   const code = decodeURIComponent(window.location.pathname.split("/")[1] ?? "").toUpperCase();
   const parts = window.location.hash.replace(/^#/, "").split("&");
   const value = (name: string): string | null => parts.find((part) => part.startsWith(`${name}=`))?.slice(name.length + 1) ?? null;
-  const language = value("lang"), invite = value("k");
+  const language = value("lang"),
+    invite = value("k");
   const isBeamer = parts.includes("beamer");
   if (invite !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
   return { code, invite, isBeamer, language: language === null ? null : best_language([language]) };
@@ -35,7 +41,8 @@ function read_address(): Address {
 const kIconOf: Partial<Record<Tab, IconName>> = { now: "now", plan: "plan", card: "card", votes: "votes", ideas: "ideas", lead: "lead" };
 
 function tabs_of(s: Session): Tab[] {
-  const tabs: Tab[] = ["now", "plan"], { card, votes } = s.views;
+  const tabs: Tab[] = ["now", "plan"],
+    { card, votes } = s.views;
   if (s.you?.role === "facilitator") tabs.unshift("lead");
   if ((card.goals ?? []).length > 0 || (card.controls ?? []).length > 0) tabs.push("card");
   if (Object.keys(votes).length > 0) tabs.push("votes");
@@ -49,7 +56,8 @@ function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     <nav aria-label={t("navigation")}>
       {tabs_of(s).map((tab) => (
         <button key={tab} aria-current={ui.tab === tab ? "page" : undefined} onClick={() => ui.go(tab)}>
-          <Icon name={kIconOf[tab] ?? "now"} /><span>{t(`tab_${tab}` as Key)}</span>
+          <Icon name={kIconOf[tab] ?? "now"} />
+          <span>{t(`tab_${tab}` as Key)}</span>
           {tab === "votes" && waiting ? <i class="dot" aria-hidden="true" /> : null}
         </button>
       ))}
@@ -59,32 +67,61 @@ function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
 
 function screen_of(s: Session, ui: Ui, isWide: boolean): JSX.Element {
   switch (ui.tab) {
-    case "plan": return <PlanScreen s={s} ui={ui} isWide={isWide} />;
-    case "card": return <Card s={s} ui={ui} />;
-    case "votes": return <Votes s={s} ui={ui} />;
-    case "ideas": return <Ideas s={s} ui={ui} />;
-    case "lead": return <Lead s={s} ui={ui} />;
-    case "form": return <Form s={s} ui={ui} />;
-    default: return <Now s={s} ui={ui} />;
+    case "plan":
+      return <PlanScreen s={s} ui={ui} isWide={isWide} />;
+    case "card":
+      return <Card s={s} ui={ui} />;
+    case "votes":
+      return <Votes s={s} ui={ui} />;
+    case "ideas":
+      return <Ideas s={s} ui={ui} />;
+    case "lead":
+      return <Lead s={s} ui={ui} />;
+    case "form":
+      return <Form s={s} ui={ui} />;
+    default:
+      return <Now s={s} ui={ui} />;
   }
 }
 
 function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Language): void }): JSX.Element {
-  const isWide = useWide(), [isYou, setYou] = useState(false), you = s.you;
+  const isWide = useWide(),
+    [isYou, setYou] = useState(false),
+    you = s.you;
   useEffect(() => s.want("comments", "proposals", "drafts"), []);
   if (ui.isCodeLarge) return <LargeCode s={s} onClose={() => ui.set({ isCodeLarge: false })} />;
   return (
     <div class={`frame ${isWide ? "wide" : ""}`}>
       <header class="top">
-        <div class="grow"><p class="room">{s.views.room.title}</p><StatusLine s={s} /></div>
-        {you ? <button class="me" aria-label={`${t("you")}: ${you.name}`} onClick={() => setYou(true)}><Avatar name={you.name} colour={you.colour} /></button> : null}
+        <div class="grow">
+          <p class="room">{s.views.room.title}</p>
+          <StatusLine s={s} />
+        </div>
+        {you ? (
+          <button class="me" aria-label={`${t("you")}: ${you.name}`} onClick={() => setYou(true)}>
+            <Avatar name={you.name} colour={you.colour} />
+          </button>
+        ) : null}
       </header>
       <Navigation s={s} ui={ui} />
-      {isWide ? <aside aria-label={t("plan")}><Plan s={s} binding={ui.binding ?? { pins: [], onTap: (_, node) => ui.set({ selected: node }) }} selected={ui.selected} label={14} /></aside> : null}
+      {isWide ? (
+        <aside aria-label={t("plan")}>
+          <Plan
+            s={s}
+            binding={ui.binding ?? { pins: [], onTap: (_, node) => ui.set({ selected: node }) }}
+            selected={ui.selected}
+            label={14}
+          />
+        </aside>
+      ) : null}
       <main key={ui.tab}>
         <Notices s={s} />
         <Refusals s={s} />
-        {s.views.room.closed ? <p class="notice" role="status"><b>{t("closed_title")}.</b> {t("closed")}</p> : null}
+        {s.views.room.closed ? (
+          <p class="notice" role="status">
+            <b>{t("closed_title")}.</b> {t("closed")}
+          </p>
+        ) : null}
         {screen_of(s, ui, isWide)}
       </main>
       {isYou && you ? (
@@ -113,7 +150,8 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   document.title = s.views.room.title ?? "BehaviourLinks";
   if (address.isBeamer) return <Beamer s={s} />;
   if (stage === "removed") return <Message title={t("removed_title")} text={t("removed")} />;
-  if (stage === "old") return <Message title={t("old_title")} text={t("old")} action={t("reload")} onAction={() => window.location.reload()} />;
+  if (stage === "old")
+    return <Message title={t("old_title")} text={t("old")} action={t("reload")} onAction={() => window.location.reload()} />;
   if (stage === "door") return <Message title={t("door_title")} text={t("door")} s={s} />;
   const go = (): void => {
     keep(`joined/${address.code}`, "1");
@@ -122,7 +160,11 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   };
   return (
     <>
-      {isIn ? <Frame s={s} ui={ui} onLanguage={change_language} /> : <Join s={s} language={language_now()} onLanguage={change_language} onGo={go} />}
+      {isIn ? (
+        <Frame s={s} ui={ui} onLanguage={change_language} />
+      ) : (
+        <Join s={s} language={language_now()} onLanguage={change_language} onGo={go} />
+      )}
       <Announcer s={s} />
     </>
   );
@@ -136,9 +178,12 @@ function start(): void {
   document.documentElement.lang = locale();
   if (address.code === "") return render(<CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />, root);
   if (address.isBeamer) document.documentElement.classList.add("on-beamer");
-  const views: ViewName[] = address.isBeamer ? ["room", "plan", "figures", "votes", "comments", "proposals"] : ["room", "plan", "figures", "card", "votes"];
+  const views: ViewName[] = address.isBeamer
+    ? ["room", "plan", "figures", "votes", "comments", "proposals"]
+    : ["room", "plan", "figures", "card", "votes"];
   const world = browser_world(socket_address());
-  const prefix = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`, runKey = `${prefix}run`;
+  const prefix = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`,
+    runKey = `${prefix}run`;
   // A new invitation is a new seat, perhaps with another role; the same one leads back to the seat that it gave.
   if (address.invite !== null && world.store.get(`${prefix}invite`) !== address.invite) {
     world.store.remove(`${prefix}token`);
@@ -146,8 +191,16 @@ function start(): void {
   }
   const session = new Session(
     world,
-    { room: address.code, prefix, run: window.sessionStorage.getItem(runKey), lang: locale(), views, invite: world.store.get(`${prefix}invite`) },
-    (run) => window.sessionStorage.setItem(runKey, run), () => window.location.reload(),
+    {
+      room: address.code,
+      prefix,
+      run: window.sessionStorage.getItem(runKey),
+      lang: locale(),
+      views,
+      invite: world.store.get(`${prefix}invite`),
+    },
+    (run) => window.sessionStorage.setItem(runKey, run),
+    () => window.location.reload(),
   );
   const ui = new Ui();
   const turned = (): void => (document.visibilityState === "visible" ? session.connection.wake() : session.connection.sleep());

@@ -47,7 +47,8 @@ export function Icon({ name, class: kind = "" }: { name: IconName; class?: strin
 export function StatusLine({ s }: { s: Session }): JSX.Element {
   useClock(1000);
   const { connection } = s;
-  const n = connection.waiting, away = s.now() - connection.since;
+  const n = connection.waiting,
+    away = s.now() - connection.since;
   const isGone = !connection.isOpen && away > 1000;
   const parts: string[] = [];
   if (connection.isOpen) parts.push(n > 0 ? t("sending", { n }) : t("saved"));
@@ -73,7 +74,13 @@ export function Notices({ s }: { s: Session }): JSX.Element | null {
   if (s.notices.some((notice) => notice.id === "host_away")) out.push(t("notice_host_away"));
   if (s.notices.some((notice) => notice.id === "storage")) out.push(t("notice_storage"));
   if (out.length === 0) return null;
-  return <div class="notice" role="status">{out.map((text) => <p key={text}>{text}</p>)}</div>;
+  return (
+    <div class="notice" role="status">
+      {out.map((text) => (
+        <p key={text}>{text}</p>
+      ))}
+    </div>
+  );
 }
 
 /// What screen readers hear when the state of the connection or of a change turns, once.
@@ -82,7 +89,10 @@ export function Announcer({ s }: { s: Session }): JSX.Element {
   const saved = [...s.marks.values()].filter((mark) => mark.state === "saved").length;
   const [text, say] = useState("");
   const before = useRef({ isOpen, saved, votes: "" });
-  const votes = Object.entries(s.views.votes).filter(([, vote]) => vote.open).map(([, vote]) => vote.question).join("; ");
+  const votes = Object.entries(s.views.votes)
+    .filter(([, vote]) => vote.open)
+    .map(([, vote]) => vote.question)
+    .join("; ");
   useEffect(() => {
     const was = before.current;
     before.current = { isOpen, saved, votes };
@@ -90,7 +100,11 @@ export function Announcer({ s }: { s: Session }): JSX.Element {
     else if (votes !== "" && was.votes !== votes) say(`${t("now_vote")}: ${votes}`);
     else if (saved > was.saved) say(t("state_saved"));
   }, [isOpen, saved, votes]);
-  return <div class="unseen" role="status" aria-live="polite">{text}</div>;
+  return (
+    <div class="unseen" role="status" aria-live="polite">
+      {text}
+    </div>
+  );
 }
 
 // --- States of changes ----------------------------------------------------------------------------------------------
@@ -100,10 +114,26 @@ export function MarkState({ s, mark }: { s: Session; mark: string }): JSX.Elemen
   const one = s.mark(mark);
   if (!one) return <span class="mark" />;
   if (one.state === "sending")
-    return <span class="mark busy"><i class="ring" aria-hidden="true" />{t(s.connection.isOpen ? "state_sending" : "state_waiting")}</span>;
-  if (one.state === "saved") return <span class="mark good"><Icon name="check" />{t("state_saved")}</span>;
+    return (
+      <span class="mark busy">
+        <i class="ring" aria-hidden="true" />
+        {t(s.connection.isOpen ? "state_sending" : "state_waiting")}
+      </span>
+    );
+  if (one.state === "saved")
+    return (
+      <span class="mark good">
+        <Icon name="check" />
+        {t("state_saved")}
+      </span>
+    );
   if (one.state === "elsewhere") return <span class="mark">{t("state_elsewhere")}</span>;
-  return <span class="mark bad"><Icon name="cross" />{t("state_refused")}</span>;
+  return (
+    <span class="mark bad">
+      <Icon name="cross" />
+      {t("state_refused")}
+    </span>
+  );
 }
 
 function labelOf(s: Session, refusal: Refusal): string {
@@ -122,12 +152,32 @@ function RefusalLine({ s, refusal }: { s: Session; refusal: Refusal }): JSX.Elem
   const isStale = answer.why === "stale" && wanted !== null;
   return (
     <li>
-      <p><b>{labelOf(s, refusal)}</b> — {t(key, args)}</p>
-      {isStale && typeof now === "number" ? <p>{t("stale_value", { now: number(now) })} {t("refused_value", { wanted })}</p> : null}
-      {answer.text ? <details><summary>{t("why_details")}</summary><p lang="en">{answer.place ? `${answer.place}: ` : ""}{answer.text}</p></details> : null}
+      <p>
+        <b>{labelOf(s, refusal)}</b> — {t(key, args)}
+      </p>
+      {isStale && typeof now === "number" ? (
+        <p>
+          {t("stale_value", { now: number(now) })} {t("refused_value", { wanted })}
+        </p>
+      ) : null}
+      {answer.text ? (
+        <details>
+          <summary>{t("why_details")}</summary>
+          <p lang="en">
+            {answer.place ? `${answer.place}: ` : ""}
+            {answer.text}
+          </p>
+        </details>
+      ) : null}
       <div class="row">
-        {isStale ? <button class="quiet" onClick={() => s.insist(refusal)}>{t("set_anyway", { wanted })}</button> : null}
-        <button class="quiet" onClick={() => s.dismiss(refusal)}>{t(isStale ? "leave_it" : "understood")}</button>
+        {isStale ? (
+          <button class="quiet" onClick={() => s.insist(refusal)}>
+            {t("set_anyway", { wanted })}
+          </button>
+        ) : null}
+        <button class="quiet" onClick={() => s.dismiss(refusal)}>
+          {t(isStale ? "leave_it" : "understood")}
+        </button>
       </div>
     </li>
   );
@@ -139,7 +189,11 @@ export function Refusals({ s }: { s: Session }): JSX.Element | null {
   return (
     <section class="refusals" role="alert">
       <h2>{t("refused_n", { n: s.refusals.length })}</h2>
-      <ul>{s.refusals.slice(0, 5).map((refusal) => <RefusalLine key={refusal.number} s={s} refusal={refusal} />)}</ul>
+      <ul>
+        {s.refusals.slice(0, 5).map((refusal) => (
+          <RefusalLine key={refusal.number} s={s} refusal={refusal} />
+        ))}
+      </ul>
     </section>
   );
 }
@@ -147,8 +201,16 @@ export function Refusals({ s }: { s: Session }): JSX.Element | null {
 // --- Controls -------------------------------------------------------------------------------------------------------
 
 interface StepperProps {
-  id: string; label: string; value: number | null; minimum: number; maximum: number; step: number; unit: string;
-  isDisabled?: boolean; onChange(value: number): void; isLive?: boolean;
+  id: string;
+  label: string;
+  value: number | null;
+  minimum: number;
+  maximum: number;
+  step: number;
+  unit: string;
+  isDisabled?: boolean;
+  onChange(value: number): void;
+  isLive?: boolean;
 }
 
 /// A slider, two buttons and a typed number for one value: nobody has to be able to drag.
@@ -178,9 +240,18 @@ export function Stepper(props: StepperProps): JSX.Element {
     <div class="stepper">
       <div class="typed">
         <input
-          class="number" id={`${id}-number`} inputMode="decimal" autocomplete="off" enterkeyhint="done" disabled={isDisabled}
-          aria-label={range} aria-invalid={isWrong} size={9} value={typed ?? (value === null ? "" : number(value, step))}
-          onInput={(event) => setTyped(event.currentTarget.value)} onBlur={take}
+          class="number"
+          id={`${id}-number`}
+          inputMode="decimal"
+          autocomplete="off"
+          enterkeyhint="done"
+          disabled={isDisabled}
+          aria-label={range}
+          aria-invalid={isWrong}
+          size={9}
+          value={typed ?? (value === null ? "" : number(value, step))}
+          onInput={(event) => setTyped(event.currentTarget.value)}
+          onBlur={take}
           onKeyDown={(event) => {
             if (event.key === "Enter") take();
             if (event.key === "Escape") setTyped(null);
@@ -189,10 +260,21 @@ export function Stepper(props: StepperProps): JSX.Element {
         <span class="unit">{unit}</span>
       </div>
       <div class="slide">
-        <button class="round" disabled={isDisabled || shown <= minimum} aria-label={t("less", { label })} onClick={() => put(shown - step)}><Icon name="minus" /></button>
+        <button class="round" disabled={isDisabled || shown <= minimum} aria-label={t("less", { label })} onClick={() => put(shown - step)}>
+          <Icon name="minus" />
+        </button>
         <input
-          type="range" id={id} min={minimum} max={maximum} step={step > 0 ? step : "any"} value={shown} disabled={isDisabled} aria-label={label}
-          aria-valuetext={amount(shown, unit, step)} class={value === null ? "unset" : ""} style={{ "--filled": `${filled}%` }}
+          type="range"
+          id={id}
+          min={minimum}
+          max={maximum}
+          step={step > 0 ? step : "any"}
+          value={shown}
+          disabled={isDisabled}
+          aria-label={label}
+          aria-valuetext={amount(shown, unit, step)}
+          class={value === null ? "unset" : ""}
+          style={{ "--filled": `${filled}%` }}
           onInput={(event) => {
             const next = Number(event.currentTarget.value);
             if (props.isLive) put(next);
@@ -200,9 +282,15 @@ export function Stepper(props: StepperProps): JSX.Element {
           }}
           onChange={(event) => put(Number(event.currentTarget.value))}
         />
-        <button class="round" disabled={isDisabled || shown >= maximum} aria-label={t("more", { label })} onClick={() => put(shown + step)}><Icon name="plus" /></button>
+        <button class="round" disabled={isDisabled || shown >= maximum} aria-label={t("more", { label })} onClick={() => put(shown + step)}>
+          <Icon name="plus" />
+        </button>
       </div>
-      {isWrong ? <p class="wrong" role="alert">{range}</p> : null}
+      {isWrong ? (
+        <p class="wrong" role="alert">
+          {range}
+        </p>
+      ) : null}
     </div>
   );
 }
@@ -213,7 +301,8 @@ export function Timer({ s, ends_at }: { s: Session; ends_at: number | undefined 
   const left = ends_at - s.now();
   return (
     <p class={`timer ${left < 30000 ? "late" : ""}`} role="timer">
-      <Icon name="clock" />{left > 0 ? t("time_left", { time: countdown(left) }) : t("time_over")}
+      <Icon name="clock" />
+      {left > 0 ? t("time_left", { time: countdown(left) }) : t("time_over")}
     </p>
   );
 }
@@ -232,7 +321,8 @@ export function Sheet(props: { title: string; onClose(): void; children: Compone
     if (event.key === "Escape") props.onClose();
     if (event.key !== "Tab" || !box.current) return;
     const all = [...box.current.querySelectorAll<HTMLElement>("button, input, select, textarea, summary, a[href]")];
-    const first = all[0], last = all[all.length - 1];
+    const first = all[0],
+      last = all[all.length - 1];
     const at = document.activeElement;
     if (event.shiftKey ? at === first || at === box.current : at === last) {
       event.preventDefault();
@@ -244,7 +334,9 @@ export function Sheet(props: { title: string; onClose(): void; children: Compone
       <div class="sheet" role="dialog" aria-modal="true" aria-label={props.title} tabIndex={-1} ref={box} onKeyDown={keep}>
         <header class="row spread">
           <h2>{props.title}</h2>
-          <button class="round" aria-label={t("close")} onClick={props.onClose}><Icon name="cross" /></button>
+          <button class="round" aria-label={t("close")} onClick={props.onClose}>
+            <Icon name="cross" />
+          </button>
         </header>
         {props.children}
       </div>
@@ -255,13 +347,28 @@ export function Sheet(props: { title: string; onClose(): void; children: Compone
 /// Asks before something that cannot be taken back easily.
 export function Sure(props: { text: string; yes: string; onYes(): void; children: string; class?: string }): JSX.Element {
   const [isAsking, ask] = useState(false);
-  if (!isAsking) return <button class={props.class ?? "quiet"} onClick={() => ask(true)}>{props.children}</button>;
+  if (!isAsking)
+    return (
+      <button class={props.class ?? "quiet"} onClick={() => ask(true)}>
+        {props.children}
+      </button>
+    );
   return (
     <div class="sure" role="group" aria-label={props.text}>
       <p>{props.text}</p>
       <div class="row">
-        <button class="danger" onClick={() => { ask(false); props.onYes(); }}>{props.yes}</button>
-        <button class="quiet" onClick={() => ask(false)}>{t("lead_cancel")}</button>
+        <button
+          class="danger"
+          onClick={() => {
+            ask(false);
+            props.onYes();
+          }}
+        >
+          {props.yes}
+        </button>
+        <button class="quiet" onClick={() => ask(false)}>
+          {t("lead_cancel")}
+        </button>
       </div>
     </div>
   );
@@ -269,19 +376,35 @@ export function Sure(props: { text: string; yes: string; onYes(): void; children
 
 export function StatusWord({ status }: { status: string }): JSX.Element {
   const known = status === "met" || status === "close" ? status : "far";
-  return <span class={`word ${known}`}><i aria-hidden="true" />{t(`status_${known}` as Key)}</span>;
+  return (
+    <span class={`word ${known}`}>
+      <i aria-hidden="true" />
+      {t(`status_${known}` as Key)}
+    </span>
+  );
 }
 
 export function Avatar({ name, colour }: { name: string; colour: string }): JSX.Element {
-  return <span class="avatar" aria-hidden="true" style={{ background: colour }}><span>{name.slice(0, 1)}</span></span>;
+  return (
+    <span class="avatar" aria-hidden="true" style={{ background: colour }}>
+      <span>{name.slice(0, 1)}</span>
+    </span>
+  );
 }
 
 /// Some of several choices, as buttons side by side.
-export function Segments<T extends string>(props: { label: string; value: T; choices: { id: T; text: string }[]; onChange(id: T): void }): JSX.Element {
+export function Segments<T extends string>(props: {
+  label: string;
+  value: T;
+  choices: { id: T; text: string }[];
+  onChange(id: T): void;
+}): JSX.Element {
   return (
     <div class="segments" role="group" aria-label={props.label}>
       {props.choices.map((choice) => (
-        <button key={choice.id} aria-pressed={choice.id === props.value} onClick={() => props.onChange(choice.id)}>{choice.text}</button>
+        <button key={choice.id} aria-pressed={choice.id === props.value} onClick={() => props.onChange(choice.id)}>
+          {choice.text}
+        </button>
       ))}
     </div>
   );

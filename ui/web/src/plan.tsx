@@ -8,9 +8,18 @@ import { Binding, Pin, Ui, useBinding, useWide } from "./ui";
 import type { PlanItem, Point } from "./wire";
 import { t } from "./words";
 
-interface Frame { x: number; y: number; width: number; height: number }
+interface Frame {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
 
-const kMost = 12, kTap = 10, kNear = 14, kLongTap = 600, kMargin = 0.03;
+const kMost = 12,
+  kTap = 10,
+  kNear = 14,
+  kLongTap = 600,
+  kMargin = 0.03;
 const kOrder = ["boundary", "plot", "street", "building", "volume"];
 const extents = new WeakMap<PlanItem, Extent | null>();
 
@@ -34,7 +43,10 @@ export function middle(item: PlanItem): Point | null {
 // The outlines come with y downwards. The box is of the same outlines, but the contract may mean it either way up; the outlines
 // themselves are what has to fit.
 function whole(items: [string, PlanItem][]): Frame {
-  let left = Infinity, right = -Infinity, top = Infinity, bottom = -Infinity;
+  let left = Infinity,
+    right = -Infinity,
+    top = Infinity,
+    bottom = -Infinity;
   for (const [, item] of items) {
     const found = extent(item);
     if (!found) continue;
@@ -50,7 +62,8 @@ function whole(items: [string, PlanItem][]): Frame {
 
 // The part of the plan that fits a window of this shape, at this zoom, kept inside the whole.
 function framed(all: Frame, aspect: number, zoom: number, centre: [number, number]): Frame {
-  let width = all.width, height = all.height;
+  let width = all.width,
+    height = all.height;
   if (width / height > aspect) height = width / aspect;
   else width = height * aspect;
   width /= zoom;
@@ -62,29 +75,42 @@ function framed(all: Frame, aspect: number, zoom: number, centre: [number, numbe
 
 // A finger that misses a small thing narrowly means it all the same.
 function nearest(items: [string, PlanItem][], place: [number, number], reach: number): string | null {
-  let best: string | null = null, least = reach;
+  let best: string | null = null,
+    least = reach;
   for (const [id, item] of items) {
     const found = item.kind === "volume" || item.kind === "building" ? extent(item) : null;
     if (!found) continue;
-    const dx = Math.max(found.x - place[0], 0, place[0] - found.x - found.width), dy = Math.max(found.y - place[1], 0, place[1] - found.y - found.height);
+    const dx = Math.max(found.x - place[0], 0, place[0] - found.x - found.width),
+      dy = Math.max(found.y - place[1], 0, place[1] - found.y - found.height);
     const far = Math.hypot(dx, dy);
     if (far < least) [best, least] = [id, far];
   }
   return best;
 }
 
-interface View { zoom: number; centre: [number, number] }
+interface View {
+  zoom: number;
+  centre: [number, number];
+}
 
 function Shape({ id, item, isSelected }: { id: string; item: PlanItem; isSelected: boolean }): JSX.Element {
   const unmet = item.met === false ? "unmet" : "";
-  return <path class={`shape ${item.kind} ${unmet} ${isSelected ? "selected" : ""}`} data-node={id} d={item.d} fill={item.kind === "street" ? "none" : item.fill} />;
+  return (
+    <path
+      class={`shape ${item.kind} ${unmet} ${isSelected ? "selected" : ""}`}
+      data-node={id}
+      d={item.d}
+      fill={item.kind === "street" ? "none" : item.fill}
+    />
+  );
 }
 
 // In one line, or in the two that are most alike.
 function lines_of(name: string, room: number): string[] {
   const words = name.split(" ");
   if (name.length <= room || words.length < 2) return [name];
-  let best: string[] = [name], least = Infinity;
+  let best: string[] = [name],
+    least = Infinity;
   for (let i = 1; i < words.length; ++i) {
     const lines = [words.slice(0, i).join(" "), words.slice(i).join(" ")];
     const longest = Math.max(...lines.map((line) => line.length));
@@ -97,13 +123,20 @@ function lines_of(name: string, room: number): string[] {
 function Label({ item, unit, size, isFixed }: { item: PlanItem; unit: number; size: number; isFixed: boolean }): JSX.Element | null {
   const found = extent(item);
   if (!found || item.kind === "boundary" || item.kind === "plot" || !item.name) return null;
-  const [x, y] = middle_of(found), isStreet = item.kind === "street";
+  const [x, y] = middle_of(found),
+    isStreet = item.kind === "street";
   for (const font of isFixed ? [size * unit] : [size * unit, size * unit * 0.82]) {
-    const width = isStreet ? Math.max(found.width, found.height) : found.width, room = width / (font * 0.58), lines = lines_of(item.name, room);
+    const width = isStreet ? Math.max(found.width, found.height) : found.width,
+      room = width / (font * 0.58),
+      lines = lines_of(item.name, room);
     if (Math.max(...lines.map((line) => line.length)) > room || (!isStreet && found.height < font * 1.15 * lines.length)) continue;
     return (
       <text class={`name ${item.kind}`} font-size={font} stroke-width={font * 0.22}>
-        {lines.map((line, i) => <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>{line}</tspan>)}
+        {lines.map((line, i) => (
+          <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>
+            {line}
+          </tspan>
+        ))}
       </text>
     );
   }
@@ -115,13 +148,19 @@ function PinShape({ pin, unit, size }: { pin: Pin; unit: number; size: number })
   return (
     <g class={`pin ${pin.tone}`} transform={`translate(${pin.x} ${-pin.y})`}>
       <circle r={r} stroke-width={r * 0.18} />
-      <text font-size={r * 1.15} y={r * 0.4}>{pin.letter}</text>
+      <text font-size={r * 1.15} y={r * 0.4}>
+        {pin.letter}
+      </text>
     </g>
   );
 }
 
 export interface PlanProps {
-  s: Session; binding: Binding | null; selected: string | null; label?: number; isStill?: boolean;
+  s: Session;
+  binding: Binding | null;
+  selected: string | null;
+  label?: number;
+  isStill?: boolean;
 }
 
 export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): JSX.Element {
@@ -129,7 +168,9 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
   const [size, setSize] = useState<[number, number]>([360, 300]);
   const [view, setView] = useState<View>({ zoom: 1, centre: [0, 0] });
   const items = s.plan().sort((a, b) => kOrder.indexOf(a[1].kind) - kOrder.indexOf(b[1].kind));
-  const all = whole(items), frame = framed(all, size[0] / size[1], view.zoom, view.centre), unit = frame.width / size[0];
+  const all = whole(items),
+    frame = framed(all, size[0] / size[1], view.zoom, view.centre),
+    unit = frame.width / size[0];
 
   useLayoutEffect(() => {
     const measure = (): void => {
@@ -149,7 +190,8 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
   const live = useRef({ frame, view, all, size });
   live.current = { frame, view, all, size };
   const at = (clientX: number, clientY: number): [number, number] => {
-    const rect = box.current?.getBoundingClientRect(), { frame: now } = live.current;
+    const rect = box.current?.getBoundingClientRect(),
+      { frame: now } = live.current;
     if (!rect || rect.width === 0) return [now.x, now.y];
     return [now.x + ((clientX - rect.left) / rect.width) * now.width, now.y + ((clientY - rect.top) / rect.height) * now.height];
   };
@@ -158,7 +200,8 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
     setView((old) => {
       const { all: now, size: shape } = live.current;
       const before = framed(now, shape[0] / shape[1], old.zoom, old.centre);
-      const zoom = Math.min(kMost, Math.max(1, old.zoom * factor)), ratio = old.zoom / zoom;
+      const zoom = Math.min(kMost, Math.max(1, old.zoom * factor)),
+        ratio = old.zoom / zoom;
       const middleOf: [number, number] = [before.x + before.width / 2, before.y + before.height / 2];
       return { zoom, centre: [fixed[0] + (middleOf[0] - fixed[0]) * ratio, fixed[1] + (middleOf[1] - fixed[1]) * ratio] };
     });
@@ -170,8 +213,21 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
       return { ...old, centre: [before.x + before.width / 2 + dx, before.y + before.height / 2 + dy] };
     });
 
-  useFingers(box, { at, zoomAt, moveBy, isStill: isStill ?? false, zoom: () => live.current.view.zoom, unit: () => live.current.frame.width / live.current.size[0] }, (place, node) =>
-    binding?.onTap([round(place[0]), round(-place[1]), 0], node ?? nearest(items, place, kNear * (live.current.frame.width / live.current.size[0]))),
+  useFingers(
+    box,
+    {
+      at,
+      zoomAt,
+      moveBy,
+      isStill: isStill ?? false,
+      zoom: () => live.current.view.zoom,
+      unit: () => live.current.frame.width / live.current.size[0],
+    },
+    (place, node) =>
+      binding?.onTap(
+        [round(place[0]), round(-place[1]), 0],
+        node ?? nearest(items, place, kNear * (live.current.frame.width / live.current.size[0])),
+      ),
   );
 
   // What is chosen elsewhere comes into sight.
@@ -196,32 +252,56 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
   const count = items.filter(([, item]) => item.kind === "volume" || item.kind === "building").length;
   const viewBox = `${frame.x} ${frame.y} ${frame.width} ${frame.height}`;
   return (
-    <div style={{ "--aspect": `${all.width / all.height}` }} class={`plan ${view.zoom > 1 ? "zoomed" : ""} ${isStill ? "still" : ""}`} onKeyDown={isStill ? undefined : keys}>
+    <div
+      style={{ "--aspect": `${all.width / all.height}` }}
+      class={`plan ${view.zoom > 1 ? "zoomed" : ""} ${isStill ? "still" : ""}`}
+      onKeyDown={isStill ? undefined : keys}
+    >
       <div class="paper" ref={box}>
         {items.length === 0 ? <p class="empty">{t("no_plan")}</p> : null}
         <svg viewBox={viewBox} role="img" aria-label={t("plan_of", { n: count })}>
-          {items.map(([id, item]) => <Shape key={id} id={id} item={item} isSelected={id === selected} />)}
-          {items.map(([id, item]) => <Label key={id} item={item} unit={unit} size={label} isFixed={isStill ?? false} />)}
-          {(binding?.pins ?? []).map((pin) => <PinShape key={pin.id} pin={pin} unit={unit} size={label} />)}
+          {items.map(([id, item]) => (
+            <Shape key={id} id={id} item={item} isSelected={id === selected} />
+          ))}
+          {items.map(([id, item]) => (
+            <Label key={id} item={item} unit={unit} size={label} isFixed={isStill ?? false} />
+          ))}
+          {(binding?.pins ?? []).map((pin) => (
+            <PinShape key={pin.id} pin={pin} unit={unit} size={label} />
+          ))}
         </svg>
       </div>
       {isStill ? null : (
         <div class="zoom" role="group" aria-label={t("plan")}>
-          <button class="round" aria-label={t("zoom_in")} disabled={view.zoom >= kMost} onClick={() => zoomAt(1.6, centre())}><Icon name="plus" /></button>
-          <button class="round" aria-label={t("zoom_out")} disabled={view.zoom <= 1} onClick={() => zoomAt(1 / 1.6, centre())}><Icon name="minus" /></button>
+          <button class="round" aria-label={t("zoom_in")} disabled={view.zoom >= kMost} onClick={() => zoomAt(1.6, centre())}>
+            <Icon name="plus" />
+          </button>
+          <button class="round" aria-label={t("zoom_out")} disabled={view.zoom <= 1} onClick={() => zoomAt(1 / 1.6, centre())}>
+            <Icon name="minus" />
+          </button>
           {view.zoom > 1 ? (
             <>
-              <button class="round" aria-label={t("zoom_all")} onClick={() => setView({ zoom: 1, centre: [0, 0] })}><Icon name="all" /></button>
+              <button class="round" aria-label={t("zoom_all")} onClick={() => setView({ zoom: 1, centre: [0, 0] })}>
+                <Icon name="all" />
+              </button>
             </>
           ) : null}
         </div>
       )}
       {view.zoom > 1 && !isStill ? (
         <div class="pad" role="group" aria-label={t("plan")}>
-          <button class="round" aria-label={t("move_left")} onClick={() => moveBy(-frame.width / 4, 0)}><Icon name="left" /></button>
-          <button class="round" aria-label={t("move_up")} onClick={() => moveBy(0, -frame.height / 4)}><Icon name="up" /></button>
-          <button class="round" aria-label={t("move_down")} onClick={() => moveBy(0, frame.height / 4)}><Icon name="down" /></button>
-          <button class="round" aria-label={t("move_right")} onClick={() => moveBy(frame.width / 4, 0)}><Icon name="right" /></button>
+          <button class="round" aria-label={t("move_left")} onClick={() => moveBy(-frame.width / 4, 0)}>
+            <Icon name="left" />
+          </button>
+          <button class="round" aria-label={t("move_up")} onClick={() => moveBy(0, -frame.height / 4)}>
+            <Icon name="up" />
+          </button>
+          <button class="round" aria-label={t("move_down")} onClick={() => moveBy(0, frame.height / 4)}>
+            <Icon name="down" />
+          </button>
+          <button class="round" aria-label={t("move_right")} onClick={() => moveBy(frame.width / 4, 0)}>
+            <Icon name="right" />
+          </button>
         </div>
       ) : null}
     </div>
@@ -231,12 +311,20 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
 const round = (value: number): number => Math.round(value * 10) / 10;
 
 interface Moves {
-  at(x: number, y: number): [number, number]; zoomAt(factor: number, fixed: [number, number]): void; moveBy(dx: number, dy: number): void;
-  zoom(): number; unit(): number; isStill: boolean;
+  at(x: number, y: number): [number, number];
+  zoomAt(factor: number, fixed: [number, number]): void;
+  moveBy(dx: number, dy: number): void;
+  zoom(): number;
+  unit(): number;
+  isStill: boolean;
 }
 
 // Fingers, pen and mouse: one moves the plan where it is enlarged, two enlarge it, a short touch asks.
-function useFingers(box: { current: HTMLDivElement | null }, moves: Moves, tap: (place: [number, number], node: string | null) => void): void {
+function useFingers(
+  box: { current: HTMLDivElement | null },
+  moves: Moves,
+  tap: (place: [number, number], node: string | null) => void,
+): void {
   const latest = useRef({ moves, tap });
   latest.current = { moves, tap };
   useEffect(() => {
@@ -251,13 +339,15 @@ function useFingers(box: { current: HTMLDivElement | null }, moves: Moves, tap: 
     const move = (event: PointerEvent): void => {
       const before = fingers.get(event.pointerId);
       if (!before) return;
-      const { moves: now } = latest.current, others = [...fingers].filter(([id]) => id !== event.pointerId).map(([, point]) => point);
+      const { moves: now } = latest.current,
+        others = [...fingers].filter(([id]) => id !== event.pointerId).map(([, point]) => point);
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
       const other = others[0];
       if (other) {
         const length = (point: [number, number]): number => Math.hypot(point[0] - other[0], point[1] - other[1]);
         const from = length(before);
-        if (from > 0) now.zoomAt(length([event.clientX, event.clientY]) / from, now.at((event.clientX + other[0]) / 2, (event.clientY + other[1]) / 2));
+        if (from > 0)
+          now.zoomAt(length([event.clientX, event.clientY]) / from, now.at((event.clientX + other[0]) / 2, (event.clientY + other[1]) / 2));
         return;
       }
       if (start && Math.hypot(event.clientX - start.x, event.clientY - start.y) > kTap) {

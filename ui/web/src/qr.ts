@@ -1,10 +1,18 @@
 // QR codes of short texts: byte mode, error correction M, versions 1 to 6 (ISO/IEC 18004).
 
 /// Codewords in all, error correction codewords of a block, and blocks, by version.
-const kVersions: [number, number, number][] = [[26, 10, 1], [44, 16, 1], [70, 26, 1], [100, 18, 2], [134, 24, 2], [172, 16, 4]];
+const kVersions: [number, number, number][] = [
+  [26, 10, 1],
+  [44, 16, 1],
+  [70, 26, 1],
+  [100, 18, 2],
+  [134, 24, 2],
+  [172, 16, 4],
+];
 
 // The field with 256 elements over x^8 + x^4 + x^3 + x^2 + 1.
-const kPower: number[] = [], kLog: number[] = [];
+const kPower: number[] = [],
+  kLog: number[] = [];
 for (let i = 0, x = 1; i < 255; ++i) {
   kPower[i] = x;
   kLog[x] = i;
@@ -31,7 +39,8 @@ function remainder(data: number[], degree: number): number[] {
 }
 
 function codewords(bytes: Uint8Array, total: number, correction: number, blocks: number): number[] {
-  const capacity = total - correction * blocks, bits: number[] = [];
+  const capacity = total - correction * blocks,
+    bits: number[] = [];
   const put = (value: number, count: number): void => {
     for (let i = count - 1; i >= 0; --i) bits.push((value >> i) & 1);
   };
@@ -44,13 +53,16 @@ function codewords(bytes: Uint8Array, total: number, correction: number, blocks:
   for (let i = 0; i < bits.length; i += 8) data.push(parseInt(bits.slice(i, i + 8).join(""), 2));
   for (let i = 0; data.length < capacity; ++i) data.push(i % 2 === 0 ? 0xec : 0x11);
   // In these versions all blocks have one length but those of none; the longer ones come last.
-  const short = Math.floor(capacity / blocks), longer = capacity % blocks, parts: number[][] = [];
+  const short = Math.floor(capacity / blocks),
+    longer = capacity % blocks,
+    parts: number[][] = [];
   for (let i = 0, at = 0; i < blocks; ++i) {
     const length = short + (i >= blocks - longer ? 1 : 0);
     parts.push(data.slice(at, at + length));
     at += length;
   }
-  const checks = parts.map((part) => remainder(part, correction)), out: number[] = [];
+  const checks = parts.map((part) => remainder(part, correction)),
+    out: number[] = [];
   for (let i = 0; i <= short; ++i) for (const part of parts) if (i < part.length) out.push(part[i] ?? 0);
   for (let i = 0; i < correction; ++i) for (const check of checks) out.push(check[i] ?? 0);
   return out;
@@ -64,7 +76,11 @@ function frame(size: number): Matrix {
     const row = matrix[y];
     if (row && x >= 0 && x < size) row[x] = dark;
   };
-  for (const [cx, cy] of [[3, 3], [size - 4, 3], [3, size - 4]] as const)
+  for (const [cx, cy] of [
+    [3, 3],
+    [size - 4, 3],
+    [3, size - 4],
+  ] as const)
     for (let dy = -4; dy <= 4; ++dy)
       for (let dx = -4; dx <= 4; ++dx) {
         const ring = Math.max(Math.abs(dx), Math.abs(dy));
@@ -75,7 +91,8 @@ function frame(size: number): Matrix {
     set(6, i, i % 2 === 0);
   }
   if (size > 21)
-    for (let dy = -2; dy <= 2; ++dy) for (let dx = -2; dx <= 2; ++dx) set(size - 7 + dx, size - 7 + dy, Math.max(Math.abs(dx), Math.abs(dy)) !== 1);
+    for (let dy = -2; dy <= 2; ++dy)
+      for (let dx = -2; dx <= 2; ++dx) set(size - 7 + dx, size - 7 + dy, Math.max(Math.abs(dx), Math.abs(dy)) !== 1);
   write_format(matrix, 0);
   return matrix;
 }
@@ -102,15 +119,23 @@ function write_format(matrix: Matrix, mask: number): void {
 }
 
 const kMasks: ((x: number, y: number) => boolean)[] = [
-  (x, y) => (x + y) % 2 === 0, (_, y) => y % 2 === 0, (x) => x % 3 === 0, (x, y) => (x + y) % 3 === 0,
-  (x, y) => (Math.floor(y / 2) + Math.floor(x / 3)) % 2 === 0, (x, y) => ((x * y) % 2) + ((x * y) % 3) === 0,
-  (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2 === 0, (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2 === 0,
+  (x, y) => (x + y) % 2 === 0,
+  (_, y) => y % 2 === 0,
+  (x) => x % 3 === 0,
+  (x, y) => (x + y) % 3 === 0,
+  (x, y) => (Math.floor(y / 2) + Math.floor(x / 3)) % 2 === 0,
+  (x, y) => ((x * y) % 2) + ((x * y) % 3) === 0,
+  (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2 === 0,
+  (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2 === 0,
 ];
 
 // Two columns at a time from the right, upwards and downwards in turn, past the column of the timing pattern.
 function fill(matrix: Matrix, data: number[], mask: number): Matrix {
-  const size = matrix.length, out = matrix.map((row) => [...row]), isMasked = kMasks[mask] ?? (() => false);
-  let at = 0, isUp = true;
+  const size = matrix.length,
+    out = matrix.map((row) => [...row]),
+    isMasked = kMasks[mask] ?? (() => false);
+  let at = 0,
+    isUp = true;
   for (let right = size - 1; right >= 1; right -= 2) {
     if (right === 6) right = 5;
     for (let i = 0; i < size; ++i) {
@@ -131,11 +156,15 @@ function fill(matrix: Matrix, data: number[], mask: number): Matrix {
 
 // How hard a code is to read, by the four rules of the standard.
 function penalty(matrix: Matrix): number {
-  const size = matrix.length, at = (x: number, y: number): boolean => matrix[y]?.[x] === true;
-  let sum = 0, dark = 0;
+  const size = matrix.length,
+    at = (x: number, y: number): boolean => matrix[y]?.[x] === true;
+  let sum = 0,
+    dark = 0;
   for (const isRow of [true, false])
     for (let a = 0; a < size; ++a) {
-      let run = 0, before: boolean | null = null, line = "";
+      let run = 0,
+        before: boolean | null = null,
+        line = "";
       for (let b = 0; b < size; ++b) {
         const now = isRow ? at(b, a) : at(a, b);
         line += now ? "1" : "0";
@@ -161,10 +190,13 @@ export function qr_code(text: string): boolean[][] | null {
   const version = kVersions.findIndex(([total, correction, blocks]) => bytes.length + 2 <= total - correction * blocks);
   const found = kVersions[version];
   if (!found) return null;
-  const data = codewords(bytes, ...found), empty = frame(21 + 4 * version);
-  let best: Matrix | null = null, least = Infinity;
+  const data = codewords(bytes, ...found),
+    empty = frame(21 + 4 * version);
+  let best: Matrix | null = null,
+    least = Infinity;
   for (let mask = 0; mask < 8; ++mask) {
-    const matrix = fill(empty, data, mask), cost = penalty(matrix);
+    const matrix = fill(empty, data, mask),
+      cost = penalty(matrix);
     if (cost < least) [best, least] = [matrix, cost];
   }
   return best ? best.map((row) => row.map((dark) => dark === true)) : null;

@@ -10,12 +10,25 @@ export interface Store {
 }
 
 /// One operation. `at` is when the person acted [ms since 1970]; `mark` and `shown` tell the page which control it came from.
-export interface Item { id: number; deed: Deed; base: number; at: number; seen?: Seen[]; mark?: string; shown?: Json }
+export interface Item {
+  id: number;
+  deed: Deed;
+  base: number;
+  at: number;
+  seen?: Seen[];
+  mark?: string;
+  shown?: Json;
+}
 
-interface RunRecord { next: number; owner: string; at: number }
+interface RunRecord {
+  next: number;
+  owner: string;
+  at: number;
+}
 
 /// A page that has not said for so long that it lives is gone [ms].
 export const kLease = 6000;
+const kForgotten = 24 * 3600 * 1000;
 
 function parsed<T>(text: string | null): T | null {
   if (text === null) return null;
@@ -33,7 +46,12 @@ export class Queue {
   isKept = true;
   private next = 1;
 
-  private constructor(private store: Store, private prefix: string, readonly run: string, private owner: string) {}
+  private constructor(
+    private store: Store,
+    private prefix: string,
+    readonly run: string,
+    private owner: string,
+  ) {}
 
   /// Takes a run for the page `owner`, with what is left in it; nothing where another living page has it.
   static take(store: Store, prefix: string, run: string, owner: string, now: number): Queue | null {
@@ -63,6 +81,32 @@ export class Queue {
     });
   }
 
+  /// A run that nobody has had before.
+  static fresh(store: Store, prefix: string, run: string, owner: string, now: number): Queue {
+    const queue = Queue.take(store, prefix, run, owner, now);
+    if (!queue) throw new Error("a new run has an owner already");
+    return queue;
+  }
+
+  /// What a page that has gone has left unanswered; nothing where all is answered.
+  static leftOver(store: Store, prefix: string, owner: string, now: number): Queue | null {
+    for (const run of Queue.left(store, prefix, now)) {
+      const queue = Queue.take(store, prefix, run, owner, now);
+      if (queue && queue.items.length > 0) return queue;
+    }
+    return null;
+  }
+
+  /// Forgets runs of pages that have gone long ago and left nothing.
+  static tidy(store: Store, prefix: string, now: number): void {
+    const used = new Set(Queue.left(store, prefix, now));
+    const start = `${prefix}run/`;
+    for (const key of store.keys()) {
+      const record = key.startsWith(start) ? parsed<RunRecord>(store.get(key)) : null;
+      if (record && now - record.at > kForgotten && !used.has(key.slice(start.length))) store.remove(key);
+    }
+  }
+
   isOurs(): boolean {
     const record = parsed<RunRecord>(this.store.get(`${this.prefix}run/${this.run}`));
     return !this.isKept || (record !== null && record.owner === this.owner);
@@ -74,8 +118,8 @@ export class Queue {
   }
 
   /// The page ends: the next one may take the run at once.
-  release(): void {
-    if (this.isOurs() && this.isKept) this.write({ next: this.next, owner: "", at: 0 });
+  release(now: number): void {
+    if (this.isOurs() && this.isKept) this.write({ next: this.next, owner: "", at: now });
   }
 
   add(deed: Deed, base: number, at: number, more: { seen?: Seen[]; mark?: string; shown?: Json }): Item {

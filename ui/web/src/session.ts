@@ -1,17 +1,31 @@
 // What the page knows of its room: the views that the server sends, and how each own change stands.
-import { Answer, Connection, Options, World } from "./connection";
+import { Connection } from "./connection";
 import type { Item } from "./queue";
 import type { Deed, Json, PlanItem, Seen, StateMessage, ViewName, Views, Welcome, You } from "./wire";
+import type { Answer, Options, World } from "./world";
 import type { Key } from "./words";
 
 /// How the last change by one control stands.
-export interface Mark { state: "sending" | "saved" | "refused" | "elsewhere"; shown?: Json; at: number; seq: number }
+export interface Mark {
+  state: "sending" | "saved" | "refused" | "elsewhere";
+  shown?: Json;
+  at: number;
+  seq: number;
+}
 /// A change that was not taken, until the person has seen it.
-export interface Refusal { number: number; item: Item; answer: Answer & { kind: "refused" } }
-export interface Notice { id: string; at: number }
+export interface Refusal {
+  number: number;
+  item: Item;
+  answer: Answer & { kind: "refused" };
+}
+export interface Notice {
+  id: string;
+  at: number;
+}
 
 const kEmpty = (): Views => ({ room: {}, plan: {}, figures: {}, card: {}, votes: {}, comments: {}, proposals: {}, drafts: {} });
-const kNoticeTime = 20000, kMarkTime = 6000;
+const kNoticeTime = 20000,
+  kMarkTime = 6000;
 
 export class Session {
   views: Views = kEmpty();
@@ -21,16 +35,21 @@ export class Session {
   refusals: Refusal[] = [];
   notices: Notice[] = [];
   announcement = "";
-  latest = 0;                       ///< when the last message of the server came [ms since 1970]
+  latest = 0; ///< when the last message of the server came [ms since 1970]
   readonly connection: Connection;
-  private stale = new Set<ViewName>();   // views whose next message has all of them
+  private stale = new Set<ViewName>(); // views whose next message has all of them
   private past: { at: number; seq: number }[] = [];
   private watchers = new Set<() => void>();
   private due = false;
   private refused = 0;
-  private read = new Map<ViewName, number>();  // the last entry that each view has read
+  private read = new Map<ViewName, number>(); // the last entry that each view has read
 
-  constructor(private world: World, options: Options, private keepRun: (run: string) => void, reload: () => void) {
+  constructor(
+    private world: World,
+    options: Options,
+    private keepRun: (run: string) => void,
+    reload: () => void,
+  ) {
     this.connection = new Connection(world, options, {
       changed: () => this.tell(),
       welcomed: (welcome) => this.welcomed(welcome),
@@ -145,7 +164,8 @@ export class Session {
 
   private welcomed(welcome: Welcome): void {
     this.you = welcome.you;
-    if (!this.views.room.title) this.views = { ...this.views, room: { ...this.views.room, title: welcome.room.title, code: welcome.room.code } };
+    if (!this.views.room.title)
+      this.views = { ...this.views, room: { ...this.views.room, title: welcome.room.title, code: welcome.room.code } };
     for (const view of Object.keys(this.views) as ViewName[]) this.stale.add(view);
     this.keepRun(this.connection.queue.run);
     this.touch();
@@ -217,16 +237,26 @@ export class Session {
 export function subject_of(item: Item): Key {
   const kind = (item.mark ?? "").split("/")[0];
   switch (kind) {
-    case "control": return "what_control";
-    case "vote": return "what_vote";
-    case "comment": return "what_comment";
-    case "rating": return "what_rating";
-    case "draft": return "what_draft";
-    case "propose": return "what_propose";
-    case "form": return "what_form";
-    case "undo": return "what_undo";
-    case "lead": return "what_lead";
-    default: return "what_op";
+    case "control":
+      return "what_control";
+    case "vote":
+      return "what_vote";
+    case "comment":
+      return "what_comment";
+    case "rating":
+      return "what_rating";
+    case "draft":
+      return "what_draft";
+    case "propose":
+      return "what_propose";
+    case "form":
+      return "what_form";
+    case "undo":
+      return "what_undo";
+    case "lead":
+      return "what_lead";
+    default:
+      return "what_op";
   }
 }
 
@@ -237,7 +267,11 @@ export function why_of(answer: Answer & { kind: "refused" }): { key: Key; args: 
     const value = args[name];
     return typeof value === "string" || typeof value === "number" ? value : null;
   };
-  const holder = text("holder"), minimum = text("minimum"), maximum = text("maximum"), by = text("by"), most = text("most");
+  const holder = text("holder"),
+    minimum = text("minimum"),
+    maximum = text("maximum"),
+    by = text("by"),
+    most = text("most");
   if (why === "area" && holder !== null) return { key: "why_area_pen", args: { holder, area: text("area") ?? "" } };
   if (why === "range" && minimum !== null && maximum !== null) return { key: "why_range_from", args: { minimum, maximum } };
   if (why === "stale" && by !== null) return { key: "why_stale_by", args: { by } };

@@ -5,20 +5,30 @@ import type { Ballot, Point } from "./wire";
 export type Tab = "now" | "plan" | "card" | "votes" | "ideas" | "lead" | "form" | "you";
 
 /// A mark on the plan. `letter` is short; `tone` is a class of the style sheet.
-export interface Pin { id: string; x: number; y: number; letter: string; tone: string; label: string }
-export interface Binding { pins: Pin[]; onTap(place: Point, node: string | null): void }
+export interface Pin {
+  id: string;
+  x: number;
+  y: number;
+  letter: string;
+  tone: string;
+  label: string;
+}
+export interface Binding {
+  pins: Pin[];
+  onTap(place: Point, node: string | null): void;
+}
 
 export class Ui {
   tab: Tab = "now";
-  selected: string | null = null;         ///< a node
-  place: Point | null = null;             ///< of a comment or a form that is being written
-  parent: string | null = null;           ///< the comment that is being answered
+  selected: string | null = null; ///< a node
+  place: Point | null = null; ///< of a comment or a form that is being written
+  parent: string | null = null; ///< the comment that is being answered
   isWriting = false;
   part: "comments" | "proposals" = "comments";
   draft: { id: string; title: string } | null = null;
   ballots: Record<string, Ballot | null> = {};
   isCodeLarge = false;
-  binding: Binding | null = null;         ///< of the plan that stands beside the screen
+  binding: Binding | null = null; ///< of the plan that stands beside the screen
   private watchers = new Set<() => void>();
 
   set(change: Partial<Ui>): void {
@@ -51,7 +61,8 @@ export function useWatched(...sources: { watch(watcher: () => void): () => void 
 export function useMedia(query: string): boolean {
   const [matches, set] = useState(() => window.matchMedia(query).matches);
   useEffect(() => {
-    const media = window.matchMedia(query), change = () => set(media.matches);
+    const media = window.matchMedia(query),
+      change = () => set(media.matches);
     change();
     media.addListener(change);
     return () => media.removeListener(change);

@@ -14,7 +14,8 @@ export const kLanguages: Language[] = ["en", "nl", "de", "ko"];
 const kAccents: Record<string, string> = { a: "á", e: "ë", i: "ï", o: "ö", u: "ü", A: "Á", E: "Ë", I: "Ï", O: "Ö", U: "Ü", n: "ñ", s: "š" };
 
 function marked(text: string): string {
-  let inside = false, out = "";
+  let inside = false,
+    out = "";
   for (const letter of text) {
     if (letter === "{") inside = true;
     if (letter === "}") inside = false;

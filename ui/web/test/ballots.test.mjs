@@ -38,23 +38,29 @@ test("what names options that are gone is left out", () => {
 test("random steps keep rankings without doubles, and coins within what there is", () => {
   const chance = seeded(7);
   for (let round = 0; round < 200; ++round) {
-    let ranked = [], put = {};
+    let ranked = [],
+      put = {};
     for (let step = 0; step < 60; ++step) {
-      const id = options[Math.floor(chance() * 4)].id, by = chance() < 0.5 ? -1 : 1;
+      const id = options[Math.floor(chance() * 4)].id,
+        by = chance() < 0.5 ? -1 : 1;
       ranked = chance() < 0.4 ? rank_added(question("rank"), ranked, id) : rank_moved(question("rank"), ranked, id, by);
       assert.equal(new Set(ranked).size, ranked.length);
       const before = coins_left(question("coins"), put);
       put = coins_put(question("coins"), put, id, by);
       const left = coins_left(question("coins"), put);
       assert.ok(left >= 0 && left <= 10 && Math.abs(left - before) <= 1);
-      assert.ok(Object.values(put).every((n) => Number.isInteger(n) && n > 0), "coins of 0 are left out");
+      assert.ok(
+        Object.values(put).every((n) => Number.isInteger(n) && n > 0),
+        "coins of 0 are left out",
+      );
     }
   }
 });
 
 test("moving up and down again changes nothing", () => {
   const ranked = ["a", "b", "c", "d"];
-  for (const id of ["b", "c", "d"]) assert.deepEqual(rank_moved(question("rank"), rank_moved(question("rank"), ranked, id, -1), id, 1), ranked);
+  for (const id of ["b", "c", "d"])
+    assert.deepEqual(rank_moved(question("rank"), rank_moved(question("rank"), ranked, id, -1), id, 1), ranked);
   assert.deepEqual(rank_moved(question("rank"), ranked, "a", -1), ranked, "the first stays");
 });
 

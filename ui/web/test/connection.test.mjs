@@ -19,12 +19,21 @@ class Page {
     this.clock = clock;
     this.connection = new Connection(
       {
-        now: () => clock.time, set: (delay, then) => clock.set(delay, then, this), clear: (id) => clock.clear(id),
-        open: () => network.open(this), store, chance, name: () => `name${++names}`, isVisible: () => this.isVisible,
+        now: () => clock.time,
+        set: (delay, then) => clock.set(delay, then, this),
+        clear: (id) => clock.clear(id),
+        open: () => network.open(this),
+        store,
+        chance,
+        name: () => `name${++names}`,
+        isVisible: () => this.isVisible,
       },
       { room: "BCDF", prefix: "bl1/BCDF/", run, lang: "en", views: ["room"], invite },
       {
-        changed: () => {}, welcomed: () => this.welcomes++, told: () => {}, reload: () => this.reloads++,
+        changed: () => {},
+        welcomed: () => this.welcomes++,
+        told: () => {},
+        reload: () => this.reloads++,
         answered: (item, answer) => this.answers.push({ id: item.id, value: item.deed.c?.arguments.value, ...answer }),
       },
     );
@@ -46,12 +55,15 @@ class Page {
 }
 
 function setting(seed = 1) {
-  const clock = new Clock(), room = new Room(), network = new Network(clock, room, seeded(seed));
+  const clock = new Clock(),
+    room = new Room(),
+    network = new Network(clock, room, seeded(seed));
   return { clock, room, network, store: new MemoryStore() };
 }
 
 function expect_each_once(room, pages, values) {
-  const applied = room.applied.map((one) => one.value), wanted = values.filter((value) => value !== "no");
+  const applied = room.applied.map((one) => one.value),
+    wanted = values.filter((value) => value !== "no");
   assert.deepEqual([...applied].sort(), [...wanted].sort(), "each operation is applied exactly once");
   const told = pages.flatMap((page) => page.answers).filter((answer) => answer.kind !== "elsewhere");
   const saved = told.filter((answer) => answer.kind === "saved").map((answer) => answer.value);
@@ -66,15 +78,20 @@ test("operations are answered once, in order", () => {
   for (const value of [1, 2, "no", 3]) page.say(value);
   clock.run(1000);
   expect_each_once(room, [page], [1, 2, "no", 3]);
-  assert.deepEqual(page.answers.map((answer) => answer.id), [1, 2, 3, 4]);
+  assert.deepEqual(
+    page.answers.map((answer) => answer.id),
+    [1, 2, 3, 4],
+  );
   assert.equal(page.connection.waiting, 0);
 });
 
 test("random faults: sockets break, messages vanish and double, pages freeze and reload", () => {
   for (let seed = 1; seed <= 60; ++seed) {
-    const { clock, room, network, store } = setting(seed), chance = network.chance;
+    const { clock, room, network, store } = setting(seed),
+      chance = network.chance;
     let page = new Page(network, store);
-    const pages = [page], values = [];
+    const pages = [page],
+      values = [];
     network.breaks = 0.05;
     network.dropSent = network.dropHeard = 0.3;
     network.double = 0.1;
@@ -124,15 +141,21 @@ test("a thousand operations wait through an outage and a reload", () => {
   network.isDown = false;
   clock.run(200000);
   expect_each_once(room, [page, next], values);
-  assert.deepEqual(room.applied.map((one) => one.value), values, "in order");
+  assert.deepEqual(
+    room.applied.map((one) => one.value),
+    values,
+    "in order",
+  );
   assert.ok(next.connection.queue.isKept);
 });
 
 test("one answer for many operations is enough", () => {
   const { clock, room, network, store } = setting();
-  const page = new Page(network, store), receive = room.receive.bind(room);
+  const page = new Page(network, store),
+    receive = room.receive.bind(room);
   clock.run(200);
-  room.receive = (link, message) => receive({ run: link.run, tell: (told) => link.tell(told.t === "ack" ? { ...told, id: room.runs.get(link.run).last } : told) }, message);
+  room.receive = (link, message) =>
+    receive({ run: link.run, tell: (told) => link.tell(told.t === "ack" ? { ...told, id: room.runs.get(link.run).last } : told) }, message);
   network.latency = 100;
   for (const value of [1, 2, 3, 4]) page.say(value);
   clock.run(30000);
@@ -151,7 +174,8 @@ test("a sender stays below the limits of the server", () => {
 
 test("two tabs have two runs, and the one that closes leaves its rest to the other", () => {
   const { clock, room, network, store } = setting();
-  const first = new Page(network, store), second = new Page(network, store, { run: first.connection.queue.run });
+  const first = new Page(network, store),
+    second = new Page(network, store, { run: first.connection.queue.run });
   assert.notEqual(first.connection.queue.run, second.connection.queue.run, "a copied tab does not share the numbers");
   clock.run(500);
   network.isDown = true;
@@ -183,13 +207,17 @@ test("a tab that was frozen while another took its run goes on with a run of its
   first.say("b");
   clock.run(20000);
   assert.deepEqual(room.applied.map((one) => one.value).sort(), ["a", "b"]);
-  assert.deepEqual(first.answers.map((answer) => answer.kind), ["elsewhere", "saved"]);
+  assert.deepEqual(
+    first.answers.map((answer) => answer.kind),
+    ["elsewhere", "saved"],
+  );
   assert.equal(second.answers.length, 1);
 });
 
 test("an operation that waited for more than a minute carries what the person saw", () => {
   const { clock, room, network, store } = setting();
-  const page = new Page(network, store), seen = [{ key: "nodes/a/name", was: "A" }];
+  const page = new Page(network, store),
+    seen = [{ key: "nodes/a/name", was: "A" }];
   clock.run(200);
   page.say("at once", { seen });
   clock.run(200);
@@ -237,11 +265,11 @@ test("a page that wakes from a freeze keeps a socket that lives", () => {
   const page = new Page(network, store);
   clock.run(4990);
   const opened = network.opened;
-  clock.run(20);           // the ping is out
+  clock.run(20); // the ping is out
   page.isFrozen = true;
   clock.run(30000);
   page.isFrozen = false;
-  clock.run(0);            // the late timer runs before the messages are read
+  clock.run(0); // the late timer runs before the messages are read
   page.thaw.splice(0).forEach((then) => then());
   clock.run(3000);
   assert.equal(network.opened, opened);
@@ -312,10 +340,16 @@ test("what a lost seat has said is refused, not sent by the next seat", () => {
   room.tokens.clear();
   network.isDown = false;
   clock.run(20000);
-  assert.deepEqual(page.answers.map((answer) => [answer.kind, answer.why]), [["refused", "seat"]]);
+  assert.deepEqual(
+    page.answers.map((answer) => [answer.kind, answer.why]),
+    [["refused", "seat"]],
+  );
   page.say("new");
   clock.run(1000);
-  assert.deepEqual(room.applied.map((one) => one.value), ["new"]);
+  assert.deepEqual(
+    room.applied.map((one) => one.value),
+    ["new"],
+  );
 });
 
 test("a server that has lost its memory of answers goes on from what the page knows", () => {
@@ -372,10 +406,27 @@ test("a queue is read back whole, whatever else is in the store", () => {
   for (let i = 0; i < 12; ++i) queue.add({ t: "undo" }, 0, 0, {});
   queue.answered(3);
   assert.equal(queue.answered(3), null, "a second answer finds nothing");
-  queue.release();
+  queue.release(0);
   const next = Queue.take(store, "bl1/BCDF/", "r", "you", 0);
-  assert.deepEqual(next.items.map((item) => item.id), [1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+  assert.deepEqual(
+    next.items.map((item) => item.id),
+    [1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+  );
   assert.equal(next.lastAnswered, 0);
   assert.equal(next.add({ t: "undo" }, 0, 0, {}).id, 13);
   assert.equal(Queue.take(store, "bl1/BCDF/", "r", "third", 100), null, "one page has a run");
+});
+
+test("runs of pages that are long gone are forgotten, but not what they left", () => {
+  const store = new MemoryStore(),
+    day = 24 * 3600 * 1000;
+  const empty = Queue.take(store, "p/", "empty", "me", 0),
+    full = Queue.take(store, "p/", "full", "you", 0);
+  full.add({ t: "undo" }, 0, 0, {});
+  empty.release(0);
+  Queue.tidy(store, "p/", day / 2);
+  assert.ok(store.get("p/run/empty"));
+  Queue.tidy(store, "p/", day + 1);
+  assert.equal(store.get("p/run/empty"), null);
+  assert.equal(Queue.leftOver(store, "p/", "third", day + 1).items.length, 1);
 });

@@ -27,7 +27,11 @@ export class Clock {
     for (;;) {
       let first = null;
       for (const [id, task] of this.#tasks)
-        if (task.due <= end && !task.page?.isFrozen && (!first || task.due < first.task.due || (task.due === first.task.due && id < first.id)))
+        if (
+          task.due <= end &&
+          !task.page?.isFrozen &&
+          (!first || task.due < first.task.due || (task.due === first.task.due && id < first.id))
+        )
           first = { id, task };
       if (!first) break;
       this.#tasks.delete(first.id);
@@ -83,8 +87,15 @@ export class Room {
     this.links.set(m.run, link);
     link.run = m.run;
     link.tell({
-      t: "welcome", you: { seat: this.tokens.get(token), role: "participant", name: "Heron", colour: "#456", areas: [], card: "" },
-      epoch: 1, seq: this.seq, tick: 1, rate: 10, done: run.last, resume: "snapshot", ...(m.token ? {} : { token }),
+      t: "welcome",
+      you: { seat: this.tokens.get(token), role: "participant", name: "Heron", colour: "#456", areas: [], card: "" },
+      epoch: 1,
+      seq: this.seq,
+      tick: 1,
+      rate: 10,
+      done: run.last,
+      resume: "snapshot",
+      ...(m.token ? {} : { token }),
       room: { code: m.room, title: "A room" },
     });
   }
@@ -101,8 +112,10 @@ export class Room {
     const value = m.c?.arguments?.value;
     this.seq += value === "no" ? 0 : 1;
     if (value !== "no") this.applied.push({ run: link.run, id: m.id, value, condition: m.if });
-    const answer = value === "no" ? { t: "nack", id: m.id, why: "range", place: "value", text: "", args: { minimum: 1, maximum: 2 } }
-                                  : { t: "ack", id: m.id, s: this.seq, k: 1 };
+    const answer =
+      value === "no"
+        ? { t: "nack", id: m.id, why: "range", place: "value", text: "", args: { minimum: 1, maximum: 2 } }
+        : { t: "ack", id: m.id, s: this.seq, k: 1 };
     run.answers.set(m.id, answer);
     return link.tell(answer);
   }
@@ -112,10 +125,10 @@ export class Room {
 /// socket that has lost a message delivers none after it, because TCP keeps the order.
 export class Network {
   isDown = false;
-  dropSent = 0;    // share of messages of the page that vanish although the socket lives
-  dropHeard = 0;   // share of messages of the server that vanish likewise
-  double = 0;      // share of messages that come twice
-  breaks = 0;      // chance that a message breaks the socket
+  dropSent = 0; // share of messages of the page that vanish although the socket lives
+  dropHeard = 0; // share of messages of the server that vanish likewise
+  double = 0; // share of messages that come twice
+  breaks = 0; // chance that a message breaks the socket
   latency = 20;
   opened = 0;
   constructor(clock, room, chance) {
@@ -125,17 +138,19 @@ export class Network {
     this.opened += 1;
     const { clock, room, chance } = this;
     const link = { onopen: null, onmessage: null, onclose: null, isOpen: true, inbox: [] };
-    const later = (then) => clock.set(this.latency, () => {
-      if (this.isDown) link.isDead = true;
-      if (link.isOpen && !link.isDead) then();
-    });
+    const later = (then) =>
+      clock.set(this.latency, () => {
+        if (this.isDown) link.isDead = true;
+        if (link.isOpen && !link.isDead) then();
+      });
     const deliver = (then) => (page.isFrozen ? link.inbox.push(then) : then());
     page.thaw.push(() => link.inbox.splice(0).forEach((then) => then()));
-    link.end = (code, reason = "") => clock.set(this.latency, () => {
-      if (!link.isOpen) return;
-      link.isOpen = false;
-      deliver(() => link.onclose?.(code, reason));
-    });
+    link.end = (code, reason = "") =>
+      clock.set(this.latency, () => {
+        if (!link.isOpen) return;
+        link.isOpen = false;
+        deliver(() => link.onclose?.(code, reason));
+      });
     link.tell = (message) => {
       const times = chance() < this.double ? 2 : 1;
       if (message.t !== "welcome" && chance() < this.dropHeard) return;

@@ -3,8 +3,24 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import test from "node:test";
 import {
-  amount, best_language, countdown, duration, extent_of, in_steps, kLanguages, kTables, number, points_of, qr_code, round_step, set_language, share, subject_of,
-  t, typed_number, why_of,
+  amount,
+  best_language,
+  countdown,
+  duration,
+  extent_of,
+  in_steps,
+  kLanguages,
+  kTables,
+  number,
+  points_of,
+  qr_code,
+  round_step,
+  set_language,
+  share,
+  subject_of,
+  t,
+  typed_number,
+  why_of,
 } from "../../../build/web_test/modules.mjs";
 import { seeded } from "./fakes.mjs";
 
@@ -56,7 +72,9 @@ test("numbers are as long as people read at a glance", () => {
 test("steps stay in the range of a control, and the ends can be reached", () => {
   const chance = seeded(5);
   for (let i = 0; i < 500; ++i) {
-    const least = Math.round(chance() * 100) / 10, most = least + 1 + Math.round(chance() * 500) / 10, step = [0, 0.05, 0.1, 1, 7][Math.floor(chance() * 5)];
+    const least = Math.round(chance() * 100) / 10,
+      most = least + 1 + Math.round(chance() * 500) / 10,
+      step = [0, 0.05, 0.1, 1, 7][Math.floor(chance() * 5)];
     const value = in_steps(least - 5 + chance() * (most - least + 10), least, most, step);
     assert.ok(value >= least && value <= most);
     assert.equal(in_steps(least, least, most, step), least);
@@ -67,7 +85,8 @@ test("steps stay in the range of a control, and the ends can be reached", () => 
 });
 
 test("all languages say everything, with the same gaps to fill", () => {
-  const gaps = (text) => (typeof text === "string" ? [text] : [text.one, text.other]).map((one) => [...new Set(one.match(/\{\w+\}/g) ?? [])].sort().join());
+  const gaps = (text) =>
+    (typeof text === "string" ? [text] : [text.one, text.other]).map((one) => [...new Set(one.match(/\{\w+\}/g) ?? [])].sort().join());
   for (const language of kLanguages)
     for (const [key, text] of Object.entries(kTables.en)) {
       const other = kTables[language][key];
@@ -77,12 +96,40 @@ test("all languages say everything, with the same gaps to fill", () => {
 });
 
 test("every sentence is used, and every reason has one", () => {
-  const folder = new URL("../src/", import.meta.url), screens = new URL("screens/", folder);
-  const source = [folder, screens].flatMap((at) => readdirSync(at).filter((name) => /\.tsx?$/.test(name)).map((name) => readFileSync(new URL(name, at), "utf8"))).join("\n");
+  const folder = new URL("../src/", import.meta.url),
+    screens = new URL("screens/", folder);
+  const source = [folder, screens]
+    .flatMap((at) =>
+      readdirSync(at)
+        .filter((name) => /\.tsx?$/.test(name))
+        .map((name) => readFileSync(new URL(name, at), "utf8")),
+    )
+    .join("\n");
   const made = [...source.matchAll(/`([a-z]+_(?:[a-z]+_)?)\$\{/g)].map((match) => match[1]);
   for (const key of Object.keys(kTables.en))
-    assert.ok(new RegExp(`["'\`]${key}["'\`]`).test(source) || key === "language" || made.some((start) => key.startsWith(start)), `nobody says ${key}`);
-  const reasons = ["bad", "gone", "right", "area", "phase", "range", "budget", "stale", "conflict", "locked", "closed", "rate", "size", "storage", "draining", "gap", "seat"];
+    assert.ok(
+      new RegExp(`["'\`]${key}["'\`]`).test(source) || key === "language" || made.some((start) => key.startsWith(start)),
+      `nobody says ${key}`,
+    );
+  const reasons = [
+    "bad",
+    "gone",
+    "right",
+    "area",
+    "phase",
+    "range",
+    "budget",
+    "stale",
+    "conflict",
+    "locked",
+    "closed",
+    "rate",
+    "size",
+    "storage",
+    "draining",
+    "gap",
+    "seat",
+  ];
   each_language((language) => {
     const said = reasons.map((why) => t(why_of({ kind: "refused", why, place: "", text: "", args: {} }).key));
     assert.equal(new Set(said).size, reasons.length, `${language}: a sentence of its own for each reason`);
@@ -114,9 +161,23 @@ test("plural forms and languages", () => {
 });
 
 test("outlines are read as browsers read them", () => {
-  assert.deepEqual(points_of("M0 0h10v-5H2z"), [[0, 0], [10, 0], [10, -5], [2, -5]]);
-  assert.deepEqual(points_of("m1,1 2,0-.5.5z m5 5"), [[1, 1], [3, 1], [2.5, 1.5], [6, 6]]);
-  assert.deepEqual(points_of("M0 0C1 1 2 2 3 3A1 1 0 0 1 5 5"), [[0, 0], [3, 3], [5, 5]]);
+  assert.deepEqual(points_of("M0 0h10v-5H2z"), [
+    [0, 0],
+    [10, 0],
+    [10, -5],
+    [2, -5],
+  ]);
+  assert.deepEqual(points_of("m1,1 2,0-.5.5z m5 5"), [
+    [1, 1],
+    [3, 1],
+    [2.5, 1.5],
+    [6, 6],
+  ]);
+  assert.deepEqual(points_of("M0 0C1 1 2 2 3 3A1 1 0 0 1 5 5"), [
+    [0, 0],
+    [3, 3],
+    [5, 5],
+  ]);
   assert.deepEqual(points_of("nonsense"), []);
   assert.deepEqual(extent_of(points_of("M1e1 2L-4 8")), { x: -4, y: 2, width: 14, height: 6 });
   assert.equal(extent_of([]), null);
@@ -124,14 +185,55 @@ test("outlines are read as browsers read them", () => {
 
 // A reader of its own: it follows the standard from the picture to the text, and checks the correction of each block.
 function read_qr(code) {
-  const size = code.length, version = (size - 17) / 4, layout = [[26, 10, 1], [44, 16, 1], [70, 26, 1], [100, 18, 2], [134, 24, 2], [172, 16, 4]][version - 1];
+  const size = code.length,
+    version = (size - 17) / 4,
+    layout = [
+      [26, 10, 1],
+      [44, 16, 1],
+      [70, 26, 1],
+      [100, 18, 2],
+      [134, 24, 2],
+      [172, 16, 4],
+    ][version - 1];
   const at = (x, y) => (code[y][x] ? 1 : 0);
   let format = 0;
-  for (const [x, y] of [[0, 8], [1, 8], [2, 8], [3, 8], [4, 8], [5, 8], [7, 8], [8, 8], [8, 7], [8, 5], [8, 4], [8, 3], [8, 2], [8, 1], [8, 0]]) format = format * 2 + at(x, y);
-  const mask = ((format ^ 0x5412) >> 10) & 7, level = (format ^ 0x5412) >> 13;
-  const isFrame = (x, y) => (x < 9 && y < 9) || (x < 9 && y > size - 9) || (x > size - 9 && y < 9) || x === 6 || y === 6 ||
+  for (const [x, y] of [
+    [0, 8],
+    [1, 8],
+    [2, 8],
+    [3, 8],
+    [4, 8],
+    [5, 8],
+    [7, 8],
+    [8, 8],
+    [8, 7],
+    [8, 5],
+    [8, 4],
+    [8, 3],
+    [8, 2],
+    [8, 1],
+    [8, 0],
+  ])
+    format = format * 2 + at(x, y);
+  const mask = ((format ^ 0x5412) >> 10) & 7,
+    level = (format ^ 0x5412) >> 13;
+  const isFrame = (x, y) =>
+    (x < 9 && y < 9) ||
+    (x < 9 && y > size - 9) ||
+    (x > size - 9 && y < 9) ||
+    x === 6 ||
+    y === 6 ||
     (version > 1 && Math.abs(x - (size - 7)) < 3 && Math.abs(y - (size - 7)) < 3);
-  const flips = [(x, y) => (y + x) % 2, (x, y) => y % 2, (x) => x % 3, (x, y) => (x + y) % 3, (x, y) => ((y >> 1) + Math.floor(x / 3)) % 2, (x, y) => ((x * y) % 2) + ((x * y) % 3), (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2, (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2];
+  const flips = [
+    (x, y) => (y + x) % 2,
+    (x, y) => y % 2,
+    (x) => x % 3,
+    (x, y) => (x + y) % 3,
+    (x, y) => ((y >> 1) + Math.floor(x / 3)) % 2,
+    (x, y) => ((x * y) % 2) + ((x * y) % 3),
+    (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2,
+    (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2,
+  ];
   const bits = [];
   let isUp = true;
   for (let right = size - 1; right > 0; right -= 2, isUp = !isUp) {
@@ -143,7 +245,8 @@ function read_qr(code) {
       }
   }
   const words = Array.from({ length: layout[0] }, (_, i) => parseInt(bits.slice(i * 8, i * 8 + 8).join(""), 2));
-  const [total, correction, blocks] = layout, length = (total - correction * blocks) / blocks;
+  const [total, correction, blocks] = layout,
+    length = (total - correction * blocks) / blocks;
   const parts = Array.from({ length: blocks }, (_, b) => words.filter((_, i) => i % blocks === b));
   const times = (a, b) => {
     let product = 0;
@@ -151,8 +254,16 @@ function read_qr(code) {
     return product;
   };
   for (const part of parts)
-    for (let root = 1, i = 0; i < correction; ++i, root = times(root, 2)) assert.equal(part.reduce((sum, word) => times(sum, root) ^ word, 0), 0, "the block is whole");
-  const data = parts.flatMap((part) => part.slice(0, length)).map((word) => word.toString(2).padStart(8, "0")).join("");
+    for (let root = 1, i = 0; i < correction; ++i, root = times(root, 2))
+      assert.equal(
+        part.reduce((sum, word) => times(sum, root) ^ word, 0),
+        0,
+        "the block is whole",
+      );
+  const data = parts
+    .flatMap((part) => part.slice(0, length))
+    .map((word) => word.toString(2).padStart(8, "0"))
+    .join("");
   assert.equal(data.slice(0, 4), "0100", "bytes");
   const count = parseInt(data.slice(4, 12), 2);
   return { level, text: Buffer.from(Array.from({ length: count }, (_, i) => parseInt(data.slice(12 + i * 8, 20 + i * 8), 2))).toString() };

@@ -15,27 +15,49 @@ const kTypes = { html: "text/html; charset=utf-8", js: "text/javascript; charset
 
 /// Starts on a free port, or on the one that is named.
 export async function serve(port = 0) {
-  const room = new MockRoom(), bytes = { http: 0, state: 0 };
+  const room = new MockRoom(),
+    bytes = { http: 0, state: 0 };
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
     const file = path.startsWith("/assets/") ? join(folder, path) : join(folder, "index.html");
     if (path.includes("..") || !existsSync(file) || path === "/favicon.ico") return answer.writeHead(404).end();
     answer.writeHead(200, {
-      "Content-Type": kTypes[file.split(".").pop()], "Content-Encoding": "gzip", "Content-Security-Policy": kPolicy, "Referrer-Policy": "no-referrer",
-      "X-Content-Type-Options": "nosniff", "Cache-Control": path.startsWith("/assets/") ? "public, max-age=31536000, immutable" : "no-cache",
+      "Content-Type": kTypes[file.split(".").pop()],
+      "Content-Encoding": "gzip",
+      "Content-Security-Policy": kPolicy,
+      "Referrer-Policy": "no-referrer",
+      "X-Content-Type-Options": "nosniff",
+      "Cache-Control": path.startsWith("/assets/") ? "public, max-age=31536000, immutable" : "no-cache",
     });
-    return createReadStream(`${file}.gz`).on("data", (part) => (bytes.http += part.length)).pipe(answer);
+    return createReadStream(`${file}.gz`)
+      .on("data", (part) => (bytes.http += part.length))
+      .pipe(answer);
   });
-  const sockets = new WebSocketServer({ server, path: "/ws", handleProtocols: (names) => (names.has("bl1") ? "bl1" : false), perMessageDeflate: false });
+  const sockets = new WebSocketServer({
+    server,
+    path: "/ws",
+    handleProtocols: (names) => (names.has("bl1") ? "bl1" : false),
+    perMessageDeflate: false,
+  });
   sockets.on("connection", (socket) => {
-    const link = { send: (text) => { bytes.state += Buffer.byteLength(text); socket.send(text); }, close: (code) => socket.close(code), drop: () => socket.terminate() };
+    const link = {
+      send: (text) => {
+        bytes.state += Buffer.byteLength(text);
+        socket.send(text);
+      },
+      close: (code) => socket.close(code),
+      drop: () => socket.terminate(),
+    };
     room.connected(link);
     room.sockets = sockets;
     socket.on("message", (data) => room.receive(link, data.toString()));
     socket.on("close", () => room.closed(link));
   });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
-  const stop = () => { for (const socket of sockets.clients) socket.terminate(); server.close(); };
+  const stop = () => {
+    for (const socket of sockets.clients) socket.terminate();
+    server.close();
+  };
   return { room, bytes, sockets, stop, port: server.address().port, address: `http://127.0.0.1:${server.address().port}` };
 }
 

@@ -11,23 +11,34 @@ const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 const shots = fileURLToPath(new URL("../../../build/web_shots", import.meta.url));
 mkdirSync(shots, { recursive: true });
 
-const kSizes = [[320, 568], [390, 844], [1280, 800], [1920, 1080]];
-const kTarget = 44;       // of buttons and fields [CSS px]
+const kSizes = [
+  [320, 568],
+  [390, 844],
+  [1280, 800],
+  [1920, 1080],
+];
+const kTarget = 44; // of buttons and fields [CSS px]
 const kTags = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
 const counts = { screens: 0, axe: 0, targets: 0, requests: 0 };
 const faults = [];
 
 // A name that is no "localhost" has no secure context, like a laptop in a Wi-Fi.
 const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1"],
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1"],
 });
 
 /// A browser of its own for one person. Every request elsewhere, error and breach of the policy is a fault.
 async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB" } = {}) {
   const context = await browser.newContext({
-    viewport: { width: size[0], height: size[1] }, colorScheme: scheme, reducedMotion: motion, hasTouch: size[0] < 900, locale: language,
+    viewport: { width: size[0], height: size[1] },
+    colorScheme: scheme,
+    reducedMotion: motion,
+    hasTouch: size[0] < 900,
+    locale: language,
   });
-  const page = await context.newPage(), home = `http://room.test:${server.port}`;
+  const page = await context.newPage(),
+    home = `http://room.test:${server.port}`;
   page.on("request", (request) => {
     counts.requests += 1;
     if (!request.url().startsWith(home) && !request.url().startsWith("data:")) faults.push(`a request to ${request.url()}`);
@@ -60,37 +71,63 @@ async function look(page, name, { isBeamer = false } = {}) {
   await page.screenshot({ path: `${shots}/${name}.png` });
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
   if (wide > 0) faults.push(`${name}: ${wide} px wider than the window`);
-  const small = await page.evaluate(([least, beamer]) => {
-    const out = [];
-    let seen = 0;
-    for (const element of document.querySelectorAll("button, input, select, textarea, summary, a[href]")) {
-      const tick = element.closest("label.tick") ?? element, box = tick.getBoundingClientRect();
-      if (box.width === 0 && box.height === 0) continue;
-      seen += 1;
-      if (box.width < least - 0.5 || box.height < least - 0.5) out.push(`${element.tagName} "${element.textContent || element.ariaLabel}" ${box.width.toFixed(0)}x${box.height.toFixed(0)}`);
-    }
-    if (beamer)
-      for (const element of document.querySelectorAll("body *")) {
-        const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
-        const box = element.getBoundingClientRect();
-        if (!own || box.width < 2 || element.closest(".unseen, noscript")) continue;
-        const svg = element.closest("svg"), scale = svg ? box.height / Math.max(1, element.getBBox ? element.getBBox().height : box.height) : 1;
-        const size = parseFloat(getComputedStyle(element).fontSize) * (svg ? svg.getScreenCTM().a : 1) * (svg ? 1 : scale);
-        if (size < window.innerHeight / 25 - 0.6) out.push(`text "${element.textContent.slice(0, 30)}" of ${size.toFixed(1)} px`);
-        if (box.right > window.innerWidth + 1 || box.bottom > window.innerHeight + 1) out.push(`text "${element.textContent.slice(0, 30)}" outside the picture`);
+  const small = await page.evaluate(
+    ([least, beamer]) => {
+      const out = [];
+      let seen = 0;
+      for (const element of document.querySelectorAll("button, input, select, textarea, summary, a[href]")) {
+        const tick = element.closest("label.tick") ?? element,
+          box = tick.getBoundingClientRect();
+        if (box.width === 0 && box.height === 0) continue;
+        seen += 1;
+        if (box.width < least - 0.5 || box.height < least - 0.5)
+          out.push(`${element.tagName} "${element.textContent || element.ariaLabel}" ${box.width.toFixed(0)}x${box.height.toFixed(0)}`);
       }
-    return { out, seen };
-  }, [kTarget, isBeamer]);
+      if (beamer)
+        for (const element of document.querySelectorAll("body *")) {
+          const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
+          const box = element.getBoundingClientRect();
+          if (!own || box.width < 2 || element.closest(".unseen, noscript")) continue;
+          const svg = element.closest("svg"),
+            scale = svg ? box.height / Math.max(1, element.getBBox ? element.getBBox().height : box.height) : 1;
+          const size = parseFloat(getComputedStyle(element).fontSize) * (svg ? svg.getScreenCTM().a : 1) * (svg ? 1 : scale);
+          if (size < window.innerHeight / 25 - 0.6) out.push(`text "${element.textContent.slice(0, 30)}" of ${size.toFixed(1)} px`);
+          if (box.right > window.innerWidth + 1 || box.bottom > window.innerHeight + 1)
+            out.push(`text "${element.textContent.slice(0, 30)}" outside the picture`);
+        }
+      return { out, seen };
+    },
+    [kTarget, isBeamer],
+  );
   counts.targets += small.seen;
   for (const one of small.out) faults.push(`${name}: too small: ${one}`);
   await page.evaluate(axe);
-  const found = await page.evaluate((tags) => window.axe.run(document, { runOnly: tags, resultTypes: ["violations"] }).then((all) => all.violations.map((one) => `${one.id}: ${one.nodes.map((node) => `${node.html.slice(0, 110)} ${node.any.map((check) => check.message).join("; ").slice(0, 160)}`).slice(0, 3).join(" | ")}`)), kTags);
+  const found = await page.evaluate(
+    (tags) =>
+      window.axe.run(document, { runOnly: tags, resultTypes: ["violations"] }).then((all) =>
+        all.violations.map(
+          (one) =>
+            `${one.id}: ${one.nodes
+              .map(
+                (node) =>
+                  `${node.html.slice(0, 110)} ${node.any
+                    .map((check) => check.message)
+                    .join("; ")
+                    .slice(0, 160)}`,
+              )
+              .slice(0, 3)
+              .join(" | ")}`,
+        ),
+      ),
+    kTags,
+  );
   counts.axe += 1;
   for (const one of found) faults.push(`${name}: ${one}`);
 }
 
 async function walk_participant(server, size, scheme) {
-  const { room } = server, at = `${size[0]}x${size[1]}_${scheme}`;
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
   room.phase("Arriving", []);
   room.open_votes();
   const page = await person(server, { size, scheme });
@@ -123,7 +160,13 @@ async function walk_participant(server, size, scheme) {
   await page.waitForSelector(".refusals");
   await look(page, `card_refused_${at}`);
   await page.click('.refusals button:has-text("Understood")');
-  for (const [id, edit] of [["bridge", ".choice"], ["uses", ".choice"], ["money", '[aria-label^="One more"]'], ["places", '.pick button:has-text("Set a dot")'], ["height", '[aria-label^="More"]']]) {
+  for (const [id, edit] of [
+    ["bridge", ".choice"],
+    ["uses", ".choice"],
+    ["money", '[aria-label^="One more"]'],
+    ["places", '.pick button:has-text("Set a dot")'],
+    ["height", '[aria-label^="More"]'],
+  ]) {
     room.open_votes(id);
     await page.waitForTimeout(120);
     await tab(page, "Votes");
@@ -162,7 +205,8 @@ async function walk_participant(server, size, scheme) {
 }
 
 async function walk_facilitator(server, size, scheme) {
-  const { room } = server, at = `${size[0]}x${size[1]}_${scheme}`;
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
   const page = await joined(server, { size, scheme, fragment: "#k=LEAD" });
   assert.equal(await page.evaluate(() => location.hash), "", "the invitation is gone from the address");
   await look(page, `lead_${at}`);
@@ -176,7 +220,8 @@ async function walk_facilitator(server, size, scheme) {
 }
 
 async function walk_beamer(server, size, scheme) {
-  const { room } = server, at = `${size[0]}x${size[1]}_${scheme}`;
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
   room.phase("Exploring the block", ["change"], { ends_at: Date.now() + 400000 });
   const page = await person(server, { size, scheme, fragment: "#k=SHOW&beamer" });
   await page.waitForSelector(".shape");
@@ -283,7 +328,8 @@ async function dots_by_touch(server) {
   await page.waitForSelector(".counted");
   const cast = room.log.filter((m) => m.c?.command === "cast_vote").pop().c.arguments;
   assert.equal(cast.ballot.length, 2);
-  const [x, y] = cast.ballot[0].place, scale = 180 / canvas.width;
+  const [x, y] = cast.ballot[0].place,
+    scale = 180 / canvas.width;
   assert.ok(x > 10 && x < 80 && y > 30 && y < 100, `the touch is at ${x}, ${y}, ${scale}`);
   await page.context().close();
 }
@@ -317,8 +363,14 @@ async function keyboard(server) {
     for (let i = 0; i < limit; ++i) {
       await page.keyboard.press("Tab");
       const at = await page.evaluate(() => {
-        const one = document.activeElement, style = getComputedStyle(one), box = one.getBoundingClientRect();
-        return { text: one.ariaLabel || one.textContent, outline: parseFloat(style.outlineWidth), isSeen: box.top >= 0 && box.bottom <= innerHeight + 1 };
+        const one = document.activeElement,
+          style = getComputedStyle(one),
+          box = one.getBoundingClientRect();
+        return {
+          text: one.ariaLabel || one.textContent,
+          outline: parseFloat(style.outlineWidth),
+          isSeen: box.top >= 0 && box.bottom <= innerHeight + 1,
+        };
       });
       assert.ok(at.outline >= 2, `the focus on "${at.text}" shows`);
       if (at.text.startsWith(name)) {
@@ -350,8 +402,20 @@ async function pseudo_language(server) {
   for (let i = 0; i < 5; ++i) {
     await page.click(`nav button >> nth=${i}`);
     await look(page, `pseudo_${i}`);
-    const plain = await page.evaluate(() => [...document.querySelectorAll("button, h1, h2, label > span")].map((one) => one.textContent.trim()).filter((text) => /^[A-Z][a-z]+( [a-z]+)*$/.test(text)));
-    const content = ["Trees", "Playground", "Benches and light", "Parents of the quarter", "Where should the money for open space go", "A larger library", "Move the hotel south"];
+    const plain = await page.evaluate(() =>
+      [...document.querySelectorAll("button, h1, h2, label > span")]
+        .map((one) => one.textContent.trim())
+        .filter((text) => /^[A-Z][a-z]+( [a-z]+)*$/.test(text)),
+    );
+    const content = [
+      "Trees",
+      "Playground",
+      "Benches and light",
+      "Parents of the quarter",
+      "Where should the money for open space go",
+      "A larger library",
+      "Move the hotel south",
+    ];
     const open = plain.filter((text) => !content.includes(text) && !room.card.goals.some((goal) => goal.name === text));
     if (open.length > 0) faults.push(`pseudo_${i}: not in the tables: ${open.join(", ")}`);
   }
@@ -360,7 +424,11 @@ async function pseudo_language(server) {
 
 async function languages(server) {
   const titles = {};
-  for (const [language, word] of [["nl-NL", "Meedoen"], ["de-DE", "Mitmachen"], ["ko-KR", "참여하기"]]) {
+  for (const [language, word] of [
+    ["nl-NL", "Meedoen"],
+    ["de-DE", "Mitmachen"],
+    ["ko-KR", "참여하기"],
+  ]) {
     const page = await person(server, { language, size: [320, 568] });
     await page.waitForSelector(".self");
     assert.equal((await page.textContent(".join .main")).trim(), word);
@@ -378,11 +446,15 @@ async function languages(server) {
 }
 
 async function first_load(server) {
-  const before = { ...server.bytes }, requests = counts.requests;
+  const before = { ...server.bytes },
+    requests = counts.requests;
   const page = await person(server);
   await page.waitForSelector(".shape");
-  const http = server.bytes.http - before.http, state = server.bytes.state - before.state;
-  console.log(`first load: ${http} bytes compressed over HTTP, ${state} bytes of views uncompressed with the plan, ${counts.requests - requests} requests`);
+  const http = server.bytes.http - before.http,
+    state = server.bytes.state - before.state;
+  console.log(
+    `first load: ${http} bytes compressed over HTTP, ${state} bytes of views uncompressed with the plan, ${counts.requests - requests} requests`,
+  );
   assert.ok(http + state <= 80000, "at most 80 kB in all");
   assert.ok(await page.evaluate(() => !window.isSecureContext), "without a secure context");
   await page.context().close();
@@ -415,6 +487,8 @@ if (!only || only === "walk") {
   server.stop();
 }
 await browser.close();
-console.log(`${counts.screens} screens looked at, ${counts.axe} times axe, ${counts.targets} targets measured, ${counts.requests} requests, ${faults.length} faults`);
+console.log(
+  `${counts.screens} screens looked at, ${counts.axe} times axe, ${counts.targets} targets measured, ${counts.requests} requests, ${faults.length} faults`,
+);
 for (const fault of [...new Set(faults)]) console.log(`not ok ${fault}`);
 process.exit(faults.length > 0 ? 1 : 0);

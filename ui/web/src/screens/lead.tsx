@@ -14,7 +14,11 @@ import { ResultOf, Turnout } from "./votes";
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
 const kRewind = 30000;
 
-interface Plan { name: string; activities: Activity[]; minutes: string }
+interface Plan {
+  name: string;
+  activities: Activity[];
+  minutes: string;
+}
 
 function set_phase(s: Session, name: string, activities: Activity[], ends_at: number): void {
   s.event("set_phase", { name, activities, forms: s.views.room.phase?.forms ?? [], ends_at }, { mark: "lead/phase" });
@@ -25,44 +29,111 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
   const [plan, set] = useState<Plan>({ name: "", activities: [], minutes: "10" });
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
-    { key: "lead_look", activities: [] }, { key: "lead_change", activities: ["change"] }, { key: "lead_draft", activities: ["draft"] },
-    { key: "lead_comment", activities: ["comment"] }, { key: "lead_vote", activities: ["vote"] },
+    { key: "lead_look", activities: [] },
+    { key: "lead_change", activities: ["change"] },
+    { key: "lead_draft", activities: ["draft"] },
+    { key: "lead_comment", activities: ["comment"] },
+    { key: "lead_vote", activities: ["vote"] },
   ];
-  const start = (): void => set_phase(s, plan.name.trim() || kinds.filter((kind) => kind.activities.some((one) => plan.activities.includes(one))).map((kind) => t(kind.key)).join(", ") || t("lead_look"), plan.activities, minutes > 0 ? s.now() + minutes * 60000 : 0);
+  const start = (): void =>
+    set_phase(
+      s,
+      plan.name.trim() ||
+        kinds
+          .filter((kind) => kind.activities.some((one) => plan.activities.includes(one)))
+          .map((kind) => t(kind.key))
+          .join(", ") ||
+        t("lead_look"),
+      plan.activities,
+      minutes > 0 ? s.now() + minutes * 60000 : 0,
+    );
   return (
     <section class="panel">
-      <header class="row spread"><h2>{t("lead_phase")}</h2><MarkState s={s} mark="lead/phase" /></header>
+      <header class="row spread">
+        <h2>{t("lead_phase")}</h2>
+        <MarkState s={s} mark="lead/phase" />
+      </header>
       <p class="lead">{phase ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
       <Timer s={s} ends_at={phase?.ends_at} />
       <div class="row">
-        {phase && phase.ends_at > 0 ? <button class="quiet" onClick={() => set_phase(s, phase.name, phase.activities, Math.max(phase.ends_at, s.now()) + 300000)}><Icon name="clock" />{t("lead_more_time")}</button> : null}
-        <button class="quiet" onClick={() => s.event("set_pace", { rate: rate ?? 10, is_paused: !paused }, { mark: "lead/pace" })}><Icon name={paused ? "play" : "pause"} />{t(paused ? "lead_resume" : "lead_pause")}</button>
+        {phase && phase.ends_at > 0 ? (
+          <button class="quiet" onClick={() => set_phase(s, phase.name, phase.activities, Math.max(phase.ends_at, s.now()) + 300000)}>
+            <Icon name="clock" />
+            {t("lead_more_time")}
+          </button>
+        ) : null}
+        <button class="quiet" onClick={() => s.event("set_pace", { rate: rate ?? 10, is_paused: !paused }, { mark: "lead/pace" })}>
+          <Icon name={paused ? "play" : "pause"} />
+          {t(paused ? "lead_resume" : "lead_pause")}
+        </button>
         <Rewind s={s} />
         <MarkState s={s} mark="lead/pace" />
       </div>
-      <fieldset class="field"><legend>{t("lead_may")}</legend>
+      <fieldset class="field">
+        <legend>{t("lead_may")}</legend>
         <div class="row">
           {kActivities.map((activity) => (
             <label key={activity} class="tick">
-              <input type="checkbox" checked={plan.activities.includes(activity)} onChange={() => set({ ...plan, activities: kActivities.filter((one) => (one === activity) !== plan.activities.includes(one)) })} />
+              <input
+                type="checkbox"
+                checked={plan.activities.includes(activity)}
+                onChange={() =>
+                  set({ ...plan, activities: kActivities.filter((one) => (one === activity) !== plan.activities.includes(one)) })
+                }
+              />
               <span>{t(`lead_${activity}` as Key)}</span>
             </label>
           ))}
         </div>
       </fieldset>
       <div class="pair">
-        <label class="field"><span>{t("lead_title")}</span><input value={plan.name} maxLength={40} autocomplete="off" onInput={(event) => set({ ...plan, name: event.currentTarget.value })} /></label>
-        <label class="field"><span>{t("lead_minutes")}</span><input class="number" inputMode="decimal" autocomplete="off" value={plan.minutes} onInput={(event) => set({ ...plan, minutes: event.currentTarget.value })} /></label>
+        <label class="field">
+          <span>{t("lead_title")}</span>
+          <input
+            value={plan.name}
+            maxLength={40}
+            autocomplete="off"
+            onInput={(event) => set({ ...plan, name: event.currentTarget.value })}
+          />
+        </label>
+        <label class="field">
+          <span>{t("lead_minutes")}</span>
+          <input
+            class="number"
+            inputMode="decimal"
+            autocomplete="off"
+            value={plan.minutes}
+            onInput={(event) => set({ ...plan, minutes: event.currentTarget.value })}
+          />
+        </label>
       </div>
-      <button class="main" onClick={start}>{t("lead_start_phase")}<Icon name="right" /></button>
+      <button class="main" onClick={start}>
+        {t("lead_start_phase")}
+        <Icon name="right" />
+      </button>
     </section>
   );
 }
 
 function Rewind({ s }: { s: Session }): JSX.Element {
-  const to = s.seqBefore(kRewind), isPossible = to !== null && to < s.connection.seq;
-  if (!isPossible) return <button class="quiet" disabled><Icon name="undo" />{t("lead_rewind")}</button>;
-  return <Sure text={t("lead_rewind_sure")} yes={t("lead_rewind_yes")} onYes={() => s.submit({ t: "rewind", to: s.seqBefore(kRewind) ?? to }, { mark: "lead/pace" })}>{t("lead_rewind")}</Sure>;
+  const to = s.seqBefore(kRewind),
+    isPossible = to !== null && to < s.connection.seq;
+  if (!isPossible)
+    return (
+      <button class="quiet" disabled>
+        <Icon name="undo" />
+        {t("lead_rewind")}
+      </button>
+    );
+  return (
+    <Sure
+      text={t("lead_rewind_sure")}
+      yes={t("lead_rewind_yes")}
+      onYes={() => s.submit({ t: "rewind", to: s.seqBefore(kRewind) ?? to }, { mark: "lead/pace" })}
+    >
+      {t("lead_rewind")}
+    </Sure>
+  );
 }
 
 function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.Element {
@@ -74,18 +145,33 @@ function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.E
   };
   return (
     <li>
-      <div class="row spread"><b class="grow">{vote.question}</b><MarkState s={s} mark={`lead/${id}`} />
-        {vote.open ? <button class="quiet" onClick={() => s.event("close_vote", { vote: id }, { mark: `lead/${id}` })}>{t("lead_close_vote")}</button>
-          : <button class="quiet" onClick={open}>{t("lead_open_vote")}</button>}
+      <div class="row spread">
+        <b class="grow">{vote.question}</b>
+        <MarkState s={s} mark={`lead/${id}`} />
+        {vote.open ? (
+          <button class="quiet" onClick={() => s.event("close_vote", { vote: id }, { mark: `lead/${id}` })}>
+            {t("lead_close_vote")}
+          </button>
+        ) : (
+          <button class="quiet" onClick={open}>
+            {t("lead_open_vote")}
+          </button>
+        )}
       </div>
       <Turnout vote={vote} />
-      {vote.result && vote.count > 0 ? <details><summary>{t("result")}</summary><ResultOf vote={vote} /></details> : null}
+      {vote.result && vote.count > 0 ? (
+        <details>
+          <summary>{t("result")}</summary>
+          <ResultOf vote={vote} />
+        </details>
+      ) : null}
     </li>
   );
 }
 
 function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposal }): JSX.Element {
-  const [answer, set] = useState(""), [left, leave] = useState<number[]>(proposal.misfits.map((misfit) => misfit.step));
+  const [answer, set] = useState(""),
+    [left, leave] = useState<number[]>(proposal.misfits.map((misfit) => misfit.step));
   const keep = proposal.words.map((_, i) => i).filter((i) => !left.includes(i));
   const decide = (is_accepted: boolean): void => {
     const args: Record<string, Json> = { draft: id, is_accepted, answer: answer.trim() };
@@ -95,21 +181,44 @@ function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposa
   return (
     <ProposalEntry s={s} proposal={proposal}>
       <>
-        <fieldset class="field"><legend>{t("proposal_steps")}</legend>
+        <fieldset class="field">
+          <legend>{t("proposal_steps")}</legend>
           {proposal.words.map((word, i) => {
             const misfit = proposal.misfits.find((one) => one.step === i);
             return (
               <label key={i} class="tick">
-                <input type="checkbox" checked={!left.includes(i)} disabled={misfit !== undefined} onChange={() => leave(left.includes(i) ? left.filter((one) => one !== i) : [...left, i])} />
-                <span>{word}{misfit ? <em> — {t("proposal_misfits")}: {misfit.why}</em> : null}</span>
+                <input
+                  type="checkbox"
+                  checked={!left.includes(i)}
+                  disabled={misfit !== undefined}
+                  onChange={() => leave(left.includes(i) ? left.filter((one) => one !== i) : [...left, i])}
+                />
+                <span>
+                  {word}
+                  {misfit ? (
+                    <em>
+                      {" "}
+                      — {t("proposal_misfits")}: {misfit.why}
+                    </em>
+                  ) : null}
+                </span>
               </label>
             );
           })}
         </fieldset>
-        <label class="field"><span>{t("lead_reason")}</span><textarea rows={2} value={answer} maxLength={2000} onInput={(event) => set(event.currentTarget.value)} /></label>
+        <label class="field">
+          <span>{t("lead_reason")}</span>
+          <textarea rows={2} value={answer} maxLength={2000} onInput={(event) => set(event.currentTarget.value)} />
+        </label>
         <div class="row">
-          <button class="main" disabled={keep.length === 0} onClick={() => decide(true)}><Icon name="check" />{left.length > 0 ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}</button>
-          <button class="quiet" onClick={() => decide(false)}><Icon name="cross" />{t("lead_reject")}</button>
+          <button class="main" disabled={keep.length === 0} onClick={() => decide(true)}>
+            <Icon name="check" />
+            {left.length > 0 ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}
+          </button>
+          <button class="quiet" onClick={() => decide(false)}>
+            <Icon name="cross" />
+            {t("lead_reject")}
+          </button>
           <MarkState s={s} mark={`lead/${id}`} />
         </div>
       </>
@@ -123,10 +232,19 @@ function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.
   return (
     <li class="comment">
       <p class="said">{text}</p>
-      <label class="field"><span>{t("lead_reason")}</span><input value={answer} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} /></label>
+      <label class="field">
+        <span>{t("lead_reason")}</span>
+        <input value={answer} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
+      </label>
       <div class="row">
-        <button class="quiet" onClick={() => decide("accepted")}><Icon name="check" />{t("lead_follow")}</button>
-        <button class="quiet" onClick={() => decide("rejected")}><Icon name="cross" />{t("lead_follow_not")}</button>
+        <button class="quiet" onClick={() => decide("accepted")}>
+          <Icon name="check" />
+          {t("lead_follow")}
+        </button>
+        <button class="quiet" onClick={() => decide("rejected")}>
+          <Icon name="cross" />
+          {t("lead_follow_not")}
+        </button>
         <MarkState s={s} mark={`lead/${id}`} />
       </div>
     </li>
@@ -144,20 +262,50 @@ function People({ s }: { s: Session }): JSX.Element {
       <p>{t("lead_people_n", { n: here })}</p>
       <ul class="people">
         {seats.map(([number, seat]) => {
-          const n = Number(number), mark = `lead/seat${n}`;
+          const n = Number(number),
+            mark = `lead/seat${n}`;
           return (
             <li key={number}>
               <details>
-                <summary><Avatar name={seat.name} colour={seat.colour} /><span class="grow"><b>{seat.name}</b><span class="faint">{t(`role_${seat.role}` as Key)} · {t(seat.here ? "lead_here" : "lead_away")}</span></span><MarkState s={s} mark={mark} /></summary>
+                <summary>
+                  <Avatar name={seat.name} colour={seat.colour} />
+                  <span class="grow">
+                    <b>{seat.name}</b>
+                    <span class="faint">
+                      {t(`role_${seat.role}` as Key)} · {t(seat.here ? "lead_here" : "lead_away")}
+                    </span>
+                  </span>
+                  <MarkState s={s} mark={mark} />
+                </summary>
                 <div class="row">
-                  <label class="field"><span>{t("lead_role", { name: seat.name })}</span>
-                    <select value={seat.role} onChange={(event) => s.event("set_role", { seat: n, role: event.currentTarget.value }, { mark })}>
-                      {kRoles.map((role) => <option key={role} value={role}>{t(`role_${role}` as Key)}</option>)}
+                  <label class="field">
+                    <span>{t("lead_role", { name: seat.name })}</span>
+                    <select
+                      value={seat.role}
+                      onChange={(event) => s.event("set_role", { seat: n, role: event.currentTarget.value }, { mark })}
+                    >
+                      {kRoles.map((role) => (
+                        <option key={role} value={role}>
+                          {t(`role_${role}` as Key)}
+                        </option>
+                      ))}
                     </select>
                   </label>
-                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: true }, { mark })}>{t("lead_mute")}</button>
-                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: false }, { mark })}>{t("lead_unmute")}</button>
-                  {n === s.you?.seat ? null : <Sure text={t("lead_remove_sure", { name: seat.name })} yes={t("lead_remove")} onYes={() => s.event("remove_seat", { seat: n }, { mark })}>{t("lead_remove")}</Sure>}
+                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: true }, { mark })}>
+                    {t("lead_mute")}
+                  </button>
+                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: false }, { mark })}>
+                    {t("lead_unmute")}
+                  </button>
+                  {n === s.you?.seat ? null : (
+                    <Sure
+                      text={t("lead_remove_sure", { name: seat.name })}
+                      yes={t("lead_remove")}
+                      onYes={() => s.event("remove_seat", { seat: n }, { mark })}
+                    >
+                      {t("lead_remove")}
+                    </Sure>
+                  )}
                 </div>
               </details>
             </li>
@@ -169,25 +317,62 @@ function People({ s }: { s: Session }): JSX.Element {
 }
 
 function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const { room } = s.views, [decision, set] = useState("");
-  const layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"], doors: Door[] = ["open", "asks", "shut"];
+  const { room } = s.views,
+    [decision, set] = useState("");
+  const layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"],
+    doors: Door[] = ["open", "asks", "shut"];
   return (
     <section class="panel">
-      <header class="row spread"><h2>{t("lead_show")}</h2><MarkState s={s} mark="lead/show" /></header>
-      <Segments label={t("lead_show")} value={room.layout || "plan"} onChange={(layout) => s.event("show", { layout }, { mark: "lead/show" })} choices={layouts.map((id) => ({ id, text: t(`show_${id}` as Key) }))} />
-      <header class="row spread"><h2>{t("lead_door")}</h2><MarkState s={s} mark="lead/door" /></header>
-      <Segments label={t("lead_door")} value={room.door ?? "open"} onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })} choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))} />
+      <header class="row spread">
+        <h2>{t("lead_show")}</h2>
+        <MarkState s={s} mark="lead/show" />
+      </header>
+      <Segments
+        label={t("lead_show")}
+        value={room.layout || "plan"}
+        onChange={(layout) => s.event("show", { layout }, { mark: "lead/show" })}
+        choices={layouts.map((id) => ({ id, text: t(`show_${id}` as Key) }))}
+      />
+      <header class="row spread">
+        <h2>{t("lead_door")}</h2>
+        <MarkState s={s} mark="lead/door" />
+      </header>
+      <Segments
+        label={t("lead_door")}
+        value={room.door ?? "open"}
+        onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
+        choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
+      />
       <h2>{t("lead_code")}</h2>
       <p>{t("lead_code_text")}</p>
       <p class="bigcode">{room.code}</p>
       <p class="small">{join_address(s)}</p>
-      <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>{t("lead_big_code")}</button>
-      <header class="row spread"><h2>{t("lead_mark")}</h2><MarkState s={s} mark="lead/mark" /></header>
+      <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
+        {t("lead_big_code")}
+      </button>
+      <header class="row spread">
+        <h2>{t("lead_mark")}</h2>
+        <MarkState s={s} mark="lead/mark" />
+      </header>
       <div class="pick">
-        <label class="field"><span>{t("lead_mark_text")}</span><input value={decision} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} /></label>
-        <button class="quiet" disabled={decision.trim() === ""} onClick={() => { s.event("mark", { kind: "decision", text: decision.trim() }, { mark: "lead/mark" }); set(""); }}>{t("lead_mark")}</button>
+        <label class="field">
+          <span>{t("lead_mark_text")}</span>
+          <input value={decision} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
+        </label>
+        <button
+          class="quiet"
+          disabled={decision.trim() === ""}
+          onClick={() => {
+            s.event("mark", { kind: "decision", text: decision.trim() }, { mark: "lead/mark" });
+            set("");
+          }}
+        >
+          {t("lead_mark")}
+        </button>
       </div>
-      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/mark" })}>{t("lead_end")}</Sure>
+      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/mark" })}>
+        {t("lead_end")}
+      </Sure>
     </section>
   );
 }
@@ -203,7 +388,9 @@ export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.
       <CodePicture text={join_address(s)} />
       <h1 class="bigcode">{s.views.room.code}</h1>
       <p>{join_address(s)}</p>
-      <button class="quiet" onClick={onClose}>{t("close")}</button>
+      <button class="quiet" onClick={onClose}>
+        {t("close")}
+      </button>
     </main>
   );
 }
@@ -216,9 +403,36 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     <>
       <Title>{t("tab_lead")}</Title>
       <PhasePart s={s} />
-      {votes.length > 0 ? <section class="panel"><h2>{t("lead_votes")}</h2><ul class="rows">{votes.map(([id, vote]) => <VoteRow key={id} s={s} id={id} vote={vote} />)}</ul></section> : null}
-      {proposals.length > 0 ? <section class="panel"><h2>{t("ideas_proposals")}</h2><ul class="proposals">{proposals.map(([id, proposal]) => <Decide key={id} s={s} id={id} proposal={proposal} />)}</ul></section> : null}
-      {comments.length > 0 ? <section class="panel"><h2>{t("ideas_comments")}</h2><ul class="comments">{comments.map(([id, comment]) => <Answer key={id} s={s} id={id} text={comment.text} />)}</ul></section> : null}
+      {votes.length > 0 ? (
+        <section class="panel">
+          <h2>{t("lead_votes")}</h2>
+          <ul class="rows">
+            {votes.map(([id, vote]) => (
+              <VoteRow key={id} s={s} id={id} vote={vote} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      {proposals.length > 0 ? (
+        <section class="panel">
+          <h2>{t("ideas_proposals")}</h2>
+          <ul class="proposals">
+            {proposals.map(([id, proposal]) => (
+              <Decide key={id} s={s} id={id} proposal={proposal} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      {comments.length > 0 ? (
+        <section class="panel">
+          <h2>{t("ideas_comments")}</h2>
+          <ul class="comments">
+            {comments.map(([id, comment]) => (
+              <Answer key={id} s={s} id={id} text={comment.text} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
       <RoomPart s={s} ui={ui} />
       <People s={s} />
     </>

@@ -7,10 +7,19 @@ import type { Tab, Ui } from "../ui";
 import { t } from "../words";
 import { WhatIsThis } from "./plan_screen";
 
-interface Task { kind: string; title: string; text: string; action?: string; go?: Tab; isDone?: boolean; more?: () => void }
+interface Task {
+  kind: string;
+  title: string;
+  text: string;
+  action?: string;
+  go?: Tab;
+  isDone?: boolean;
+  more?: () => void;
+}
 
 export function task_of(s: Session, ui: Ui): Task {
-  const { phase } = s.views.room, activities = phase?.activities ?? [];
+  const { phase } = s.views.room,
+    activities = phase?.activities ?? [];
   const open = Object.entries(s.views.votes).filter(([, vote]) => vote.open);
   const due = open.find(([id, vote]) => vote.mine === null && s.mark(`vote/${id}`)?.state !== "sending");
   const hasCard = (s.views.card.controls ?? []).length > 0;
@@ -21,19 +30,36 @@ export function task_of(s: Session, ui: Ui): Task {
   if ((phase?.forms ?? []).includes("smart_volume") && canSpeak)
     return { kind: "ideas", title: t("now_form"), text: t("now_form_text"), action: t("start"), go: "form" };
   if (activities.includes("comment") && canSpeak)
-    return { kind: "ideas", title: t("now_comment"), text: t("now_comment_text"), action: t("write"), go: "ideas", more: () => ui.set({ part: "comments", isWriting: true }) };
+    return {
+      kind: "ideas",
+      title: t("now_comment"),
+      text: t("now_comment_text"),
+      action: t("write"),
+      go: "ideas",
+      more: () => ui.set({ part: "comments", isWriting: true }),
+    };
   if (activities.includes("draft") && canSpeak && hasCard)
-    return { kind: "ideas", title: t("now_draft"), text: t("now_draft_text"), action: t("start"), go: "ideas", more: () => ui.set({ part: "proposals" }) };
+    return {
+      kind: "ideas",
+      title: t("now_draft"),
+      text: t("now_draft_text"),
+      action: t("start"),
+      go: "ideas",
+      more: () => ui.set({ part: "proposals" }),
+    };
   const counted = open.find(([, vote]) => vote.mine !== null);
-  if (counted) return { kind: "votes", title: t("now_vote_done"), text: t("now_vote_change"), action: t("change_vote"), go: "votes", isDone: true };
+  if (counted)
+    return { kind: "votes", title: t("now_vote_done"), text: t("now_vote_change"), action: t("change_vote"), go: "votes", isDone: true };
   if (Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open))
     return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
-  if (!phase || activities.length > 0) return { kind: "plan", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
+  if (!phase || activities.length > 0)
+    return { kind: "plan", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
   return { kind: "now", title: t("now_wait"), text: t("now_wait_text") };
 }
 
 export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const { phase, paused } = s.views.room, task = task_of(s, ui);
+  const { phase, paused } = s.views.room,
+    task = task_of(s, ui);
   return (
     <>
       <div class="phase">
@@ -41,12 +67,29 @@ export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         <Timer s={s} ends_at={phase?.ends_at} />
       </div>
       <section class={`task ${task.isDone ? "done" : ""}`}>
-        <Title>{task.isDone ? <Icon name="check" /> : null}{task.title}</Title>
+        <Title>
+          {task.isDone ? <Icon name="check" /> : null}
+          {task.title}
+        </Title>
         {task.text ? <p class="lead">{task.text}</p> : null}
         {task.action && task.go ? (
-          <button class={task.isDone ? "quiet" : "main"} onClick={() => { task.more?.(); ui.go(task.go as Tab); }}>{task.action}<Icon name="right" /></button>
+          <button
+            class={task.isDone ? "quiet" : "main"}
+            onClick={() => {
+              task.more?.();
+              ui.go(task.go as Tab);
+            }}
+          >
+            {task.action}
+            <Icon name="right" />
+          </button>
         ) : null}
-        {paused ? <p class="small"><Icon name="pause" />{t("now_paused")}</p> : null}
+        {paused ? (
+          <p class="small">
+            <Icon name="pause" />
+            {t("now_paused")}
+          </p>
+        ) : null}
       </section>
       <PlanHere s={s} ui={ui} binding={{ pins: [], onTap: (_, node) => ui.set({ selected: node }) }} />
       <WhatIsThis s={s} ui={ui} />
