@@ -258,7 +258,7 @@ export class Connection {
     this.setStage(stage);
   }
 
-  // The seat is gone: what waits was said by that seat, so it is refused, and a new seat gets a new run.
+  // The seat is gone: what waits, in whatever run, was said by that seat. It is refused, and a new seat gets a new run.
   private noSeat(): void {
     const had = this.token !== null;
     this.world.store.remove(`${this.options.prefix}token`);
@@ -268,8 +268,7 @@ export class Connection {
       this.timers.start("retry", kLongestWait, () => this.connect());
       return;
     }
-    const items = [...this.queue.items];
-    this.queue.forget();
+    const items = Queue.forgetAll(this.world.store, this.options.prefix);
     this.queue = this.newRun();
     for (const item of items) this.listener.answered(item, { kind: "refused", why: "seat", place: "", text: "", args: {} });
     this.reconnect(0);
@@ -321,6 +320,8 @@ export class Connection {
   private welcome(welcome: Welcome): void {
     this.timers.stop("hello");
     this.isGreeted = true;
+    // A room that could not store for a while greets its pages again; what it has not answered is sent again.
+    this.sent.clear();
     if (welcome.token) this.world.store.set(`${this.options.prefix}token`, welcome.token);
     this.seq = Math.max(this.seq, welcome.seq);
     this.timers.start("calm", 3000, () => {

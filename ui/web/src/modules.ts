@@ -7,4 +7,5 @@ export * from "./qr";
 export * from "./queue";
 export * from "./session";
 export * from "./timers";
+export * from "./whole";
 export * from "./words";

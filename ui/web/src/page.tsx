@@ -51,7 +51,7 @@ function tabs_of(s: Session): Tab[] {
 }
 
 function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const waiting = Object.values(s.views.votes).some((vote) => vote.open && vote.mine === null);
+  const waiting = Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote));
   return (
     <nav aria-label={t("navigation")}>
       {tabs_of(s).map((tab) => (
@@ -182,12 +182,14 @@ function start(): void {
     ? ["room", "plan", "figures", "votes", "comments", "proposals"]
     : ["room", "plan", "figures", "card", "votes"];
   const world = browser_world(socket_address());
-  const prefix = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`,
-    runKey = `${prefix}run`;
-  // A new invitation is a new seat, perhaps with another role; the same one leads back to the seat that it gave.
-  if (address.invite !== null && world.store.get(`${prefix}invite`) !== address.invite) {
-    world.store.remove(`${prefix}token`);
-    world.store.set(`${prefix}invite`, address.invite);
+  // Each invitation is a seat of its own, with its own key and its own queue: a page never speaks for another of its seats.
+  const base = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`;
+  const invite = address.invite ?? window.sessionStorage.getItem(`${base}invite`) ?? world.store.get(`${base}invite`);
+  const prefix = invite === null ? `${base}code/` : `${base}by-${invite}/`;
+  const runKey = `${prefix}run`;
+  if (invite !== null) {
+    window.sessionStorage.setItem(`${base}invite`, invite);
+    world.store.set(`${base}invite`, invite);
   }
   const session = new Session(
     world,
@@ -197,7 +199,7 @@ function start(): void {
       run: window.sessionStorage.getItem(runKey),
       lang: locale(),
       views,
-      invite: world.store.get(`${prefix}invite`),
+      invite,
     },
     (run) => window.sessionStorage.setItem(runKey, run),
     () => window.location.reload(),

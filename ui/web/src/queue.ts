@@ -97,6 +97,17 @@ export class Queue {
     return null;
   }
 
+  /// Empties all runs, and says what was in them.
+  static forgetAll(store: Store, prefix: string): Item[] {
+    const items: Item[] = [];
+    for (const key of store.keys()) {
+      const item = key.startsWith(`${prefix}op/`) ? parsed<Item>(store.get(key)) : null;
+      if (item) items.push(item);
+      if (key.startsWith(`${prefix}op/`) || key.startsWith(`${prefix}run/`)) store.remove(key);
+    }
+    return items.sort((a, b) => a.id - b.id);
+  }
+
   /// Forgets runs of pages that have gone long ago and left nothing.
   static tidy(store: Store, prefix: string, now: number): void {
     const used = new Set(Queue.left(store, prefix, now));

@@ -1,7 +1,8 @@
 // What the page knows of its room: the views that the server sends, and how each own change stands.
 import { Connection } from "./connection";
 import type { Item } from "./queue";
-import type { Deed, Json, PlanItem, Seen, StateMessage, ViewName, Views, Welcome, You } from "./wire";
+import type { Ballot, Deed, Json, PlanItem, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
+import { whole } from "./whole";
 import type { Answer, Options, World } from "./world";
 import type { Key } from "./words";
 
@@ -42,11 +43,12 @@ export class Session {
   private watchers = new Set<() => void>();
   private due = false;
   private refused = 0;
+  private secrets = new Map<string, Ballot>();
   private read = new Map<ViewName, number>(); // the last entry that each view has read
 
   constructor(
     private world: World,
-    options: Options,
+    private options: Options,
     private keepRun: (run: string) => void,
     reload: () => void,
   ) {
@@ -175,6 +177,7 @@ export class Session {
     if (message.t === "state") this.merge(message as unknown as StateMessage);
     else if (message.t === "say") {
       const id = String(message.id);
+      if (id === "stored") this.notices = this.notices.filter((notice) => notice.id !== "storage");
       this.notices = [...this.notices.filter((notice) => notice.id !== id), { id, at: this.now() }];
     }
     this.touch();
@@ -185,11 +188,44 @@ export class Session {
     const view = state.view as ViewName;
     if (!(view in this.views)) return;
     const kept = this.stale.delete(view) ? {} : { ...this.views[view] };
-    const next = { ...kept, ...(state.set ?? {}) } as Record<string, Json>;
+    const next: Record<string, Json> = { ...(kept as Record<string, Json>) };
+    for (const [key, value] of Object.entries(state.set ?? {})) next[key] = whole(view, key, value);
     for (const key of state.drop ?? []) delete next[key];
     this.views = { ...this.views, [view]: next };
     this.arrived.add(view);
     this.read.set(view, state.s);
+    if (view === "votes") this.forgetClosed();
+  }
+
+  // --- Secret ballots -----------------------------------------------------------------------------------------------
+
+  // The server cannot tell anybody their own secret ballot. That one was cast is kept here until the vote closes; what it said,
+  // only as long as the page lives.
+  private castKey(vote: string): string {
+    return `${this.options.prefix}cast/${vote}`;
+  }
+
+  private remember(vote: string, ballot: Ballot | null): void {
+    if (ballot === null) {
+      this.secrets.delete(vote);
+      this.world.store.remove(this.castKey(vote));
+    } else {
+      this.secrets.set(vote, ballot);
+      this.world.store.set(this.castKey(vote), "1");
+    }
+  }
+
+  private forgetClosed(): void {
+    for (const [id, vote] of Object.entries(this.views.votes)) if (!vote.open) this.remember(id, null);
+  }
+
+  /// The own ballot, as far as it is known.
+  ballotOf(id: string, vote: Vote): Ballot | null {
+    return vote.mine ?? (vote.secret ? (this.secrets.get(id) ?? null) : null);
+  }
+
+  hasVoted(id: string, vote: Vote): boolean {
+    return vote.mine !== null || (vote.secret && this.world.store.get(this.castKey(id)) !== null);
   }
 
   private touch(): void {
@@ -204,6 +240,7 @@ export class Session {
 
   private answered(item: Item, answer: Answer): void {
     const mark = item.mark;
+    if (answer.kind === "saved" && mark?.startsWith("vote/")) this.remember(mark.slice(5), (item.shown ?? null) as Ballot | null);
     if (answer.kind === "refused") this.refusals = [...this.refusals, { number: ++this.refused, item, answer }];
     // A later change by the same control is still under way: what it shows stays.
     const later = mark !== undefined && this.connection.queue.items.some((one) => one.mark === mark);

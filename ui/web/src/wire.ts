@@ -88,6 +88,7 @@ export interface Seat {
   name: string;
   colour: string;
   here: boolean;
+  muted?: boolean;
 }
 export interface RoomView {
   title?: string;
@@ -125,7 +126,7 @@ export interface Control {
   node: string;
   port: string;
   label: string;
-  value: number;
+  value: number | null; ///< null where the server does not know it
   unit: string;
   minimum: number;
   maximum: number;

@@ -25,7 +25,13 @@ export class MockRoom {
 
   take_seat(role) {
     const n = Object.keys(this.seats).length + 1;
-    this.seats[n] = { role, name: kAnimals[(n - 1) % kAnimals.length], colour: kColours[(n - 1) % kColours.length], here: true };
+    this.seats[n] = {
+      role,
+      name: kAnimals[(n - 1) % kAnimals.length],
+      colour: kColours[(n - 1) % kColours.length],
+      here: true,
+      muted: false,
+    };
     return n;
   }
 
@@ -44,7 +50,7 @@ export class MockRoom {
             id,
             {
               ...one,
-              mine: this.ballots.get(id)?.get(seat) ?? null,
+              mine: one.secret ? null : (this.ballots.get(id)?.get(seat) ?? null), // nobody can tell whose a secret ballot is
               count,
               turnout: count / one.electorate,
               ...(one.open ? {} : this.result(id)),
@@ -56,7 +62,13 @@ export class MockRoom {
       return Object.fromEntries(
         Object.entries(this.comments).map(([id, one]) => [id, { ...one, mine: this.ratings.get(`${id}/${seat}`) ?? 0 }]),
       );
-    if (name === "proposals") return this.proposals;
+    if (name === "proposals")
+      return Object.fromEntries(
+        Object.entries(this.proposals).map(([id, one]) => {
+          const { conflicts, misfits, ...rest } = one;
+          return [id, one.state === "proposed" ? one : rest];
+        }),
+      );
     if (name === "drafts") return Object.fromEntries(Object.entries(this.drafts).filter(([, one]) => one.seat === seat));
     return {};
   }
@@ -72,13 +84,8 @@ export class MockRoom {
         median: values[values.length >> 1] ?? null,
       };
     }
-    const options =
-      one.kind === "yes_no"
-        ? [
-            { id: "yes", label: "Yes" },
-            { id: "no", label: "No" },
-          ]
-        : one.options;
+    const fixed = { yes_no: ["Yes", "No"], dots: ["Plus", "Minus"] }[one.kind];
+    const options = fixed ? fixed.map((label) => ({ id: label.toLowerCase(), label })) : one.options;
     const points = Object.fromEntries(options.map((option) => [option.id, 0]));
     for (const ballot of given) {
       if (typeof ballot === "string") points[ballot] += 1;
@@ -96,7 +103,7 @@ export class MockRoom {
         points: points[option.id],
         share: all ? points[option.id] / all : 0,
       })),
-      leading: all > 0 && leads.length === 1 ? leads[0].id : null,
+      leading: all > 0 && leads.length === 1 ? leads[0].id : "",
     };
   }
 
@@ -296,6 +303,7 @@ export class MockRoom {
     else if (event === "set_pace") Object.assign(this.room, { rate: a.rate, paused: a.is_paused });
     else if (event === "show") this.room.layout = a.layout;
     else if (event === "set_door") this.room.door = a.door;
+    else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
     else if (event === "set_role") this.seats[a.seat].role = a.role;
     else if (event === "close_room") this.room.closed = true;
     return null;

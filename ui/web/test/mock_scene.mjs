@@ -23,42 +23,11 @@ const disc = (x, y, r, n, squash = 1) =>
 
 function plan_of_scene() {
   const plan = { box: [-10, -115, 165, 10] };
-  plan["n/boundary"] = {
-    kind: "boundary",
-    name: "Site",
-    d: "M-5 -108L150 -108L162 -60L150 4L-5 4z",
-    fill: "none",
-    use: "",
-    met: null,
-    figures: [["Area", 17300, "m²"]],
-  };
-  plan["n/plot_north"] = {
-    kind: "plot",
-    name: "North plot",
-    d: "M0 -104L146 -104L156 -62L0 -62z",
-    fill: "#dcd8c9",
-    use: "",
-    met: null,
-    figures: [["Area", 6340, "m²"]],
-  };
-  plan["n/high_street"] = {
-    kind: "street",
-    name: "High Street",
-    d: "M-10 2L155 2",
-    fill: "#888888",
-    use: "",
-    met: null,
-    figures: [["Load", 61, "%"]],
-  };
-  plan["n/old_mill"] = {
-    kind: "building",
-    name: "Old mill",
-    d: "M126 -20h20v16h-20z",
-    fill: "#c9c4ba",
-    use: "heritage",
-    met: null,
-    figures: [["Height", 14, "m"]],
-  };
+  // What is no volume comes without colour and figures.
+  plan["n/site/Site"] = { kind: "boundary", name: "Site", d: "M-5 -108l155 0l12 48l-12 64l-155 0z" };
+  plan["n/plot/north"] = { kind: "plot", name: "North plot", d: "M0 -104l146 0l10 42l-156 0z" };
+  plan["n/street/High Street"] = { kind: "street", name: "High Street", d: "M-10 2l165 0", lanes: 2 };
+  plan["n/building/Old mill"] = { kind: "building", name: "Old mill", d: "M126 -20l20 0l0 16l-20 0z", use: "heritage" };
   let i = 0;
   for (const node of scene.nodes) {
     const volume = node.types?.smart_volume;
@@ -74,9 +43,10 @@ function plan_of_scene() {
       use,
       met: i % 4 !== 0,
       figures: [
-        ["Floor area", Math.round(size * size * 13.7), "m²"],
-        ["Volume", Math.round(size * size * 41), "m³"],
-        ["Sun on 21 March", 1.2 + (i % 5) * 0.83, "h"],
+        ["volume", Math.round(size * size * 41), "m³"],
+        ["demand", Math.round(size * size * 45), "m³"],
+        ["floor_area", Math.round(size * size * 13.7), "m²"],
+        ["height", 9 + (i % 5) * 3, "m"],
       ],
     };
   }
@@ -100,7 +70,7 @@ const vote = (question, kind, more) => ({
   turnout: 0,
   electorate: 48,
   result: null,
-  leading: null,
+  leading: "",
   mean: null,
   median: null,
   ...more,
@@ -149,8 +119,6 @@ export function first_views() {
           node: "near_park",
           port: "strength",
           label: "How much the school wants to be near the park",
-          value: 0.4,
-          unit: "",
           minimum: 0,
           maximum: 1,
           step: 0.05,
@@ -173,10 +141,6 @@ export function first_views() {
         ],
       }),
       places: vote("Where is a tower good, and where not?", "dots", {
-        options: [
-          { id: "plus", label: "Plus" },
-          { id: "minus", label: "Minus" },
-        ],
         points: 3,
       }),
       height: vote("How high may the tallest building be?", "slider", { least: 12, most: 60, unit: "m" }),
@@ -199,7 +163,7 @@ export function first_views() {
         state: "accepted",
         answer: "Lights are part of the plan now.",
       },
-      c3: { seat: 0, text: "Please keep the old mill.", node: "old_mill", plus: 9, minus: 2, state: "open" },
+      c3: { seat: 0, text: "Please keep the old mill.", place: [136, 12, 0], plus: 9, minus: 2, state: "open" },
       c4: { seat: 0, text: "And make it a workshop.", parent: "c3", plus: 0, minus: 0, state: "open" },
     },
     proposals: {

@@ -13,7 +13,7 @@ export function place_of(control: Pick<Control, "node" | "port">): string {
 }
 
 function change(s: Session, control: Control, value: number, draft: string | null): void {
-  const seen: Seen[] = [{ key: place_of(control), was: control.value }];
+  const seen: Seen[] = control.value === null ? [] : [{ key: place_of(control), was: control.value }];
   const more = { mark: `control/${control.node}/${control.port}`, shown: value, ...(draft ? { draft } : { seen }) };
   if (control.port === "strength") s.command("set_link_strength", { id: control.node, strength: value }, more);
   else s.command("set_port", { node: control.node, port: control.port, value }, more);

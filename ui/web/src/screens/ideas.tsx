@@ -29,6 +29,14 @@ export function comment_pins(s: Session): Pin[] {
   return pins;
 }
 
+// Streets, plots and buildings stand on the plan without a node of their own; a comment on them is one on their place.
+function anchor_of(s: Session, id: string): Record<string, Json> {
+  if (!id.includes("/")) return { node: id };
+  const item = s.plan().find(([one]) => one === id)?.[1];
+  const place = item && middle(item);
+  return place ? { place: [place] } : {};
+}
+
 function about(s: Session, node: string | null | undefined, place: Point | null): string {
   if (node) return s.nameOf(node);
   return place ? `${t("comment_place")} (${place_name(s, place)})` : t("comment_all");
@@ -42,7 +50,7 @@ function Write({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     const args: Record<string, Json> = { id: s.freshName("comment"), text: text.trim() };
     if (ui.parent) args.parent = ui.parent;
     else if (ui.place) args.place = [ui.place];
-    else if (ui.selected) args.node = ui.selected;
+    else if (ui.selected) Object.assign(args, anchor_of(s, ui.selected));
     s.event("comment", args, { mark: "comment/new", shown: text.trim() });
     set("");
     ui.set({ isWriting: false, place: null, parent: null });

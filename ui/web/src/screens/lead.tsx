@@ -171,11 +171,14 @@ function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.E
 
 function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposal }): JSX.Element {
   const [answer, set] = useState(""),
-    [left, leave] = useState<number[]>(proposal.misfits.map((misfit) => misfit.step));
-  const keep = proposal.words.map((_, i) => i).filter((i) => !left.includes(i));
+    [left, leave] = useState<number[]>([]);
+  // Steps that were taken back have no words; those that do not fit any more cannot be taken.
+  const isOut = (i: number): boolean => left.includes(i) || proposal.misfits.some((one) => one.step === i);
+  const steps = proposal.words.map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
+  const keep = steps.map(({ i }) => i).filter((i) => !isOut(i));
   const decide = (is_accepted: boolean): void => {
     const args: Record<string, Json> = { draft: id, is_accepted, answer: answer.trim() };
-    if (is_accepted && left.length > 0) args.keep = keep;
+    if (is_accepted && keep.length < steps.length) args.keep = keep;
     s.event("decide_proposal", args, { mark: `lead/${id}` });
   };
   return (
@@ -183,13 +186,13 @@ function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposa
       <>
         <fieldset class="field">
           <legend>{t("proposal_steps")}</legend>
-          {proposal.words.map((word, i) => {
+          {steps.map(({ word, i }) => {
             const misfit = proposal.misfits.find((one) => one.step === i);
             return (
               <label key={i} class="tick">
                 <input
                   type="checkbox"
-                  checked={!left.includes(i)}
+                  checked={!isOut(i)}
                   disabled={misfit !== undefined}
                   onChange={() => leave(left.includes(i) ? left.filter((one) => one !== i) : [...left, i])}
                 />
@@ -213,7 +216,7 @@ function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposa
         <div class="row">
           <button class="main" disabled={keep.length === 0} onClick={() => decide(true)}>
             <Icon name="check" />
-            {left.length > 0 ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}
+            {keep.length < steps.length ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}
           </button>
           <button class="quiet" onClick={() => decide(false)}>
             <Icon name="cross" />
@@ -291,11 +294,8 @@ function People({ s }: { s: Session }): JSX.Element {
                       ))}
                     </select>
                   </label>
-                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: true }, { mark })}>
-                    {t("lead_mute")}
-                  </button>
-                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: false }, { mark })}>
-                    {t("lead_unmute")}
+                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
+                    {t(seat.muted ? "lead_unmute" : "lead_mute")}
                   </button>
                   {n === s.you?.seat ? null : (
                     <Sure

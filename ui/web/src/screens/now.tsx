@@ -21,7 +21,7 @@ export function task_of(s: Session, ui: Ui): Task {
   const { phase } = s.views.room,
     activities = phase?.activities ?? [];
   const open = Object.entries(s.views.votes).filter(([, vote]) => vote.open);
-  const due = open.find(([id, vote]) => vote.mine === null && s.mark(`vote/${id}`)?.state !== "sending");
+  const due = open.find(([id, vote]) => !s.hasVoted(id, vote) && s.mark(`vote/${id}`)?.state !== "sending");
   const hasCard = (s.views.card.controls ?? []).length > 0;
   const canSpeak = s.you?.role !== "viewer" && s.you?.role !== "beamer";
   if (due && canSpeak) return { kind: "vote", title: t("now_vote"), text: due[1].question, action: t("vote_now"), go: "votes" };
@@ -47,7 +47,7 @@ export function task_of(s: Session, ui: Ui): Task {
       go: "ideas",
       more: () => ui.set({ part: "proposals" }),
     };
-  const counted = open.find(([, vote]) => vote.mine !== null);
+  const counted = open.find(([id, vote]) => s.hasVoted(id, vote));
   if (counted)
     return { kind: "votes", title: t("now_vote_done"), text: t("now_vote_change"), action: t("change_vote"), go: "votes", isDone: true };
   if (Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open))

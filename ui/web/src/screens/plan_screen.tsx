@@ -8,6 +8,15 @@ import type { Session } from "../session";
 import type { Ui } from "../ui";
 import { Key, t } from "../words";
 
+// Figures that every volume has come by the names of their ports.
+const kFigures: Record<string, Key> = {
+  volume: "figure_volume",
+  demand: "figure_demand",
+  floor_area: "figure_floor_area",
+  height: "figure_height",
+};
+const figure_label = (label: string): string => (kFigures[label] ? t(kFigures[label] as Key) : label);
+
 /// What was touched: its name, its numbers, and how it fares.
 export function WhatIsThis({ s, ui }: { s: Session; ui: Ui }): JSX.Element | null {
   const found = s.plan().find(([id]) => id === ui.selected);
@@ -35,7 +44,7 @@ export function WhatIsThis({ s, ui }: { s: Session; ui: Ui }): JSX.Element | nul
         <dl class="figures">
           {item.figures.map(([label, value, unit]) => (
             <div key={label}>
-              <dt>{label}</dt>
+              <dt>{figure_label(label)}</dt>
               <dd>{amount(value, unit)}</dd>
             </div>
           ))}

@@ -111,7 +111,7 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
         <details>
           <summary>{t("proposal_steps")}</summary>
           <ol class="steps">
-            {proposal.words.map((word, i) => (
+            {proposal.words.filter(Boolean).map((word, i) => (
               <li key={i}>{word}</li>
             ))}
           </ol>
@@ -188,7 +188,7 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => (
-            <td key={i}>{list(isShort ? one.words.slice(0, 3) : one.words)}</td>
+            <td key={i}>{list(one.words.filter(Boolean).slice(0, isShort ? 3 : undefined))}</td>
           ))}
         </tr>
         {isShort ? null : (

@@ -84,7 +84,8 @@ export function Turnout({ vote }: { vote: Vote }): JSX.Element {
 function OpenVote({ s, ui, id, vote }: { s: Session; ui: Ui; id: string; vote: Vote }): JSX.Element {
   const mark = `vote/${id}`,
     under = s.shown(mark, "votes");
-  const sent = under === undefined ? vote.mine : (under as Ballot | null);
+  const sent = under === undefined ? s.ballotOf(id, vote) : (under as Ballot | null);
+  const isCast = under === undefined ? s.hasVoted(id, vote) : under !== null;
   const edited = id in ui.ballots ? (ui.ballots[id] ?? null) : sent;
   const gap = gap_of(vote, edited),
     isNew = !same(edited, sent),
@@ -96,7 +97,7 @@ function OpenVote({ s, ui, id, vote }: { s: Session; ui: Ui; id: string; vote: V
     s.command("cast_vote", { node: id, voter: `seat ${s.you?.seat ?? 0}`, ballot: ballot as never }, { mark, shown: ballot as never });
   };
   const Form = kForms[vote.kind];
-  const status = isSending ? t(s.connection.isOpen ? "vote_sending" : "vote_waiting") : sent !== null && !isNew ? t("vote_counted") : null;
+  const status = isSending ? t(s.connection.isOpen ? "vote_sending" : "vote_waiting") : isCast && !isNew ? t("vote_counted") : null;
   return (
     <section class="vote">
       <h2>{vote.question}</h2>
@@ -104,7 +105,7 @@ function OpenVote({ s, ui, id, vote }: { s: Session; ui: Ui; id: string; vote: V
       <Timer s={s} ends_at={vote.ends_at} />
       <Form s={s} ui={ui} id={id} vote={vote} ballot={edited} set={set} />
       <div class="cast">
-        {gap ? (
+        {gap && !(isCast && !isNew) ? (
           <p class="missing" aria-live="polite">
             {gap_sentence(gap)}
           </p>
@@ -122,9 +123,9 @@ function OpenVote({ s, ui, id, vote }: { s: Session; ui: Ui; id: string; vote: V
           </p>
         ) : null}
         <button class="main" disabled={gap !== null || !isNew} onClick={() => edited !== null && cast(edited)}>
-          {t(sent === null ? "send_vote" : "change_vote")}
+          {t(isCast ? "change_vote" : "send_vote")}
         </button>
-        {sent !== null && !isNew ? (
+        {isCast && !isNew ? (
           <button class="link" onClick={() => cast(null)}>
             {t("withdraw_vote")}
           </button>
@@ -177,7 +178,7 @@ export function Votes({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     open = all.filter(([, vote]) => vote.open);
   const closed = all.filter(([, vote]) => !vote.open && (vote.mine !== null || vote.count > 0));
   // Stays on its vote after that is sent, so that people see it counted.
-  const [at, go] = useState(() => open.find(([id, vote]) => vote.mine === null && s.mark(`vote/${id}`) === null)?.[0] ?? "");
+  const [at, go] = useState(() => open.find(([id, vote]) => !s.hasVoted(id, vote) && s.mark(`vote/${id}`) === null)?.[0] ?? "");
   const shown = open.find(([id]) => id === at) ?? open[0];
   return (
     <>
@@ -186,7 +187,7 @@ export function Votes({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         <Segments
           label={t("votes")}
           value={shown[0]}
-          choices={open.map(([id, vote], i) => ({ id, text: `${i + 1}${vote.mine !== null ? " ✓" : ""}` }))}
+          choices={open.map(([id, vote], i) => ({ id, text: `${i + 1}${s.hasVoted(id, vote) ? " ✓" : ""}` }))}
           onChange={go}
         />
       ) : null}

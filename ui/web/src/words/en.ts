@@ -95,6 +95,10 @@ export const en = {
   met_no: "Does not get what it asks for yet",
   comment_on: "Comment on this",
   no_plan: "The plan has not come yet.",
+  figure_volume: "Volume",
+  figure_demand: "Asked for",
+  figure_floor_area: "Floor area",
+  figure_height: "Height",
   figures: "Key figures",
   // Card
   your_goals: "Your goals",
