@@ -10,6 +10,10 @@ mkdir -p "$root/build/web_test"
 "$esbuild" src/modules.ts --bundle --format=esm --target=es2019 --log-level=warning --outfile="$root/build/web_test/modules.mjs"
 node --test test/*.test.mjs
 ./build.sh
-if [ -n "$(chromium_of)" ]; then CHROMIUM=$(chromium_of) node test/screens.mjs "$@"
+if [ -n "$(chromium_of)" ]; then
+  CHROMIUM=$(chromium_of)
+  export CHROMIUM
+  if [ -n "${BEHAVIOURLINKS:-}" ]; then node test/real_room.mjs; fi
+  node test/screens.mjs "$@"
 else echo 'The screens were not looked at: there is no chromium. Install the package `chromium` for that.'
 fi

@@ -10,9 +10,15 @@ export function number(value: number, step = 0): string {
   return new Intl.NumberFormat(locale(), { maximumFractionDigits: digits }).format(value === 0 ? 0 : value);
 }
 
+/// A unit as people write it: scenes say `m2`.
+export function unit_sign(unit: string): string {
+  return unit === "1" ? "" : unit.replace(/m2\b/g, "m²").replace(/m3\b/g, "m³");
+}
+
 /// With its unit, kept together on one line.
 export function amount(value: number, unit: string, step = 0): string {
-  return unit === "" || unit === "1" ? number(value, step) : `${number(value, step)}\u00a0${unit}`;
+  const sign = unit_sign(unit);
+  return sign === "" ? number(value, step) : `${number(value, step)}\u00a0${sign}`;
 }
 
 export function share(value: number): string {

@@ -1,7 +1,7 @@
 // The small parts that all screens share: the line about the connection, states of changes, controls, and dialogs.
 import type { ComponentChildren, JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { amount, countdown, duration, in_steps, number, typed_number } from "./format";
+import { amount, countdown, duration, in_steps, number, typed_number, unit_sign } from "./format";
 import { Refusal, Session, subject_of, why_of } from "./session";
 import { useClock } from "./ui";
 import { Key, t } from "./words";
@@ -257,7 +257,7 @@ export function Stepper(props: StepperProps): JSX.Element {
             if (event.key === "Escape") setTyped(null);
           }}
         />
-        <span class="unit">{unit}</span>
+        <span class="unit">{unit_sign(unit)}</span>
       </div>
       <div class="slide">
         <button class="round" disabled={isDisabled || shown <= minimum} aria-label={t("less", { label })} onClick={() => put(shown - step)}>

@@ -119,28 +119,56 @@ function lines_of(name: string, room: number): string[] {
   return best;
 }
 
-// Names where they fit, if need be a little smaller; where they do not, a touch tells the name.
-function Label({ item, unit, size, isFixed }: { item: PlanItem; unit: number; size: number; isFixed: boolean }): JSX.Element | null {
+interface Name {
+  id: string;
+  kind: string;
+  lines: string[];
+  x: number;
+  y: number;
+  font: number;
+  width: number;
+  height: number;
+}
+
+// Where the name of a thing fits, if need be a little smaller.
+function name_of(id: string, item: PlanItem, fonts: number[]): Name | null {
   const found = extent(item);
   if (!found || item.kind === "boundary" || item.kind === "plot" || !item.name) return null;
-  const [x, y] = middle_of(found),
-    isStreet = item.kind === "street";
-  for (const font of isFixed ? [size * unit] : [size * unit, size * unit * 0.82]) {
-    const width = isStreet ? Math.max(found.width, found.height) : found.width,
-      room = width / (font * 0.58),
-      lines = lines_of(item.name, room);
-    if (Math.max(...lines.map((line) => line.length)) > room || (!isStreet && found.height < font * 1.15 * lines.length)) continue;
-    return (
-      <text class={`name ${item.kind}`} font-size={font} stroke-width={font * 0.22}>
-        {lines.map((line, i) => (
-          <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>
-            {line}
-          </tspan>
-        ))}
-      </text>
-    );
+  const [x, y] = middle_of(found);
+  const isStreet = item.kind === "street";
+  for (const font of fonts) {
+    const room = (isStreet ? Math.max(found.width, found.height) : found.width) / (font * 0.58);
+    const lines = lines_of(item.name, room);
+    const longest = Math.max(...lines.map((line) => line.length));
+    if (longest > room || (!isStreet && found.height < font * 1.15 * lines.length)) continue;
+    return { id, kind: item.kind, lines, x, y, font, width: longest * font * 0.58, height: lines.length * font * 1.1 };
   }
   return null;
+}
+
+// What lies on top gets its name first; a name that would lie on another is left out, and a touch tells it.
+function names_of(items: [string, PlanItem][], fonts: number[]): Name[] {
+  const names: Name[] = [];
+  for (const [id, item] of [...items].reverse()) {
+    const name = name_of(id, item, fonts);
+    const isFree = (one: Name): boolean =>
+      name !== null && (Math.abs(one.x - name.x) * 2 >= one.width + name.width || Math.abs(one.y - name.y) * 2 >= one.height + name.height);
+    if (name && names.every(isFree)) names.push(name);
+  }
+  return names;
+}
+
+function Label({ name }: { name: Name }): JSX.Element {
+  const { lines, x, y, font } = name;
+  return (
+    <text class={`name ${name.kind}`} font-size={font} stroke-width={font * 0.22}>
+      {lines.map((line, i) => (
+        <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>
+          {line}
+        </tspan>
+      ))}
+    </text>
+  );
 }
 
 function PinShape({ pin, unit, size }: { pin: Pin; unit: number; size: number }): JSX.Element {
@@ -263,8 +291,8 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
           {items.map(([id, item]) => (
             <Shape key={id} id={id} item={item} isSelected={id === selected} />
           ))}
-          {items.map(([id, item]) => (
-            <Label key={id} item={item} unit={unit} size={label} isFixed={isStill ?? false} />
+          {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82]).map((name) => (
+            <Label key={name.id} name={name} />
           ))}
           {(binding?.pins ?? []).map((pin) => (
             <PinShape key={pin.id} pin={pin} unit={unit} size={label} />

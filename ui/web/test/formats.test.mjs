@@ -61,7 +61,9 @@ test("numbers are as long as people read at a glance", () => {
   assert.equal(number(NaN), "–");
   assert.equal(number(0.4, 0.05), "0.4");
   assert.equal(amount(3, ""), "3");
-  assert.equal(amount(3, "m²"), "3\u00a0m²");
+  assert.equal(amount(3, "m2"), "3\u00a0m²");
+  assert.equal(amount(3, "kWh/m3"), "3\u00a0kWh/m³");
+  assert.equal(amount(3, "1"), "3");
   assert.equal(share(0.126), "13%");
   assert.equal(duration(12400), "12 s");
   assert.equal(duration(150000), "2 min");

@@ -98,7 +98,10 @@ function CodeLayout({ s }: { s: Session }): JSX.Element {
       <CodePicture text={join_address(s)} />
       <div>
         <p>{t("beamer_join")}</p>
-        <p class="address">{join_address(s).replace(/^https?:\/\//, "")}</p>
+        <p class="address">
+          {window.location.host}
+          <wbr />/{s.views.room.code}
+        </p>
       </div>
     </div>
   );

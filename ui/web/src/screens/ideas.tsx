@@ -185,7 +185,7 @@ function Comments({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   return (
     <>
       {may ? (
-        <button class="main" onClick={() => ui.set({ isWriting: true, parent: null })}>
+        <button class="main" onClick={() => ui.set({ isWriting: true, parent: null, selected: null, place: null })}>
           <Icon name="ideas" />
           {t("comment_new")}
         </button>

@@ -53,7 +53,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
         <h2>{t("lead_phase")}</h2>
         <MarkState s={s} mark="lead/phase" />
       </header>
-      <p class="lead">{phase ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
+      <p class="lead">{phase?.name ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
       <Timer s={s} ends_at={phase?.ends_at} />
       <div class="row">
         {phase && phase.ends_at > 0 ? (

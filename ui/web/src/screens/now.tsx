@@ -36,7 +36,7 @@ export function task_of(s: Session, ui: Ui): Task {
       text: t("now_comment_text"),
       action: t("write"),
       go: "ideas",
-      more: () => ui.set({ part: "comments", isWriting: true }),
+      more: () => ui.set({ part: "comments", isWriting: true, parent: null, selected: null, place: null }),
     };
   if (activities.includes("draft") && canSpeak && hasCard)
     return {
