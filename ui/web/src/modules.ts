@@ -1,0 +1,11 @@
+// What the unit tests see of the page; not part of the page itself.
+export * from "./ballots";
+export * from "./connection";
+export * from "./format";
+export * from "./outline";
+export * from "./qr";
+export * from "./queue";
+export * from "./session";
+export * from "./timers";
+export * from "./whole";
+export * from "./words";

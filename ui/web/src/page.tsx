@@ -1,0 +1,217 @@
+// The page: finds the room in the address, opens the connection, and shows the screen that is wanted.
+import { render } from "preact";
+import type { JSX } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { browser_world, kept, keep, socket_address } from "./browser";
+import { Announcer, Avatar, Icon, IconName, Notices, Refusals, Sheet, StatusLine } from "./parts";
+import { Plan } from "./plan";
+import { Beamer } from "./screens/beamer";
+import { Card } from "./screens/card";
+import { Form } from "./screens/form";
+import { Ideas } from "./screens/ideas";
+import { CodeScreen, Join, LanguageChoice, Message } from "./screens/join";
+import { LargeCode, Lead } from "./screens/lead";
+import { Now } from "./screens/now";
+import { PlanScreen } from "./screens/plan_screen";
+import { Votes } from "./screens/votes";
+import { Session } from "./session";
+import { Tab, Ui, useWatched, useWide } from "./ui";
+import type { ViewName } from "./wire";
+import { Key, Language, best_language, language_now, locale, set_language, t } from "./words";
+
+interface Address {
+  code: string;
+  invite: string | null;
+  isBeamer: boolean;
+  language: Language | null;
+}
+
+// The fragment never leaves the browser. It goes from the address bar at once, so that nobody passes an invitation on by showing it.
+function read_address(): Address {
+  const code = decodeURIComponent(window.location.pathname.split("/")[1] ?? "").toUpperCase();
+  const parts = window.location.hash.replace(/^#/, "").split("&");
+  const value = (name: string): string | null => parts.find((part) => part.startsWith(`${name}=`))?.slice(name.length + 1) ?? null;
+  const language = value("lang"),
+    invite = value("k");
+  const isBeamer = parts.includes("beamer");
+  if (invite !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
+  return { code, invite, isBeamer, language: language === null ? null : best_language([language]) };
+}
+
+const kIconOf: Partial<Record<Tab, IconName>> = { now: "now", plan: "plan", card: "card", votes: "votes", ideas: "ideas", lead: "lead" };
+
+function tabs_of(s: Session): Tab[] {
+  const tabs: Tab[] = ["now", "plan"],
+    { card, votes } = s.views;
+  if (s.you?.role === "facilitator") tabs.unshift("lead");
+  if ((card.goals ?? []).length > 0 || (card.controls ?? []).length > 0) tabs.push("card");
+  if (Object.keys(votes).length > 0) tabs.push("votes");
+  tabs.push("ideas");
+  return tabs;
+}
+
+function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
+  const waiting = Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote));
+  return (
+    <nav aria-label={t("navigation")}>
+      {tabs_of(s).map((tab) => (
+        <button key={tab} aria-current={ui.tab === tab ? "page" : undefined} onClick={() => ui.go(tab)}>
+          <Icon name={kIconOf[tab] ?? "now"} />
+          <span>{t(`tab_${tab}` as Key)}</span>
+          {tab === "votes" && waiting ? <i class="dot" aria-hidden="true" /> : null}
+        </button>
+      ))}
+    </nav>
+  );
+}
+
+function screen_of(s: Session, ui: Ui, isWide: boolean): JSX.Element {
+  switch (ui.tab) {
+    case "plan":
+      return <PlanScreen s={s} ui={ui} isWide={isWide} />;
+    case "card":
+      return <Card s={s} ui={ui} />;
+    case "votes":
+      return <Votes s={s} ui={ui} />;
+    case "ideas":
+      return <Ideas s={s} ui={ui} />;
+    case "lead":
+      return <Lead s={s} ui={ui} />;
+    case "form":
+      return <Form s={s} ui={ui} />;
+    default:
+      return <Now s={s} ui={ui} />;
+  }
+}
+
+function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Language): void }): JSX.Element {
+  const isWide = useWide(),
+    [isYou, setYou] = useState(false),
+    you = s.you;
+  useEffect(() => s.want("comments", "proposals", "drafts"), []);
+  if (ui.isCodeLarge) return <LargeCode s={s} onClose={() => ui.set({ isCodeLarge: false })} />;
+  return (
+    <div class={`frame ${isWide ? "wide" : ""}`}>
+      <header class="top">
+        <div class="grow">
+          <p class="room">{s.views.room.title}</p>
+          <StatusLine s={s} />
+        </div>
+        {you ? (
+          <button class="me" aria-label={`${t("you")}: ${you.name}`} onClick={() => setYou(true)}>
+            <Avatar name={you.name} colour={you.colour} />
+          </button>
+        ) : null}
+      </header>
+      <Navigation s={s} ui={ui} />
+      {isWide ? (
+        <aside aria-label={t("plan")}>
+          <Plan
+            s={s}
+            binding={ui.binding ?? { pins: [], onTap: (_, node) => ui.set({ selected: node }) }}
+            selected={ui.selected}
+            label={14}
+          />
+        </aside>
+      ) : null}
+      <main key={ui.tab}>
+        <Notices s={s} />
+        <Refusals s={s} />
+        {s.views.room.closed ? (
+          <p class="notice" role="status">
+            <b>{t("closed_title")}.</b> {t("closed")}
+          </p>
+        ) : null}
+        {screen_of(s, ui, isWide)}
+      </main>
+      {isYou && you ? (
+        <Sheet title={you.name} onClose={() => setYou(false)}>
+          <p class="faint">{t(`role_${you.role}` as Key)}</p>
+          <LanguageChoice language={language_now()} onLanguage={onLanguage} />
+          <h3>{t("consent_more")}</h3>
+          <p>{t("consent_text", { name: you.name })}</p>
+        </Sheet>
+      ) : null}
+    </div>
+  );
+}
+
+function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.Element {
+  const [isIn, setIn] = useState(kept(`joined/${address.code}`) !== null && s.connection.token !== null);
+  const [, again] = useState(0);
+  useWatched(s, ui);
+  const change_language = (one: Language): void => {
+    set_language(one);
+    keep("language", one);
+    document.documentElement.lang = locale();
+    again((count) => count + 1);
+  };
+  const { stage } = s.connection;
+  document.title = s.views.room.title ?? "BehaviourLinks";
+  if (address.isBeamer) return <Beamer s={s} />;
+  if (stage === "removed") return <Message title={t("removed_title")} text={t("removed")} />;
+  if (stage === "old")
+    return <Message title={t("old_title")} text={t("old")} action={t("reload")} onAction={() => window.location.reload()} />;
+  if (stage === "door") return <Message title={t("door_title")} text={t("door")} s={s} />;
+  const go = (): void => {
+    keep(`joined/${address.code}`, "1");
+    ui.tab = s.you?.role === "facilitator" ? "lead" : "now";
+    setIn(true);
+  };
+  return (
+    <>
+      {isIn ? (
+        <Frame s={s} ui={ui} onLanguage={change_language} />
+      ) : (
+        <Join s={s} language={language_now()} onLanguage={change_language} onGo={go} />
+      )}
+      <Announcer s={s} />
+    </>
+  );
+}
+
+function start(): void {
+  const root = document.getElementById("page");
+  if (!root) return;
+  const address = read_address();
+  set_language(address.language ?? best_language([kept("language") ?? "", ...navigator.languages]));
+  document.documentElement.lang = locale();
+  if (address.code === "") return render(<CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />, root);
+  if (address.isBeamer) document.documentElement.classList.add("on-beamer");
+  const views: ViewName[] = address.isBeamer
+    ? ["room", "plan", "figures", "votes", "comments", "proposals"]
+    : ["room", "plan", "figures", "card", "votes"];
+  const world = browser_world(socket_address());
+  // Each invitation is a seat of its own, with its own key and its own queue: a page never speaks for another of its seats.
+  const base = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`;
+  const invite = address.invite ?? window.sessionStorage.getItem(`${base}invite`) ?? world.store.get(`${base}invite`);
+  const prefix = invite === null ? `${base}code/` : `${base}by-${invite}/`;
+  const runKey = `${prefix}run`;
+  if (invite !== null) {
+    window.sessionStorage.setItem(`${base}invite`, invite);
+    world.store.set(`${base}invite`, invite);
+  }
+  const session = new Session(
+    world,
+    {
+      room: address.code,
+      prefix,
+      run: window.sessionStorage.getItem(runKey),
+      lang: locale(),
+      views,
+      invite,
+    },
+    (run) => window.sessionStorage.setItem(runKey, run),
+    () => window.location.reload(),
+  );
+  const ui = new Ui();
+  const turned = (): void => (document.visibilityState === "visible" ? session.connection.wake() : session.connection.sleep());
+  document.addEventListener("visibilitychange", turned);
+  window.addEventListener("pageshow", () => session.connection.wake());
+  window.addEventListener("online", () => session.connection.wake());
+  window.addEventListener("pagehide", () => session.connection.leave());
+  session.connection.start();
+  render(<App s={session} ui={ui} address={address} />, root);
+}
+
+start();

@@ -1,0 +1,150 @@
+// The beamer: the plan, a vote, comments or the code, as the facilitator chooses. It never asks and never complains.
+import type { JSX } from "preact";
+import { amount, countdown, duration } from "../format";
+import { StatusWord } from "../parts";
+import { Plan } from "../plan";
+import { CodePicture } from "../qr_picture";
+import type { Session } from "../session";
+import { useClock } from "../ui";
+import type { Pin } from "../ui";
+import type { Vote } from "../wire";
+import { t } from "../words";
+import { comment_pins } from "./ideas";
+import { join_address } from "./lead";
+import { CompareTable } from "./proposals";
+import { ResultOf, Turnout } from "./votes";
+
+const kOld = 5000;
+
+function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
+  const figures = Object.entries(s.views.figures).slice(0, 3),
+    size = Math.ceil(window.innerHeight / 25);
+  return (
+    <div class="stage with-side">
+      <Plan s={s} binding={{ pins, onTap: () => undefined }} selected={null} label={size} isStill />
+      <ul class="side">
+        {figures.map(([id, figure]) => (
+          <li key={id} class={figure.status}>
+            <span>{figure.name}</span>
+            <b>{amount(figure.value, figure.unit)}</b>
+            <StatusWord status={figure.status} />
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+// The vote that is open, or else the last one with a result.
+function vote_shown(s: Session): Vote | null {
+  const votes = Object.values(s.views.votes);
+  return votes.find((vote) => vote.open) ?? [...votes].reverse().find((vote) => vote.result !== null && vote.count > 0) ?? null;
+}
+
+function VoteLayout({ s }: { s: Session }): JSX.Element {
+  const vote = vote_shown(s);
+  if (!vote) return <PlanLayout s={s} pins={[]} />;
+  return (
+    <div class="stage text">
+      <h2>{vote.question}</h2>
+      {vote.result && !vote.open ? (
+        <ResultOf vote={vote} />
+      ) : vote.kind === "yes_no" || vote.kind === "slider" ? null : (
+        <ol class="options">
+          {vote.options.map((option) => (
+            <li key={option.id}>{option.label}</li>
+          ))}
+        </ol>
+      )}
+      <Turnout vote={vote} />
+    </div>
+  );
+}
+
+function CompareLayout({ s }: { s: Session }): JSX.Element {
+  const all = Object.values(s.views.proposals).filter((one) => one.state === "proposed"),
+    [left, right] = all;
+  if (!left || !right) return <PlanLayout s={s} pins={[]} />;
+  return (
+    <div class="stage text">
+      <CompareTable s={s} left={left} right={right} isShort />
+    </div>
+  );
+}
+
+function CommentsLayout({ s }: { s: Session }): JSX.Element {
+  const top = Object.entries(s.views.comments)
+    .map(([id, comment], i) => ({ id, comment, n: i + 1 }))
+    .filter(({ comment }) => !comment.parent);
+  const best = [...top].sort((a, b) => b.comment.plus - b.comment.minus - (a.comment.plus - a.comment.minus)).slice(0, 3);
+  const size = Math.ceil(window.innerHeight / 25);
+  return (
+    <div class="stage with-side">
+      <Plan s={s} binding={{ pins: comment_pins(s), onTap: () => undefined }} selected={null} label={size} isStill />
+      <ul class="side said">
+        {best.map(({ id, comment, n }) => (
+          <li key={id}>
+            <b class="spot say">{n}</b> {comment.text.length > 90 ? `${comment.text.slice(0, 88)}…` : comment.text}
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+function CodeLayout({ s }: { s: Session }): JSX.Element {
+  return (
+    <div class="stage code">
+      <CodePicture text={join_address(s)} />
+      <div>
+        <p>{t("beamer_join")}</p>
+        <p class="address">
+          {window.location.host}
+          <wbr />/{s.views.room.code}
+        </p>
+      </div>
+    </div>
+  );
+}
+
+export function Beamer({ s }: { s: Session }): JSX.Element {
+  useClock(1000);
+  const { room } = s.views,
+    layout = room.layout || "plan",
+    age = s.now() - s.latest;
+  const left = room.phase?.ends_at ? room.phase.ends_at - s.now() : 0;
+  const isOld = s.latest > 0 && !s.connection.isOpen && age > kOld;
+  const stage =
+    layout === "vote" ? (
+      <VoteLayout s={s} />
+    ) : layout === "compare" ? (
+      <CompareLayout s={s} />
+    ) : layout === "comments" ? (
+      <CommentsLayout s={s} />
+    ) : layout === "code" ? (
+      <CodeLayout s={s} />
+    ) : (
+      <PlanLayout s={s} pins={[]} />
+    );
+  return (
+    <main class="beamer">
+      <header>
+        <h1>{room.title ?? ""}</h1>
+        <p>{room.closed ? t("closed_title") : (room.phase?.name ?? "")}</p>
+        {left > 0 ? (
+          <p class="clock" role="timer">
+            {countdown(left)}
+          </p>
+        ) : null}
+        {layout === "code" ? null : (
+          <p class="corner">
+            <CodePicture text={join_address(s)} />
+            <b>{room.code}</b>
+          </p>
+        )}
+      </header>
+      {stage}
+      {isOld ? <p class="old">{t("beamer_old", { time: duration(age) })}</p> : null}
+    </main>
+  );
+}

@@ -1,0 +1,440 @@
+// The facilitator's page: the phase and its clock, votes, proposals, people, and what the beamer shows.
+import type { JSX } from "preact";
+import { useState } from "preact/hooks";
+import { typed_number } from "../format";
+import { Avatar, Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
+import { CodePicture } from "../qr_picture";
+import type { Session } from "../session";
+import type { Ui } from "../ui";
+import type { Activity, Door, Json, Layout, Proposal, Role, Vote } from "../wire";
+import { Key, t } from "../words";
+import { ProposalEntry } from "./proposals";
+import { ResultOf, Turnout } from "./votes";
+
+const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
+const kRewind = 30000;
+
+interface Plan {
+  name: string;
+  activities: Activity[];
+  minutes: string;
+}
+
+function set_phase(s: Session, name: string, activities: Activity[], ends_at: number): void {
+  s.event("set_phase", { name, activities, forms: s.views.room.phase?.forms ?? [], ends_at }, { mark: "lead/phase" });
+}
+
+function PhasePart({ s }: { s: Session }): JSX.Element {
+  const { phase, paused, rate } = s.views.room;
+  const [plan, set] = useState<Plan>({ name: "", activities: [], minutes: "10" });
+  const minutes = typed_number(plan.minutes) ?? 0;
+  const kinds: { key: Key; activities: Activity[] }[] = [
+    { key: "lead_look", activities: [] },
+    { key: "lead_change", activities: ["change"] },
+    { key: "lead_draft", activities: ["draft"] },
+    { key: "lead_comment", activities: ["comment"] },
+    { key: "lead_vote", activities: ["vote"] },
+  ];
+  const start = (): void =>
+    set_phase(
+      s,
+      plan.name.trim() ||
+        kinds
+          .filter((kind) => kind.activities.some((one) => plan.activities.includes(one)))
+          .map((kind) => t(kind.key))
+          .join(", ") ||
+        t("lead_look"),
+      plan.activities,
+      minutes > 0 ? s.now() + minutes * 60000 : 0,
+    );
+  return (
+    <section class="panel">
+      <header class="row spread">
+        <h2>{t("lead_phase")}</h2>
+        <MarkState s={s} mark="lead/phase" />
+      </header>
+      <p class="lead">{phase?.name ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
+      <Timer s={s} ends_at={phase?.ends_at} />
+      <div class="row">
+        {phase && phase.ends_at > 0 ? (
+          <button class="quiet" onClick={() => set_phase(s, phase.name, phase.activities, Math.max(phase.ends_at, s.now()) + 300000)}>
+            <Icon name="clock" />
+            {t("lead_more_time")}
+          </button>
+        ) : null}
+        <button class="quiet" onClick={() => s.event("set_pace", { rate: rate ?? 10, is_paused: !paused }, { mark: "lead/pace" })}>
+          <Icon name={paused ? "play" : "pause"} />
+          {t(paused ? "lead_resume" : "lead_pause")}
+        </button>
+        <Rewind s={s} />
+        <MarkState s={s} mark="lead/pace" />
+      </div>
+      <fieldset class="field">
+        <legend>{t("lead_may")}</legend>
+        <div class="row">
+          {kActivities.map((activity) => (
+            <label key={activity} class="tick">
+              <input
+                type="checkbox"
+                checked={plan.activities.includes(activity)}
+                onChange={() =>
+                  set({ ...plan, activities: kActivities.filter((one) => (one === activity) !== plan.activities.includes(one)) })
+                }
+              />
+              <span>{t(`lead_${activity}` as Key)}</span>
+            </label>
+          ))}
+        </div>
+      </fieldset>
+      <div class="pair">
+        <label class="field">
+          <span>{t("lead_title")}</span>
+          <input
+            value={plan.name}
+            maxLength={40}
+            autocomplete="off"
+            onInput={(event) => set({ ...plan, name: event.currentTarget.value })}
+          />
+        </label>
+        <label class="field">
+          <span>{t("lead_minutes")}</span>
+          <input
+            class="number"
+            inputMode="decimal"
+            autocomplete="off"
+            value={plan.minutes}
+            onInput={(event) => set({ ...plan, minutes: event.currentTarget.value })}
+          />
+        </label>
+      </div>
+      <button class="main" onClick={start}>
+        {t("lead_start_phase")}
+        <Icon name="right" />
+      </button>
+    </section>
+  );
+}
+
+function Rewind({ s }: { s: Session }): JSX.Element {
+  const to = s.seqBefore(kRewind),
+    isPossible = to !== null && to < s.connection.seq;
+  if (!isPossible)
+    return (
+      <button class="quiet" disabled>
+        <Icon name="undo" />
+        {t("lead_rewind")}
+      </button>
+    );
+  return (
+    <Sure
+      text={t("lead_rewind_sure")}
+      yes={t("lead_rewind_yes")}
+      onYes={() => s.submit({ t: "rewind", to: s.seqBefore(kRewind) ?? to }, { mark: "lead/pace" })}
+    >
+      {t("lead_rewind")}
+    </Sure>
+  );
+}
+
+function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.Element {
+  const open = (): void => {
+    const phase = s.views.room.phase;
+    // Ballots are taken in phases that name them.
+    if (phase && !phase.activities.includes("vote")) set_phase(s, phase.name, [...phase.activities, "vote"], phase.ends_at);
+    s.event("open_vote", { vote: id, ends_at: 0 }, { mark: `lead/${id}` });
+  };
+  return (
+    <li>
+      <div class="row spread">
+        <b class="grow">{vote.question}</b>
+        <MarkState s={s} mark={`lead/${id}`} />
+        {vote.open ? (
+          <button class="quiet" onClick={() => s.event("close_vote", { vote: id }, { mark: `lead/${id}` })}>
+            {t("lead_close_vote")}
+          </button>
+        ) : (
+          <button class="quiet" onClick={open}>
+            {t("lead_open_vote")}
+          </button>
+        )}
+      </div>
+      <Turnout vote={vote} />
+      {vote.result && vote.count > 0 ? (
+        <details>
+          <summary>{t("result")}</summary>
+          <ResultOf vote={vote} />
+        </details>
+      ) : null}
+    </li>
+  );
+}
+
+function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposal }): JSX.Element {
+  const [answer, set] = useState(""),
+    [left, leave] = useState<number[]>([]);
+  // Steps that were taken back have no words; those that do not fit any more cannot be taken.
+  const isOut = (i: number): boolean => left.includes(i) || proposal.misfits.some((one) => one.step === i);
+  const steps = proposal.words.map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
+  const keep = steps.map(({ i }) => i).filter((i) => !isOut(i));
+  const decide = (is_accepted: boolean): void => {
+    const args: Record<string, Json> = { draft: id, is_accepted, answer: answer.trim() };
+    if (is_accepted && keep.length < steps.length) args.keep = keep;
+    s.event("decide_proposal", args, { mark: `lead/${id}` });
+  };
+  return (
+    <ProposalEntry s={s} proposal={proposal}>
+      <>
+        <fieldset class="field">
+          <legend>{t("proposal_steps")}</legend>
+          {steps.map(({ word, i }) => {
+            const misfit = proposal.misfits.find((one) => one.step === i);
+            return (
+              <label key={i} class="tick">
+                <input
+                  type="checkbox"
+                  checked={!isOut(i)}
+                  disabled={misfit !== undefined}
+                  onChange={() => leave(left.includes(i) ? left.filter((one) => one !== i) : [...left, i])}
+                />
+                <span>
+                  {word}
+                  {misfit ? (
+                    <em>
+                      {" "}
+                      — {t("proposal_misfits")}: {misfit.why}
+                    </em>
+                  ) : null}
+                </span>
+              </label>
+            );
+          })}
+        </fieldset>
+        <label class="field">
+          <span>{t("lead_reason")}</span>
+          <textarea rows={2} value={answer} maxLength={2000} onInput={(event) => set(event.currentTarget.value)} />
+        </label>
+        <div class="row">
+          <button class="main" disabled={keep.length === 0} onClick={() => decide(true)}>
+            <Icon name="check" />
+            {keep.length < steps.length ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}
+          </button>
+          <button class="quiet" onClick={() => decide(false)}>
+            <Icon name="cross" />
+            {t("lead_reject")}
+          </button>
+          <MarkState s={s} mark={`lead/${id}`} />
+        </div>
+      </>
+    </ProposalEntry>
+  );
+}
+
+function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.Element {
+  const [answer, set] = useState("");
+  const decide = (state: string): void => s.event("answer_comment", { comment: id, state, answer: answer.trim() }, { mark: `lead/${id}` });
+  return (
+    <li class="comment">
+      <p class="said">{text}</p>
+      <label class="field">
+        <span>{t("lead_reason")}</span>
+        <input value={answer} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
+      </label>
+      <div class="row">
+        <button class="quiet" onClick={() => decide("accepted")}>
+          <Icon name="check" />
+          {t("lead_follow")}
+        </button>
+        <button class="quiet" onClick={() => decide("rejected")}>
+          <Icon name="cross" />
+          {t("lead_follow_not")}
+        </button>
+        <MarkState s={s} mark={`lead/${id}`} />
+      </div>
+    </li>
+  );
+}
+
+const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "beamer", "recorder"];
+
+function People({ s }: { s: Session }): JSX.Element {
+  const seats = Object.entries(s.views.room.seats ?? {}).sort((a, b) => Number(b[1].here) - Number(a[1].here));
+  const here = seats.filter(([, seat]) => seat.here).length;
+  return (
+    <section class="panel">
+      <h2>{t("lead_people")}</h2>
+      <p>{t("lead_people_n", { n: here })}</p>
+      <ul class="people">
+        {seats.map(([number, seat]) => {
+          const n = Number(number),
+            mark = `lead/seat${n}`;
+          return (
+            <li key={number}>
+              <details>
+                <summary>
+                  <Avatar name={seat.name} colour={seat.colour} />
+                  <span class="grow">
+                    <b>{seat.name}</b>
+                    <span class="faint">
+                      {t(`role_${seat.role}` as Key)} · {t(seat.here ? "lead_here" : "lead_away")}
+                    </span>
+                  </span>
+                  <MarkState s={s} mark={mark} />
+                </summary>
+                <div class="row">
+                  <label class="field">
+                    <span>{t("lead_role", { name: seat.name })}</span>
+                    <select
+                      value={seat.role}
+                      onChange={(event) => s.event("set_role", { seat: n, role: event.currentTarget.value }, { mark })}
+                    >
+                      {kRoles.map((role) => (
+                        <option key={role} value={role}>
+                          {t(`role_${role}` as Key)}
+                        </option>
+                      ))}
+                    </select>
+                  </label>
+                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
+                    {t(seat.muted ? "lead_unmute" : "lead_mute")}
+                  </button>
+                  {n === s.you?.seat ? null : (
+                    <Sure
+                      text={t("lead_remove_sure", { name: seat.name })}
+                      yes={t("lead_remove")}
+                      onYes={() => s.event("remove_seat", { seat: n }, { mark })}
+                    >
+                      {t("lead_remove")}
+                    </Sure>
+                  )}
+                </div>
+              </details>
+            </li>
+          );
+        })}
+      </ul>
+    </section>
+  );
+}
+
+function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
+  const { room } = s.views,
+    [decision, set] = useState("");
+  const layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"],
+    doors: Door[] = ["open", "asks", "shut"];
+  return (
+    <section class="panel">
+      <header class="row spread">
+        <h2>{t("lead_show")}</h2>
+        <MarkState s={s} mark="lead/show" />
+      </header>
+      <Segments
+        label={t("lead_show")}
+        value={room.layout || "plan"}
+        onChange={(layout) => s.event("show", { layout }, { mark: "lead/show" })}
+        choices={layouts.map((id) => ({ id, text: t(`show_${id}` as Key) }))}
+      />
+      <header class="row spread">
+        <h2>{t("lead_door")}</h2>
+        <MarkState s={s} mark="lead/door" />
+      </header>
+      <Segments
+        label={t("lead_door")}
+        value={room.door ?? "open"}
+        onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
+        choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
+      />
+      <h2>{t("lead_code")}</h2>
+      <p>{t("lead_code_text")}</p>
+      <p class="bigcode">{room.code}</p>
+      <p class="small">{join_address(s)}</p>
+      <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
+        {t("lead_big_code")}
+      </button>
+      <header class="row spread">
+        <h2>{t("lead_mark")}</h2>
+        <MarkState s={s} mark="lead/mark" />
+      </header>
+      <div class="pick">
+        <label class="field">
+          <span>{t("lead_mark_text")}</span>
+          <input value={decision} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
+        </label>
+        <button
+          class="quiet"
+          disabled={decision.trim() === ""}
+          onClick={() => {
+            s.event("mark", { kind: "decision", text: decision.trim() }, { mark: "lead/mark" });
+            set("");
+          }}
+        >
+          {t("lead_mark")}
+        </button>
+      </div>
+      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/mark" })}>
+        {t("lead_end")}
+      </Sure>
+    </section>
+  );
+}
+
+/// The address that people open to join.
+export function join_address(s: Session): string {
+  return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
+}
+
+export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
+  return (
+    <main class="largecode">
+      <CodePicture text={join_address(s)} />
+      <h1 class="bigcode">{s.views.room.code}</h1>
+      <p>{join_address(s)}</p>
+      <button class="quiet" onClick={onClose}>
+        {t("close")}
+      </button>
+    </main>
+  );
+}
+
+export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
+  const votes = Object.entries(s.views.votes);
+  const proposals = Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
+  const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
+  return (
+    <>
+      <Title>{t("tab_lead")}</Title>
+      <PhasePart s={s} />
+      {votes.length > 0 ? (
+        <section class="panel">
+          <h2>{t("lead_votes")}</h2>
+          <ul class="rows">
+            {votes.map(([id, vote]) => (
+              <VoteRow key={id} s={s} id={id} vote={vote} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      {proposals.length > 0 ? (
+        <section class="panel">
+          <h2>{t("ideas_proposals")}</h2>
+          <ul class="proposals">
+            {proposals.map(([id, proposal]) => (
+              <Decide key={id} s={s} id={id} proposal={proposal} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      {comments.length > 0 ? (
+        <section class="panel">
+          <h2>{t("ideas_comments")}</h2>
+          <ul class="comments">
+            {comments.map(([id, comment]) => (
+              <Answer key={id} s={s} id={id} text={comment.text} />
+            ))}
+          </ul>
+        </section>
+      ) : null}
+      <RoomPart s={s} ui={ui} />
+      <People s={s} />
+    </>
+  );
+}

@@ -1,0 +1,233 @@
+// The messages between a room's server and this page, and the views that the server makes, as TypeScript types.
+
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+export type Point = [number, number, number];
+export type Role = "facilitator" | "designer" | "stakeholder" | "participant" | "viewer" | "beamer" | "recorder" | "device";
+export type Activity = "change" | "draft" | "comment" | "vote";
+export type Status = "met" | "close" | "far";
+export type Why =
+  | "bad"
+  | "gone"
+  | "right"
+  | "area"
+  | "phase"
+  | "range"
+  | "budget"
+  | "stale"
+  | "conflict"
+  | "locked"
+  | "closed"
+  | "rate"
+  | "size"
+  | "storage"
+  | "draining"
+  | "gap";
+export type Layout = "plan" | "compare" | "vote" | "comments" | "code";
+export type Door = "open" | "asks" | "shut";
+
+/// What a person does: an operation without its number, which the connection gives it.
+export type Deed =
+  | { t: "op"; c: { command: string; arguments: Record<string, Json> }; gesture?: number; draft?: string }
+  | { t: "room"; e: { event: string; arguments: Record<string, Json> } }
+  | { t: "undo"; gesture?: number }
+  | { t: "redo"; gesture?: number }
+  | { t: "rewind"; to: number }
+  | { t: "draft"; do: "begin" | "undo" | "drop"; draft: string; title?: string };
+
+/// A value that the person saw when they acted: the key of a place, and what stood there.
+export interface Seen {
+  key: string;
+  was: Json;
+}
+
+export interface You {
+  seat: number;
+  role: Role;
+  name: string;
+  colour: string;
+  areas: string[];
+  card: string;
+}
+export interface Welcome {
+  t: "welcome";
+  you: You;
+  epoch: number;
+  seq: number;
+  tick: number;
+  rate: number;
+  done: number;
+  resume: string;
+  token?: string;
+  room: { code: string; title: string };
+}
+export interface Nack {
+  t: "nack";
+  id: number;
+  why: Why;
+  place: string;
+  text: string;
+  args?: Record<string, Json>;
+}
+export interface StateMessage {
+  t: "state";
+  view: string;
+  k: number;
+  s: number;
+  set?: Record<string, Json>;
+  drop?: string[];
+}
+
+export interface Phase {
+  name: string;
+  activities: Activity[];
+  ends_at: number;
+  forms: string[];
+}
+export interface Seat {
+  role: Role;
+  name: string;
+  colour: string;
+  here: boolean;
+  muted?: boolean;
+}
+export interface RoomView {
+  title?: string;
+  code?: string;
+  phase?: Phase;
+  seats?: Record<string, Seat>;
+  door?: Door;
+  layout?: Layout | "";
+  paused?: boolean;
+  closed?: boolean;
+  rate?: number;
+}
+
+export type Figure = [label: string, value: number, unit: string];
+export interface PlanItem {
+  kind: "volume" | "building" | "plot" | "boundary" | "street";
+  name: string;
+  d: string;
+  fill: string;
+  use: string;
+  met: boolean | null;
+  figures: Figure[];
+}
+export type Box = [number, number, number, number];
+
+export interface Goal {
+  name: string;
+  value: number;
+  unit: string;
+  target: number;
+  status: Status;
+  score?: number;
+}
+export interface Control {
+  node: string;
+  port: string;
+  label: string;
+  value: number | null; ///< null where the server does not know it
+  unit: string;
+  minimum: number;
+  maximum: number;
+  step: number;
+  costs: string | string[];
+}
+export interface CardView {
+  name?: string;
+  interest?: string;
+  goals?: Goal[];
+  controls?: Control[];
+  budget?: { budget: number; spent: number; left: number } | null;
+}
+
+export type VoteKind = "yes_no" | "dots" | "rank" | "coins" | "slider";
+export interface Option {
+  id: string;
+  label: string;
+}
+export interface Dot {
+  place: Point;
+  option: string;
+}
+export type Ballot = string | string[] | Record<string, number> | Dot[] | number;
+export interface Result {
+  option: string;
+  label: string;
+  points: number;
+  share: number;
+}
+export interface Vote {
+  question: string;
+  kind: VoteKind;
+  options: Option[];
+  points: number;
+  whole: boolean;
+  least: number;
+  most: number;
+  unit: string;
+  open: boolean;
+  secret: boolean;
+  ends_at: number;
+  mine: Ballot | null;
+  count: number;
+  turnout: number | null;
+  electorate: number;
+  result: Result[] | null;
+  leading: string | null;
+  mean: number | null;
+  median: number | null;
+}
+
+export interface Comment {
+  seat: number;
+  text: string;
+  node?: string;
+  place?: Point | Point[];
+  tick?: number;
+  scenario?: string;
+  parent?: string;
+  plus: number;
+  minus: number;
+  mine: -1 | 0 | 1;
+  state: "open" | "accepted" | "rejected";
+  answer?: string;
+}
+export interface Conflict {
+  place: string;
+  by: string;
+}
+export interface Misfit {
+  step: number;
+  why: string;
+}
+export interface Proposal {
+  seat: number;
+  title: string;
+  why: string;
+  state: string;
+  steps: number;
+  kept: number;
+  answer?: string;
+  words: string[];
+  conflicts: Conflict[];
+  misfits: Misfit[];
+}
+export interface Draft {
+  title: string;
+  state: string;
+  steps: string[];
+  misfits: Misfit[];
+}
+
+export interface Views {
+  room: RoomView;
+  plan: Record<string, Json | undefined> & { box?: Box };
+  figures: Record<string, Goal>;
+  card: CardView;
+  votes: Record<string, Vote>;
+  comments: Record<string, Comment>;
+  proposals: Record<string, Proposal>;
+  drafts: Record<string, Draft>;
+}
+export type ViewName = keyof Views;

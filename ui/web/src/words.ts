@@ -1,0 +1,76 @@
+// Picks sentences by language, with numbers and plural forms by the rules of that language.
+import { de } from "./words/de";
+import { Key, Text, en } from "./words/en";
+import { ko } from "./words/ko";
+import { nl } from "./words/nl";
+
+export type { Key } from "./words/en";
+export type Language = "en" | "nl" | "de" | "ko" | "xx";
+type Table = Record<Key, Text>;
+
+/// "xx" is no language: its sentences are longer and marked, so that tests find texts that are cut off or not in the tables.
+export const kLanguages: Language[] = ["en", "nl", "de", "ko"];
+
+const kAccents: Record<string, string> = { a: "á", e: "ë", i: "ï", o: "ö", u: "ü", A: "Á", E: "Ë", I: "Ï", O: "Ö", U: "Ü", n: "ñ", s: "š" };
+
+function marked(text: string): string {
+  let inside = false,
+    out = "";
+  for (const letter of text) {
+    if (letter === "{") inside = true;
+    if (letter === "}") inside = false;
+    out += inside ? letter : (kAccents[letter] ?? letter);
+  }
+  return `[${out}${"~".repeat(Math.ceil(text.length * 0.3))}]`;
+}
+
+function pseudo(): Table {
+  const table: Partial<Table> = {};
+  for (const key of Object.keys(en) as Key[]) {
+    const text: Text = en[key];
+    table[key] = typeof text === "string" ? marked(text) : { one: marked(text.one), other: marked(text.other) };
+  }
+  return table as Table;
+}
+
+export const kTables: Record<Exclude<Language, "xx">, Table> = { en, nl, de, ko };
+let language: Language = "en";
+let table: Table = en;
+let plurals = new Intl.PluralRules("en");
+
+export function set_language(next: Language): void {
+  language = next;
+  table = next === "xx" ? pseudo() : kTables[next];
+  plurals = new Intl.PluralRules(locale());
+}
+
+export function language_now(): Language {
+  return language;
+}
+
+/// For Intl and for the attribute `lang`.
+export function locale(): string {
+  return language === "xx" ? "en" : language;
+}
+
+/// The first of the wanted languages that there is.
+export function best_language(wanted: readonly string[]): Language {
+  for (const one of wanted) {
+    const short = one.slice(0, 2).toLowerCase();
+    if (short === "xx") return "xx";
+    const found = kLanguages.find((known) => known === short);
+    if (found) return found;
+  }
+  return "en";
+}
+
+/// The sentence of a key; numbers in `args` are written as the language writes them, and `n` chooses the plural form.
+export function t(key: Key, args: Record<string, string | number> = {}): string {
+  const text = table[key];
+  const form = typeof text === "string" ? text : text[plurals.select(Number(args.n)) === "one" ? "one" : "other"];
+  return form.replace(/\{(\w+)\}/g, (whole, name: string) => {
+    const value = args[name];
+    if (value === undefined) return whole;
+    return typeof value === "number" ? new Intl.NumberFormat(locale()).format(value) : value;
+  });
+}

@@ -1,0 +1,432 @@
+// The laws of the connection, on a clock and a network of our own: each operation is applied once and answered once.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { Clock, MemoryStore, Network, Room, seeded } from "./fakes.mjs";
+import { Connection, Queue, back_off } from "../../../build/web_test/modules.mjs";
+
+let names = 0;
+
+/// One tab: a connection and what it has told its caller.
+class Page {
+  isFrozen = false;
+  isVisible = true;
+  thaw = [];
+  answers = [];
+  welcomes = 0;
+  reloads = 0;
+  constructor(network, store, { run = null, invite = null } = {}) {
+    const { clock, chance } = network;
+    this.clock = clock;
+    this.connection = new Connection(
+      {
+        now: () => clock.time,
+        set: (delay, then) => clock.set(delay, then, this),
+        clear: (id) => clock.clear(id),
+        open: () => network.open(this),
+        store,
+        chance,
+        name: () => `name${++names}`,
+        isVisible: () => this.isVisible,
+      },
+      { room: "BCDF", prefix: "bl1/BCDF/", run, lang: "en", views: ["room"], invite },
+      {
+        changed: () => {},
+        welcomed: () => this.welcomes++,
+        told: () => {},
+        reload: () => this.reloads++,
+        answered: (item, answer) => this.answers.push({ id: item.id, value: item.deed.c?.arguments.value, ...answer }),
+      },
+    );
+    this.connection.start();
+  }
+  say(value, more) {
+    return this.connection.submit({ t: "op", c: { command: "set_port", arguments: { node: "a", port: "p", value } } }, more);
+  }
+  /// Ends as a browser ends a page that it reloads.
+  end({ isOrderly = true } = {}) {
+    if (isOrderly) this.connection.leave();
+    const run = this.connection.queue.run;
+    this.isFrozen = true;
+    return run;
+  }
+  thawed() {
+    this.isFrozen = false;
+  }
+}
+
+function setting(seed = 1) {
+  const clock = new Clock(),
+    room = new Room(),
+    network = new Network(clock, room, seeded(seed));
+  return { clock, room, network, store: new MemoryStore() };
+}
+
+function expect_each_once(room, pages, values) {
+  const applied = room.applied.map((one) => one.value),
+    wanted = values.filter((value) => value !== "no");
+  assert.deepEqual([...applied].sort(), [...wanted].sort(), "each operation is applied exactly once");
+  const told = pages.flatMap((page) => page.answers).filter((answer) => answer.kind !== "elsewhere");
+  const saved = told.filter((answer) => answer.kind === "saved").map((answer) => answer.value);
+  assert.deepEqual([...saved].sort(), [...wanted].sort(), "each operation that was applied is told as saved, once");
+  assert.equal(told.filter((answer) => answer.kind === "refused").length, values.length - wanted.length, "each refusal is told once");
+}
+
+test("operations are answered once, in order", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  for (const value of [1, 2, "no", 3]) page.say(value);
+  clock.run(1000);
+  expect_each_once(room, [page], [1, 2, "no", 3]);
+  assert.deepEqual(
+    page.answers.map((answer) => answer.id),
+    [1, 2, 3, 4],
+  );
+  assert.equal(page.connection.waiting, 0);
+});
+
+test("random faults: sockets break, messages vanish and double, pages freeze and reload", () => {
+  for (let seed = 1; seed <= 60; ++seed) {
+    const { clock, room, network, store } = setting(seed),
+      chance = network.chance;
+    let page = new Page(network, store);
+    const pages = [page],
+      values = [];
+    network.breaks = 0.05;
+    network.dropSent = network.dropHeard = 0.3;
+    network.double = 0.1;
+    for (let step = 0; step < 150; ++step) {
+      const dice = chance();
+      if (dice < 0.5) {
+        const value = chance() < 0.2 ? "no" : `v${step}`;
+        values.push(value);
+        page.say(value);
+      } else if (dice < 0.56) network.isDown = !network.isDown;
+      else if (dice < 0.6) {
+        const run = page.end();
+        page = new Page(network, store, { run });
+        pages.push(page);
+      } else if (dice < 0.64) {
+        page.isFrozen = true;
+        clock.run(chance() * 90000);
+        page.isFrozen = false;
+        page.thaw.splice(0).forEach((then) => then());
+        page.connection.wake();
+      }
+      clock.run(chance() * 3000);
+    }
+    network.isDown = false;
+    network.breaks = network.dropSent = network.dropHeard = network.double = 0;
+    clock.run(60000);
+    assert.equal(page.connection.waiting, 0, `seed ${seed}: nothing waits`);
+    // A page that was reloaded has told nothing of what its successor was told.
+    expect_each_once(room, pages, values);
+  }
+});
+
+test("a thousand operations wait through an outage and a reload", () => {
+  const { clock, room, network, store } = setting();
+  let page = new Page(network, store);
+  clock.run(200);
+  network.isDown = true;
+  const values = Array.from({ length: 1000 }, (_, i) => `v${i}`);
+  for (const value of values.slice(0, 600)) page.say(value);
+  clock.run(30000);
+  const run = page.end();
+  const next = new Page(network, store, { run });
+  assert.equal(next.connection.waiting, 600);
+  for (const value of values.slice(600)) next.say(value);
+  assert.equal(next.connection.waiting, 1000);
+  clock.run(20000);
+  network.isDown = false;
+  clock.run(200000);
+  expect_each_once(room, [page, next], values);
+  assert.deepEqual(
+    room.applied.map((one) => one.value),
+    values,
+    "in order",
+  );
+  assert.ok(next.connection.queue.isKept);
+});
+
+test("one answer for many operations is enough", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store),
+    receive = room.receive.bind(room);
+  clock.run(200);
+  room.receive = (link, message) =>
+    receive({ run: link.run, tell: (told) => link.tell(told.t === "ack" ? { ...told, id: room.runs.get(link.run).last } : told) }, message);
+  network.latency = 100;
+  for (const value of [1, 2, 3, 4]) page.say(value);
+  clock.run(30000);
+  expect_each_once(room, [page], [1, 2, 3, 4]);
+});
+
+test("a sender stays below the limits of the server", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(100);
+  for (let i = 0; i < 100; ++i) page.say(i);
+  clock.run(1000);
+  const count = room.heard.filter((m) => m.t === "op").length;
+  assert.ok(count <= 30, `${count} in the first second`);
+});
+
+test("two tabs have two runs, and the one that closes leaves its rest to the other", () => {
+  const { clock, room, network, store } = setting();
+  const first = new Page(network, store),
+    second = new Page(network, store, { run: first.connection.queue.run });
+  assert.notEqual(first.connection.queue.run, second.connection.queue.run, "a copied tab does not share the numbers");
+  clock.run(500);
+  network.isDown = true;
+  first.say("a");
+  second.say("b");
+  clock.run(12000);
+  first.end();
+  network.isDown = false;
+  clock.run(30000);
+  expect_each_once(room, [first, second], ["a", "b"]);
+  assert.equal(room.tokens.size, 2, "the second tab opened before there was a token to share");
+});
+
+test("a tab that was frozen while another took its run goes on with a run of its own", () => {
+  const { clock, room, network, store } = setting();
+  const first = new Page(network, store);
+  clock.run(500);
+  network.isDown = true;
+  first.say("a");
+  clock.run(100);
+  first.isFrozen = true;
+  clock.run(30000);
+  network.isDown = false;
+  const second = new Page(network, store);
+  clock.run(20000);
+  first.isFrozen = false;
+  first.thaw.splice(0).forEach((then) => then());
+  first.connection.wake();
+  first.say("b");
+  clock.run(20000);
+  assert.deepEqual(room.applied.map((one) => one.value).sort(), ["a", "b"]);
+  assert.deepEqual(
+    first.answers.map((answer) => answer.kind),
+    ["elsewhere", "saved"],
+  );
+  assert.equal(second.answers.length, 1);
+});
+
+test("an operation that waited for more than a minute carries what the person saw", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store),
+    seen = [{ key: "nodes/a/name", was: "A" }];
+  clock.run(200);
+  page.say("at once", { seen });
+  clock.run(200);
+  network.isDown = true;
+  page.say("early", { seen });
+  clock.run(40000);
+  page.say("late", { seen });
+  clock.run(30000);
+  network.isDown = false;
+  clock.run(20000);
+  const condition = Object.fromEntries(room.applied.map((one) => [one.value, one.condition]));
+  assert.deepEqual(condition, { "at once": undefined, early: seen, late: undefined });
+});
+
+test("a socket that hangs is noticed: by 9 seconds while visible, by 1.5 after a wake", () => {
+  const { clock, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(1000);
+  network.isDown = true;
+  const opened = network.opened;
+  clock.run(9100);
+  assert.ok(network.opened > opened, "visible");
+  network.isDown = false;
+  clock.run(10000);
+  assert.equal(page.connection.stage, "open");
+  page.isVisible = false;
+  page.connection.sleep();
+  network.isDown = true;
+  const hidden = network.opened;
+  clock.run(60000);
+  assert.equal(network.opened, hidden, "a hidden page asks nothing");
+  network.isDown = false;
+  page.isVisible = true;
+  page.connection.wake();
+  clock.run(1000);
+  assert.equal(page.connection.stage, "open");
+  network.isDown = true;
+  page.connection.wake();
+  clock.run(1600);
+  assert.ok(network.opened > hidden);
+});
+
+test("a page that wakes from a freeze keeps a socket that lives", () => {
+  const { clock, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(4990);
+  const opened = network.opened;
+  clock.run(20); // the ping is out
+  page.isFrozen = true;
+  clock.run(30000);
+  page.isFrozen = false;
+  clock.run(0); // the late timer runs before the messages are read
+  page.thaw.splice(0).forEach((then) => then());
+  clock.run(3000);
+  assert.equal(network.opened, opened);
+  assert.equal(page.connection.stage, "open");
+});
+
+test("it tries again for ever, with delays that grow to five seconds", () => {
+  assert.equal(back_off(0, 0.5), 200);
+  assert.equal(back_off(1, 0.5), 340);
+  for (let n = 0; n < 400; ++n) {
+    assert.ok(back_off(n, 0) >= Math.min(5000, 200 * 1.7 ** n) * 0.6 - 1e-9);
+    assert.ok(back_off(n, 0.999999) <= 7000);
+  }
+  const { clock, network, store } = setting();
+  network.isRefusing = true;
+  const page = new Page(network, store);
+  clock.run(3600_000);
+  assert.ok(network.opened > 500 && network.opened < 2000, `${network.opened}`);
+  network.isRefusing = false;
+  clock.run(8000);
+  assert.equal(page.connection.stage, "open");
+});
+
+test("close codes", () => {
+  const at = (code) => {
+    const { clock, room, network, store } = setting();
+    const page = new Page(network, store);
+    clock.run(500);
+    room.code = code;
+    [...room.links.values()].forEach((link) => link.end(code));
+    clock.run(1000);
+    return { page, room, network, clock, store };
+  };
+  assert.equal(at(4403).page.connection.stage, "removed");
+  const removed = at(4403);
+  const opened = removed.network.opened;
+  removed.clock.run(60000);
+  removed.page.connection.wake();
+  assert.equal(removed.network.opened, opened, "nobody who was removed comes back by themselves");
+  const old = at(4426);
+  assert.equal(old.page.reloads, 1);
+  const again = new Page(old.network, old.store);
+  old.clock.run(1000);
+  assert.equal(again.reloads, 0, "reloads once");
+  assert.equal(again.connection.stage, "old");
+  const door = at(4401);
+  assert.equal(door.page.connection.token, null, "the token is dropped");
+  assert.equal(door.page.connection.stage, "door");
+  door.room.code = 0;
+  door.clock.run(6000);
+  assert.equal(door.page.connection.stage, "open");
+  for (const code of [4400, 4408, 4413, 4429, 4503]) {
+    const { page, room, clock } = at(code);
+    assert.equal(page.connection.stage, "waiting", `${code}`);
+    room.code = 0;
+    clock.run(10000);
+    assert.equal(page.connection.stage, "open", `${code}`);
+  }
+});
+
+test("what a lost seat has said is refused, not sent by the next seat", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(500);
+  network.isDown = true;
+  page.say("old");
+  clock.run(10000);
+  room.tokens.clear();
+  network.isDown = false;
+  clock.run(20000);
+  assert.deepEqual(
+    page.answers.map((answer) => [answer.kind, answer.why]),
+    [["refused", "seat"]],
+  );
+  page.say("new");
+  clock.run(1000);
+  assert.deepEqual(
+    room.applied.map((one) => one.value),
+    ["new"],
+  );
+});
+
+test("a server that has lost its memory of answers goes on from what the page knows", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  page.say("a");
+  page.say("no");
+  clock.run(500);
+  room.runs.get(page.connection.queue.run).last = 1;
+  page.say("b");
+  clock.run(3000);
+  expect_each_once(room, [page], ["a", "no", "b"]);
+});
+
+test("a room that cannot store for a moment gets the operation again", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  room.busy = "storage";
+  page.say("a");
+  page.say("b");
+  clock.run(2000);
+  room.busy = null;
+  clock.run(15000);
+  expect_each_once(room, [page], ["a", "b"]);
+  room.busy = "draining";
+  page.say("c");
+  clock.run(200000);
+  assert.equal(page.answers[page.answers.length - 1].why, "draining", "in the end the person is told");
+});
+
+test("a full store is said, and what is too large is refused at once", () => {
+  const { clock, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  page.say("x".repeat(20000));
+  assert.equal(page.answers[0].why, "size");
+  network.isDown = true;
+  store.limit = store.map.size;
+  page.say("a");
+  assert.equal(page.connection.queue.isKept, false);
+  network.isDown = false;
+  clock.run(30000);
+  assert.equal(page.answers[1].kind, "saved");
+  assert.equal(page.connection.queue.isKept, true);
+});
+
+test("a queue is read back whole, whatever else is in the store", () => {
+  const store = new MemoryStore();
+  store.set("bl1/BCDF/op/r/9", "{broken");
+  store.set("other", "1");
+  const queue = Queue.take(store, "bl1/BCDF/", "r", "me", 0);
+  for (let i = 0; i < 12; ++i) queue.add({ t: "undo" }, 0, 0, {});
+  queue.answered(3);
+  assert.equal(queue.answered(3), null, "a second answer finds nothing");
+  queue.release(0);
+  const next = Queue.take(store, "bl1/BCDF/", "r", "you", 0);
+  assert.deepEqual(
+    next.items.map((item) => item.id),
+    [1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+  );
+  assert.equal(next.lastAnswered, 0);
+  assert.equal(next.add({ t: "undo" }, 0, 0, {}).id, 13);
+  assert.equal(Queue.take(store, "bl1/BCDF/", "r", "third", 100), null, "one page has a run");
+});
+
+test("runs of pages that are long gone are forgotten, but not what they left", () => {
+  const store = new MemoryStore(),
+    day = 24 * 3600 * 1000;
+  const empty = Queue.take(store, "p/", "empty", "me", 0),
+    full = Queue.take(store, "p/", "full", "you", 0);
+  full.add({ t: "undo" }, 0, 0, {});
+  empty.release(0);
+  Queue.tidy(store, "p/", day / 2);
+  assert.ok(store.get("p/run/empty"));
+  Queue.tidy(store, "p/", day + 1);
+  assert.equal(store.get("p/run/empty"), null);
+  assert.equal(Queue.leftOver(store, "p/", "third", day + 1).items.length, 1);
+});

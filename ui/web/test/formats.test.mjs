@@ -1,0 +1,281 @@
+// Numbers, sentences, outlines and QR codes.
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import test from "node:test";
+import {
+  amount,
+  best_language,
+  countdown,
+  duration,
+  extent_of,
+  in_steps,
+  kLanguages,
+  kTables,
+  number,
+  points_of,
+  qr_code,
+  round_step,
+  set_language,
+  share,
+  subject_of,
+  t,
+  typed_number,
+  why_of,
+} from "../../../build/web_test/modules.mjs";
+import { seeded } from "./fakes.mjs";
+
+const each_language = (check) => {
+  for (const language of kLanguages) {
+    set_language(language);
+    check(language);
+  }
+  set_language("en");
+};
+
+test("a number that is written can be typed back, in each language", () => {
+  const chance = seeded(3);
+  each_language((language) => {
+    for (let i = 0; i < 300; ++i) {
+      const value = Math.round((chance() - 0.5) * 10 ** (1 + Math.floor(chance() * 6)) * 100) / 100;
+      assert.equal(typed_number(number(value, 0.01)), value, `${language}: ${number(value, 0.01)}`);
+    }
+  });
+});
+
+test("typed numbers", () => {
+  assert.equal(typed_number(" 4,800 "), 4800);
+  assert.equal(typed_number("4800"), 4800);
+  for (const text of ["", "-", "4800 m", "1,2", "1e5", "NaN", "--3"]) assert.equal(typed_number(text), null, text);
+  set_language("de");
+  assert.equal(typed_number("0,45"), 0.45);
+  assert.equal(typed_number("4.800,5"), 4800.5);
+  assert.equal(typed_number("4.800"), 4800);
+  set_language("en");
+});
+
+test("numbers are as long as people read at a glance", () => {
+  assert.equal(number(3.14159), "3.14");
+  assert.equal(number(31.4159), "31.4");
+  assert.equal(number(31415.9), "31,416");
+  assert.equal(number(-0), "0");
+  assert.equal(number(NaN), "–");
+  assert.equal(number(0.4, 0.05), "0.4");
+  assert.equal(amount(3, ""), "3");
+  assert.equal(amount(3, "m2"), "3\u00a0m²");
+  assert.equal(amount(3, "kWh/m3"), "3\u00a0kWh/m³");
+  assert.equal(amount(3, "1"), "3");
+  assert.equal(share(0.126), "13%");
+  assert.equal(duration(12400), "12 s");
+  assert.equal(duration(150000), "2 min");
+  assert.equal(countdown(247000), "4:07");
+  assert.equal(countdown(-5), "0:00");
+});
+
+test("steps stay in the range of a control, and the ends can be reached", () => {
+  const chance = seeded(5);
+  for (let i = 0; i < 500; ++i) {
+    const least = Math.round(chance() * 100) / 10,
+      most = least + 1 + Math.round(chance() * 500) / 10,
+      step = [0, 0.05, 0.1, 1, 7][Math.floor(chance() * 5)];
+    const value = in_steps(least - 5 + chance() * (most - least + 10), least, most, step);
+    assert.ok(value >= least && value <= most);
+    assert.equal(in_steps(least, least, most, step), least);
+    const count = (most - least) / round_step(least, most);
+    assert.ok(count >= 40 && count <= 100.001, `${count} steps from ${least} to ${most}`);
+  }
+  assert.equal(in_steps(0.30000000000000004, 0, 1, 0.1), 0.3);
+});
+
+test("all languages say everything, with the same gaps to fill", () => {
+  const gaps = (text) =>
+    (typeof text === "string" ? [text] : [text.one, text.other]).map((one) => [...new Set(one.match(/\{\w+\}/g) ?? [])].sort().join());
+  for (const language of kLanguages)
+    for (const [key, text] of Object.entries(kTables.en)) {
+      const other = kTables[language][key];
+      assert.ok(other, `${language}: ${key}`);
+      for (const one of gaps(other)) assert.equal(one, gaps(text)[0], `${language}: ${key}`);
+    }
+});
+
+test("every sentence is used, and every reason has one", () => {
+  const folder = new URL("../src/", import.meta.url),
+    screens = new URL("screens/", folder);
+  const source = [folder, screens]
+    .flatMap((at) =>
+      readdirSync(at)
+        .filter((name) => /\.tsx?$/.test(name))
+        .map((name) => readFileSync(new URL(name, at), "utf8")),
+    )
+    .join("\n");
+  const made = [...source.matchAll(/`([a-z]+_(?:[a-z]+_)?)\$\{/g)].map((match) => match[1]);
+  for (const key of Object.keys(kTables.en))
+    assert.ok(
+      new RegExp(`["'\`]${key}["'\`]`).test(source) || key === "language" || made.some((start) => key.startsWith(start)),
+      `nobody says ${key}`,
+    );
+  const reasons = [
+    "bad",
+    "gone",
+    "right",
+    "area",
+    "phase",
+    "range",
+    "budget",
+    "stale",
+    "conflict",
+    "locked",
+    "closed",
+    "rate",
+    "size",
+    "storage",
+    "draining",
+    "gap",
+    "seat",
+  ];
+  each_language((language) => {
+    const said = reasons.map((why) => t(why_of({ kind: "refused", why, place: "", text: "", args: {} }).key));
+    assert.equal(new Set(said).size, reasons.length, `${language}: a sentence of its own for each reason`);
+  });
+});
+
+test("a refusal says what its arguments tell", () => {
+  const said = (why, args) => {
+    const { key, args: values } = why_of({ kind: "refused", why, place: "", text: "", args });
+    return t(key, values);
+  };
+  assert.equal(said("area", { area: "north", holder: "Bea" }), "Bea is working on the area north at the moment.");
+  assert.equal(said("range", { minimum: 2000, maximum: 9000 }), "Your role card allows 2,000 to 9,000.");
+  assert.equal(said("stale", { by: "Ben", now: 5 }), "Ben has changed it since.");
+  assert.equal(said("stale", {}), "Somebody has changed it since.");
+  assert.equal(subject_of({ mark: "vote/bridge" }), "what_vote");
+  assert.equal(subject_of({}), "what_op");
+});
+
+test("plural forms and languages", () => {
+  assert.equal(t("waits", { n: 1 }), "1 change waits");
+  assert.equal(t("waits", { n: 3 }), "3 changes wait");
+  assert.equal(best_language(["fr-FR", "nl-BE", "en"]), "nl");
+  assert.equal(best_language([]), "en");
+  set_language("xx");
+  assert.match(t("go"), /^\[Jö.*~+\]$/);
+  assert.match(t("consent", { name: "Heron" }), /Heron/);
+  set_language("en");
+});
+
+test("outlines are read as browsers read them", () => {
+  assert.deepEqual(points_of("M0 0h10v-5H2z"), [
+    [0, 0],
+    [10, 0],
+    [10, -5],
+    [2, -5],
+  ]);
+  assert.deepEqual(points_of("m1,1 2,0-.5.5z m5 5"), [
+    [1, 1],
+    [3, 1],
+    [2.5, 1.5],
+    [6, 6],
+  ]);
+  assert.deepEqual(points_of("M0 0C1 1 2 2 3 3A1 1 0 0 1 5 5"), [
+    [0, 0],
+    [3, 3],
+    [5, 5],
+  ]);
+  assert.deepEqual(points_of("nonsense"), []);
+  assert.deepEqual(extent_of(points_of("M1e1 2L-4 8")), { x: -4, y: 2, width: 14, height: 6 });
+  assert.equal(extent_of([]), null);
+});
+
+// A reader of its own: it follows the standard from the picture to the text, and checks the correction of each block.
+function read_qr(code) {
+  const size = code.length,
+    version = (size - 17) / 4,
+    layout = [
+      [26, 10, 1],
+      [44, 16, 1],
+      [70, 26, 1],
+      [100, 18, 2],
+      [134, 24, 2],
+      [172, 16, 4],
+    ][version - 1];
+  const at = (x, y) => (code[y][x] ? 1 : 0);
+  let format = 0;
+  for (const [x, y] of [
+    [0, 8],
+    [1, 8],
+    [2, 8],
+    [3, 8],
+    [4, 8],
+    [5, 8],
+    [7, 8],
+    [8, 8],
+    [8, 7],
+    [8, 5],
+    [8, 4],
+    [8, 3],
+    [8, 2],
+    [8, 1],
+    [8, 0],
+  ])
+    format = format * 2 + at(x, y);
+  const mask = ((format ^ 0x5412) >> 10) & 7,
+    level = (format ^ 0x5412) >> 13;
+  const isFrame = (x, y) =>
+    (x < 9 && y < 9) ||
+    (x < 9 && y > size - 9) ||
+    (x > size - 9 && y < 9) ||
+    x === 6 ||
+    y === 6 ||
+    (version > 1 && Math.abs(x - (size - 7)) < 3 && Math.abs(y - (size - 7)) < 3);
+  const flips = [
+    (x, y) => (y + x) % 2,
+    (x, y) => y % 2,
+    (x) => x % 3,
+    (x, y) => (x + y) % 3,
+    (x, y) => ((y >> 1) + Math.floor(x / 3)) % 2,
+    (x, y) => ((x * y) % 2) + ((x * y) % 3),
+    (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2,
+    (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2,
+  ];
+  const bits = [];
+  let isUp = true;
+  for (let right = size - 1; right > 0; right -= 2, isUp = !isUp) {
+    if (right === 6) right -= 1;
+    for (let i = 0; i < size; ++i)
+      for (const x of [right, right - 1]) {
+        const y = isUp ? size - 1 - i : i;
+        if (!isFrame(x, y)) bits.push(at(x, y) ^ (flips[mask](x, y) === 0 ? 1 : 0));
+      }
+  }
+  const words = Array.from({ length: layout[0] }, (_, i) => parseInt(bits.slice(i * 8, i * 8 + 8).join(""), 2));
+  const [total, correction, blocks] = layout,
+    length = (total - correction * blocks) / blocks;
+  const parts = Array.from({ length: blocks }, (_, b) => words.filter((_, i) => i % blocks === b));
+  const times = (a, b) => {
+    let product = 0;
+    for (; b > 0; b >>= 1, a = a & 128 ? (a << 1) ^ 0x11d : a << 1) if (b & 1) product ^= a;
+    return product;
+  };
+  for (const part of parts)
+    for (let root = 1, i = 0; i < correction; ++i, root = times(root, 2))
+      assert.equal(
+        part.reduce((sum, word) => times(sum, root) ^ word, 0),
+        0,
+        "the block is whole",
+      );
+  const data = parts
+    .flatMap((part) => part.slice(0, length))
+    .map((word) => word.toString(2).padStart(8, "0"))
+    .join("");
+  assert.equal(data.slice(0, 4), "0100", "bytes");
+  const count = parseInt(data.slice(4, 12), 2);
+  return { level, text: Buffer.from(Array.from({ length: count }, (_, i) => parseInt(data.slice(12 + i * 8, 20 + i * 8), 2))).toString() };
+}
+
+test("QR codes say their text, in all sizes", () => {
+  for (let length = 1; length <= 106; ++length) {
+    const text = "http://192.168.178.20:8080/BCDF?".repeat(4).slice(0, length);
+    assert.deepEqual(read_qr(qr_code(text)), { level: 0, text }, `${length} bytes`);
+  }
+  assert.equal(qr_code("x".repeat(107)), null);
+  assert.equal(read_qr(qr_code("Köln/방")).text, "Köln/방");
+});

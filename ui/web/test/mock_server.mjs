@@ -1,0 +1,69 @@
+// Serves the built page and a mock room on one port, with the headers that the real server sends.
+import { createReadStream, existsSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { MockRoom } from "./mock_room.mjs";
+
+const { WebSocketServer } = createRequire(new URL("../package.json", import.meta.url))("ws");
+const folder = fileURLToPath(new URL("../../../build/web", import.meta.url));
+export const kPolicy =
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws: wss:; base-uri 'none'; " +
+  "form-action 'self'; frame-ancestors 'none'; require-trusted-types-for 'script'";
+const kTypes = { html: "text/html; charset=utf-8", js: "text/javascript; charset=utf-8", css: "text/css; charset=utf-8" };
+
+/// Starts on a free port, or on the one that is named.
+export async function serve(port = 0) {
+  const room = new MockRoom(),
+    bytes = { http: 0, state: 0 };
+  const server = createServer((request, answer) => {
+    const path = new URL(request.url, "http://x").pathname;
+    const file = path.startsWith("/assets/") ? join(folder, path) : join(folder, "index.html");
+    if (path.includes("..") || !existsSync(file) || path === "/favicon.ico") return answer.writeHead(404).end();
+    answer.writeHead(200, {
+      "Content-Type": kTypes[file.split(".").pop()],
+      "Content-Encoding": "gzip",
+      "Content-Security-Policy": kPolicy,
+      "Referrer-Policy": "no-referrer",
+      "X-Content-Type-Options": "nosniff",
+      "Cache-Control": path.startsWith("/assets/") ? "public, max-age=31536000, immutable" : "no-cache",
+    });
+    return createReadStream(`${file}.gz`)
+      .on("data", (part) => (bytes.http += part.length))
+      .pipe(answer);
+  });
+  const sockets = new WebSocketServer({
+    server,
+    path: "/ws",
+    handleProtocols: (names) => (names.has("bl1") ? "bl1" : false),
+    perMessageDeflate: false,
+  });
+  sockets.on("connection", (socket) => {
+    const link = {
+      send: (text) => {
+        bytes.state += Buffer.byteLength(text);
+        socket.send(text);
+      },
+      close: (code) => socket.close(code),
+      drop: () => socket.terminate(),
+    };
+    room.connected(link);
+    room.sockets = sockets;
+    socket.on("message", (data) => room.receive(link, data.toString()));
+    socket.on("close", () => room.closed(link));
+  });
+  await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
+  const stop = () => {
+    for (const socket of sockets.clients) socket.terminate();
+    server.close();
+  };
+  return { room, bytes, sockets, stop, port: server.address().port, address: `http://127.0.0.1:${server.address().port}` };
+}
+
+// By hand: node mock_server.mjs 8080, then open /BCDF, /BCDF#k=LEAD or /BCDF#k=SHOW&beamer.
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const { address, room } = await serve(Number(process.argv[2] ?? 8080));
+  room.phase("Exploring", ["change", "comment", "vote", "draft"], { forms: ["smart_volume"], ends_at: Date.now() + 600000 });
+  console.log(`${address}/BCDF   facilitator: ${address}/BCDF#k=LEAD   beamer: ${address}/BCDF#k=SHOW&beamer`);
+}

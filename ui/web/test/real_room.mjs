@@ -1,0 +1,256 @@
+// The page with the real server: people join, vote, change, comment and propose, and the facilitator leads.
+// BEHAVIOURLINKS names the program; its room is made of the quarter and lies in a folder that is removed afterwards.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const require = createRequire(new URL("../package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+const { WebSocket } = require("ws");
+const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
+const shots = path_of("build/web_shots");
+mkdirSync(shots, { recursive: true });
+
+function scene() {
+  const all = JSON.parse(readFileSync(path_of("scenes/start/quarter.json"), "utf8"));
+  const option = (id) => ({ id, label: id[0].toUpperCase() + id.slice(1) });
+  const vote = (id, types) => all.nodes.push({ id, name: id, position: [0, -60, 0], types: { vote: types } });
+  vote("v_bridge", { question: "Should there be a bridge?", electorate: 10 });
+  vote("v_uses", {
+    question: "Which use comes first?",
+    kind: "rank",
+    options: ["shops", "workshops", "nursery"].map(option),
+    electorate: 10,
+  });
+  vote("v_money", {
+    question: "Where should the money go?",
+    kind: "coins",
+    options: ["trees", "play"].map(option),
+    points: 5,
+    is_secret: true,
+  });
+  vote("v_places", { question: "Where is a tower good?", kind: "dots", points: 3 });
+  vote("v_height", { question: "How high?", kind: "slider", least: 10, most: 60, unit: "m" });
+  all.nodes.push({
+    id: "sun",
+    name: "Sun in the gardens",
+    position: [0, -70, 0],
+    types: { indicator: { value: 3.4, unit: "h", target: 4 } },
+  });
+  all.nodes.push({
+    id: "parents",
+    name: "Parents",
+    position: [0, -80, 0],
+    types: {
+      stakeholder_group: {
+        interest: "A library near the school",
+        goals: ["sun"],
+        budget: 12000,
+        controls: [
+          {
+            node: "library",
+            port: "smart_volume.demand",
+            label: "Size of the library",
+            minimum: 500,
+            maximum: 6000,
+            step: 100,
+            costs_whom: "the hotel",
+          },
+        ],
+      },
+    },
+  });
+  return all;
+}
+
+async function started() {
+  const folder = mkdtempSync(join(tmpdir(), "room-"));
+  const invites = join(folder, "invites.json"),
+    source = join(folder, "room.json");
+  writeFileSync(source, JSON.stringify(scene()));
+  const program = spawn(process.env.BEHAVIOURLINKS, [
+    "serve",
+    source,
+    "--port",
+    "0",
+    "--bind",
+    "127.0.0.1",
+    "--journal",
+    folder,
+    "--invites",
+    invites,
+    "--page",
+    path_of("build/web"),
+  ]);
+  let said = "";
+  const address = await new Promise((found, failed) => {
+    const hear = (data) => {
+      said += data;
+      const match = /http:\/\/[\d.]+:\d+\/([A-Z]{4})/.exec(said);
+      if (match) found({ url: match[0], code: match[1] });
+    };
+    program.stdout.on("data", hear);
+    program.stderr.on("data", hear);
+    program.on("exit", () => failed(new Error(said)));
+  });
+  await new Promise((wait) => setTimeout(wait, 300));
+  const keys = JSON.parse(readFileSync(invites, "utf8"))[address.code];
+  const end = () => {
+    program.removeAllListeners("exit");
+    program.kill("SIGINT");
+    return new Promise((gone) => program.on("exit", gone)).then(() => rmSync(folder, { recursive: true, force: true }));
+  };
+  return { ...address, keys, end, said: () => said };
+}
+
+// The page of the facilitator cannot give role cards, so a connection of its own does.
+async function give_card(seat) {
+  const { origin, host } = new URL(room.url);
+  const socket = new WebSocket(`ws://${host}/ws`, "bl1", { origin });
+  await new Promise((open) => socket.on("open", open));
+  const heard = (t) =>
+    new Promise((found) =>
+      socket.on("message", (data) => {
+        const message = JSON.parse(data.toString());
+        if (message.t === t) found(message);
+      }),
+    );
+  socket.send(JSON.stringify({ t: "hello", room: room.code, run: "cards", kind: "page", invite: room.keys.facilitator, views: [] }));
+  await heard("welcome");
+  socket.send(
+    JSON.stringify({ t: "room", id: 1, e: { event: "set_role", arguments: { seat, role: "stakeholder", areas: [], card: "parents" } } }),
+  );
+  await heard("ack");
+  socket.close();
+}
+
+const room = await started();
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+const faults = [];
+
+async function person(fragment, size = [390, 844]) {
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale: "en-GB" });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15000);
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  await page.goto(room.url + fragment);
+  return page;
+}
+async function joined(fragment, size) {
+  const page = await person(fragment, size);
+  await page.waitForSelector(".self");
+  await page.click(".join .main");
+  await page.waitForSelector("nav");
+  return page;
+}
+const tab = (page, name) => page.click(`nav button:has-text("${name}")`);
+const picture = (page, name) => page.screenshot({ path: `${shots}/real_${name}.png` });
+
+try {
+  const lead = await joined(`#k=${room.keys.facilitator}`, [1280, 800]);
+  await picture(lead, "lead");
+  const heron = await joined(""),
+    other = await joined("");
+  await picture(heron, "now");
+  const shapes = await heron.locator(".shape.volume").count();
+  assert.ok(shapes >= 15, `${shapes} volumes on the plan`);
+
+  // The facilitator starts a phase; everybody sees it.
+  for (const what of ["Change", "Drafts", "Comments", "Vote"]) await lead.check(`.tick:has-text("${what}") input`);
+  await lead.fill('label:has-text("Title of the phase") input', "Exploring");
+  await lead.click('button:has-text("Start this phase")');
+  await heron.waitForSelector('.phase:has-text("Exploring")');
+
+  // Every kind of vote is opened, answered and closed.
+  const ways = {
+    "Should there be a bridge?": [".choice >> nth=0"],
+    "Which use comes first?": [".choice >> nth=0", ".choice >> nth=0", ".choice >> nth=0"],
+    "Where should the money go?": ['[aria-label="One more on Trees"]'],
+    "Where is a tower good?": ['.pick button:has-text("Set a dot")'],
+    "How high?": ['[aria-label^="More"]'],
+  };
+  for (const [question, steps] of Object.entries(ways)) {
+    await lead.click(`.rows li:has-text("${question}") button:has-text("Open")`);
+    await tab(heron, "Votes");
+    await heron.waitForSelector(`.vote h2:has-text("${question}")`);
+    for (const step of steps) await heron.click(`.vote:not(.closed) ${step}`);
+    await heron.click('button:has-text("Send my vote")');
+    await heron.waitForSelector('.counted:has-text("counted")');
+    await heron.waitForTimeout(1500);
+    assert.ok(await heron.isVisible('.counted:has-text("counted")'), `${question}: it stays counted`);
+    await heron.reload();
+    await tab(heron, "Votes");
+    await heron.waitForSelector('.counted:has-text("counted")');
+    await picture(heron, `vote_${Object.keys(ways).indexOf(question)}`);
+    await lead.click(`.rows li:has-text("${question}") button:has-text("Close")`);
+    await heron.waitForSelector(`.vote.closed:has-text("${question}")`);
+    await tab(heron, "Now");
+  }
+  await tab(heron, "Votes");
+  await heron.waitForSelector(".results");
+  await picture(heron, "results");
+
+  // A comment on a thing, rated by somebody else, and answered.
+  await tab(heron, "Plan");
+  await heron.click('.shape[data-node="library"]');
+  await heron.waitForSelector('.what:has-text("Library")');
+  await picture(heron, "what");
+  await heron.click('button:has-text("Comment on this")');
+  await heron.fill("textarea", "Keep it on the ground floor.");
+  await heron.click('.write button:has-text("Send")');
+  await tab(other, "Ideas");
+  await other.waitForSelector('.said:has-text("Keep it")');
+  await other.click('[aria-label^="Agree"]');
+  await other.waitForSelector('[aria-label="Agree: 1 person"][aria-pressed="true"]');
+  await lead.fill('.comment:has-text("Keep it") input', "Yes.");
+  await lead.click('.comment:has-text("Keep it") button >> nth=0');
+  await heron.waitForSelector('.answer:has-text("Yes.")');
+
+  // With a role card, a value is changed, changed back, and proposed in a draft that the facilitator accepts.
+  await give_card(2);
+  await tab(heron, "Goals");
+  await heron.waitForSelector('text="Sun in the gardens"');
+  const field = "#control-library-smart_volume-demand-number";
+  const before = await heron.inputValue(field);
+  await heron.fill(field, "2500");
+  await heron.keyboard.press("Enter");
+  await heron.waitForSelector('.mark:has-text("Saved")');
+  await heron.waitForTimeout(1000);
+  assert.equal(await heron.inputValue(field), "2,500");
+  await picture(heron, "card");
+  await heron.click('button:has-text("Undo my last change")');
+  await heron.waitForFunction(([at, value]) => document.querySelector(at).value === value, [field, before]);
+  await tab(heron, "Ideas");
+  await heron.click('.segments button:has-text("Proposals")');
+  await heron.fill(".pick input", "A larger library");
+  await heron.click('button:has-text("Start a draft")');
+  await heron.fill(field, "3000");
+  await heron.keyboard.press("Enter");
+  await heron.click('.banner button:has-text("Propose it")');
+  await heron.waitForSelector(".steps li");
+  await heron.fill("textarea", "It is full.");
+  await heron.click('.proposal button:has-text("Propose it")');
+  await lead.waitForSelector('.proposal:has-text("A larger library")');
+  await picture(lead, "proposal");
+  await lead.click('.proposal button:has-text("Accept")');
+  await heron.waitForSelector('.word:has-text("Accepted")');
+  await tab(heron, "Goals");
+  await heron.waitForFunction((at) => document.querySelector(at).value === "3,000", field);
+  await picture(other, "comment");
+  const seats = await lead.locator(".people li").count();
+  assert.equal(seats, 4);
+  assert.deepEqual(faults, []);
+  console.log("ok the page and the real server");
+} catch (error) {
+  console.log(room.said().slice(-600));
+  console.log(faults.join("\n"));
+  throw error;
+} finally {
+  await browser.close();
+  await room.end();
+}

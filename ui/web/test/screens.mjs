@@ -1,0 +1,494 @@
+// Walks through all screens in Chromium: takes pictures into build/web_shots, and fails on what people could not use.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { fileURLToPath } from "node:url";
+import { serve } from "./mock_server.mjs";
+
+const require = createRequire(new URL("../package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+const shots = fileURLToPath(new URL("../../../build/web_shots", import.meta.url));
+mkdirSync(shots, { recursive: true });
+
+const kSizes = [
+  [320, 568],
+  [390, 844],
+  [1280, 800],
+  [1920, 1080],
+];
+const kTarget = 44; // of buttons and fields [CSS px]
+const kTags = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
+const counts = { screens: 0, axe: 0, targets: 0, requests: 0 };
+const faults = [];
+
+// A name that is no "localhost" has no secure context, like a laptop in a Wi-Fi.
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1"],
+});
+
+/// A browser of its own for one person. Every request elsewhere, error and breach of the policy is a fault.
+async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB" } = {}) {
+  const context = await browser.newContext({
+    viewport: { width: size[0], height: size[1] },
+    colorScheme: scheme,
+    reducedMotion: motion,
+    hasTouch: size[0] < 900,
+    locale: language,
+  });
+  const page = await context.newPage(),
+    home = `http://room.test:${server.port}`;
+  page.on("request", (request) => {
+    counts.requests += 1;
+    if (!request.url().startsWith(home) && !request.url().startsWith("data:")) faults.push(`a request to ${request.url()}`);
+  });
+  page.on("pageerror", (error) => faults.push(`an error: ${error.message}`));
+  page.on("console", (message) => {
+    if (message.type() === "error" && !/WebSocket connection/.test(message.text())) faults.push(`the console: ${message.text()}`);
+  });
+  await page.goto(`${home}/BCDF${fragment}`);
+  return page;
+}
+
+async function joined(server, options) {
+  const page = await person(server, options);
+  await page.waitForSelector(".self");
+  await page.click(".join .main");
+  await page.waitForSelector("nav");
+  return page;
+}
+
+const tab = async (page, name) => {
+  await page.click(`nav button:has-text("${name}")`);
+  await page.waitForTimeout(60);
+};
+
+/// Is the screen fit to use? Its picture is kept.
+async function look(page, name, { isBeamer = false } = {}) {
+  counts.screens += 1;
+  await page.waitForTimeout(120);
+  await page.screenshot({ path: `${shots}/${name}.png` });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  if (wide > 0) faults.push(`${name}: ${wide} px wider than the window`);
+  const small = await page.evaluate(
+    ([least, beamer]) => {
+      const out = [];
+      let seen = 0;
+      for (const element of document.querySelectorAll("button, input, select, textarea, summary, a[href]")) {
+        const tick = element.closest("label.tick") ?? element,
+          box = tick.getBoundingClientRect();
+        if (box.width === 0 && box.height === 0) continue;
+        seen += 1;
+        if (box.width < least - 0.5 || box.height < least - 0.5)
+          out.push(`${element.tagName} "${element.textContent || element.ariaLabel}" ${box.width.toFixed(0)}x${box.height.toFixed(0)}`);
+      }
+      if (beamer)
+        for (const element of document.querySelectorAll("body *")) {
+          const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
+          const box = element.getBoundingClientRect();
+          if (!own || box.width < 2 || element.closest(".unseen, noscript")) continue;
+          const svg = element.closest("svg"),
+            scale = svg ? box.height / Math.max(1, element.getBBox ? element.getBBox().height : box.height) : 1;
+          const size = parseFloat(getComputedStyle(element).fontSize) * (svg ? svg.getScreenCTM().a : 1) * (svg ? 1 : scale);
+          if (size < window.innerHeight / 25 - 0.6) out.push(`text "${element.textContent.slice(0, 30)}" of ${size.toFixed(1)} px`);
+          if (box.right > window.innerWidth + 1 || box.bottom > window.innerHeight + 1)
+            out.push(`text "${element.textContent.slice(0, 30)}" outside the picture`);
+        }
+      return { out, seen };
+    },
+    [kTarget, isBeamer],
+  );
+  counts.targets += small.seen;
+  for (const one of small.out) faults.push(`${name}: too small: ${one}`);
+  await page.evaluate(axe);
+  const found = await page.evaluate(
+    (tags) =>
+      window.axe.run(document, { runOnly: tags, resultTypes: ["violations"] }).then((all) =>
+        all.violations.map(
+          (one) =>
+            `${one.id}: ${one.nodes
+              .map(
+                (node) =>
+                  `${node.html.slice(0, 110)} ${node.any
+                    .map((check) => check.message)
+                    .join("; ")
+                    .slice(0, 160)}`,
+              )
+              .slice(0, 3)
+              .join(" | ")}`,
+        ),
+      ),
+    kTags,
+  );
+  counts.axe += 1;
+  for (const one of found) faults.push(`${name}: ${one}`);
+}
+
+async function walk_participant(server, size, scheme) {
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
+  room.phase("Arriving", []);
+  room.open_votes();
+  const page = await person(server, { size, scheme });
+  await page.waitForSelector(".self");
+  await look(page, `join_${at}`);
+  await page.click(".join .link");
+  await look(page, `consent_${at}`);
+  await page.keyboard.press("Escape");
+  await page.click(".join .main");
+  await page.waitForSelector("nav");
+  await look(page, `now_wait_${at}`);
+  room.phase("Exploring the block", ["change", "comment", "vote", "draft"], { forms: ["smart_volume"], ends_at: Date.now() + 600000 });
+  await page.waitForTimeout(150);
+  await look(page, `now_${at}`);
+  await tab(page, "Plan");
+  await look(page, `plan_${at}`);
+  await page.click('.shape[data-node="library"]');
+  await page.waitForSelector('.what:has-text("Library")');
+  await look(page, `plan_what_${at}`);
+  await page.click('[aria-label="Larger"]');
+  await look(page, `plan_zoomed_${at}`);
+  if (size[0] < 900) {
+    await page.click('.segments button:has-text("List")');
+    await look(page, `plan_list_${at}`);
+  }
+  await tab(page, "Goals");
+  await look(page, `card_${at}`);
+  await page.fill("#control-library-smart_volume-demand-number", "6600");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector(".refusals");
+  await look(page, `card_refused_${at}`);
+  await page.click('.refusals button:has-text("Understood")');
+  for (const [id, edit] of [
+    ["bridge", ".choice"],
+    ["uses", ".choice"],
+    ["money", '[aria-label^="One more"]'],
+    ["places", '.pick button:has-text("Set a dot")'],
+    ["height", '[aria-label^="More"]'],
+  ]) {
+    room.open_votes(id);
+    await page.waitForTimeout(120);
+    await tab(page, "Votes");
+    await look(page, `vote_${id}_${at}`);
+    await page.click(`.vote ${edit} >> nth=0`);
+    if (id === "uses") for (let i = 0; i < 3; ++i) await page.click(".vote .choice >> nth=0");
+    await page.click('button:has-text("Send my vote")');
+    await page.waitForSelector('.counted:has-text("counted")');
+    await look(page, `vote_${id}_counted_${at}`);
+  }
+  room.open_votes();
+  await page.waitForTimeout(120);
+  await look(page, `vote_results_${at}`);
+  await tab(page, "Ideas");
+  await look(page, `comments_${at}`);
+  await page.click('button:has-text("Write a comment")');
+  await page.fill("textarea", "A bench here, please.");
+  await look(page, `comment_write_${at}`);
+  await page.click('.write button:has-text("Send")');
+  await page.waitForSelector('.said:has-text("A bench here")');
+  await page.click('.segments button:has-text("Proposals")');
+  await look(page, `proposals_${at}`);
+  await page.fill(".pick input", "A smaller library");
+  await page.click('button:has-text("Start a draft")');
+  await page.click('[aria-label="Less: Size of the library"]');
+  await look(page, `card_draft_${at}`);
+  await page.click('button:has-text("Propose it")');
+  await page.waitForSelector(".steps");
+  await look(page, `draft_${at}`);
+  room.phase("What you need", [], { forms: ["smart_volume"] });
+  await tab(page, "Now");
+  await page.click(".task .main");
+  await look(page, `form_${at}`);
+  await page.click(`nav button:has-text("Now")`);
+  await page.context().close();
+}
+
+async function walk_facilitator(server, size, scheme) {
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
+  const page = await joined(server, { size, scheme, fragment: "#k=LEAD" });
+  assert.equal(await page.evaluate(() => location.hash), "", "the invitation is gone from the address");
+  await look(page, `lead_${at}`);
+  await page.click(".people summary >> nth=0");
+  await look(page, `lead_person_${at}`);
+  await page.click('button:has-text("Show the code large")');
+  await look(page, `lead_code_${at}`);
+  await page.click('button:has-text("Close")');
+  room.open_votes();
+  await page.context().close();
+}
+
+async function walk_beamer(server, size, scheme) {
+  const { room } = server,
+    at = `${size[0]}x${size[1]}_${scheme}`;
+  room.phase("Exploring the block", ["change"], { ends_at: Date.now() + 400000 });
+  const page = await person(server, { size, scheme, fragment: "#k=SHOW&beamer" });
+  await page.waitForSelector(".shape");
+  for (const layout of ["plan", "compare", "vote", "comments", "code"]) {
+    room.open_votes(...(layout === "vote" ? ["uses"] : []));
+    room.room.layout = layout;
+    room.publish();
+    await look(page, `beamer_${layout}_${at}`, { isBeamer: true });
+  }
+  room.open_votes();
+  room.room.layout = "vote";
+  room.publish();
+  await look(page, `beamer_result_${at}`, { isBeamer: true });
+  room.mute = true;
+  await page.waitForSelector(".old", { timeout: 30000 });
+  await look(page, `beamer_old_${at}`, { isBeamer: true });
+  room.mute = false;
+  room.room.layout = "plan";
+  await page.context().close();
+}
+
+// --- What people do -------------------------------------------------------------------------------------------------
+
+async function lost_connection(server) {
+  const { room } = server;
+  room.phase("Exploring", ["change"]);
+  const page = await joined(server);
+  await tab(page, "Goals");
+  room.mute = true;
+  for (let i = 0; i < 3; ++i) await page.click('[aria-label="More: Size of the library"]');
+  await page.waitForSelector('.status:has-text("3 changes wait"):has-text("No connection for")', { timeout: 20000 });
+  assert.match(await page.textContent(".mark >> nth=0"), /Waits for the connection/);
+  await page.waitForTimeout(9000);
+  await look(page, "offline_390x844_light");
+  room.mute = false;
+  await page.reload();
+  await page.waitForSelector('.status:has-text("Everything is saved")', { timeout: 20000 });
+  const sizes = new Set(room.log.filter((m) => m.c?.command === "set_port").map((m) => m.c.arguments.value));
+  assert.equal(room.card.controls[0].value, [...sizes].pop(), "what waited is applied after a reload");
+  await page.context().close();
+}
+
+async function stale_change(server) {
+  const { room } = server;
+  room.phase("Exploring", ["change"]);
+  const page = await joined(server);
+  await tab(page, "Goals");
+  await page.clock.install();
+  room.mute = true;
+  await page.click('[aria-label="Less: Size of the library"]');
+  await page.clock.runFor(70000);
+  room.card.controls = room.card.controls.map((one, i) => (i === 0 ? { ...one, value: 7000 } : one));
+  room.mute = false;
+  await page.clock.runFor(10000);
+  await page.clock.resume();
+  await page.waitForSelector('.refusals:has-text("Otter has changed it since"):has-text("7,000")', { timeout: 20000 });
+  await look(page, "stale_390x844_light");
+  await page.click('button:has-text("anyway")');
+  await page.waitForSelector('.mark:has-text("Saved")');
+  await page.context().close();
+}
+
+async function leads(server) {
+  const { room } = server;
+  room.open_votes();
+  const page = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  await page.check('.tick:has-text("Comments") input');
+  await page.fill('label:has-text("Title of the phase") input', "Say it");
+  await page.click('button:has-text("Start this phase")');
+  await page.waitForSelector('text="Now: Say it"');
+  assert.deepEqual(room.room.phase.activities, ["comment"]);
+  await page.click('.rows button:has-text("Open") >> nth=0');
+  await page.waitForSelector('.rows button:has-text("Close")');
+  assert.ok(room.votes.bridge.open && room.room.phase.activities.includes("vote"));
+  await page.click('.rows button:has-text("Close") >> nth=0');
+  await page.waitForFunction(() => !document.querySelector(".rows .busy"));
+  await page.click('.proposal button:has-text("Accept") >> nth=0');
+  await page.waitForTimeout(300);
+  assert.equal(room.proposals.p1.state, "accepted");
+  await page.click('button:has-text("Pause the model")');
+  await page.waitForSelector('button:has-text("Let the model run")');
+  await page.click('.segments button:has-text("Code")');
+  await page.waitForTimeout(200);
+  assert.equal(room.room.layout, "code");
+  await page.click(".people summary >> nth=0");
+  await page.click('.people details[open] button:has-text("Mute")');
+  await page.waitForTimeout(200);
+  assert.ok(room.log.some((m) => m.e?.event === "mute" && m.e.arguments.is_muted));
+  room.proposals.p1.state = "proposed";
+  room.room.paused = false;
+  await page.context().close();
+}
+
+async function dots_by_touch(server) {
+  const { room } = server;
+  room.phase("Vote", ["vote"]);
+  room.open_votes("places");
+  const page = await joined(server);
+  await tab(page, "Votes");
+  const canvas = await page.locator(".paper").boundingBox();
+  await page.touchscreen.tap(canvas.x + canvas.width * 0.3, canvas.y + canvas.height * 0.4);
+  await page.touchscreen.tap(canvas.x + canvas.width * 0.6, canvas.y + canvas.height * 0.6);
+  await page.click('button:has-text("Send my vote")');
+  await page.waitForSelector(".counted");
+  const cast = room.log.filter((m) => m.c?.command === "cast_vote").pop().c.arguments;
+  assert.equal(cast.ballot.length, 2);
+  const [x, y] = cast.ballot[0].place,
+    scale = 180 / canvas.width;
+  assert.ok(x > 10 && x < 80 && y > 30 && y < 100, `the touch is at ${x}, ${y}, ${scale}`);
+  await page.context().close();
+}
+
+async function visitors_form(server) {
+  const { room } = server;
+  room.open_votes();
+  room.phase("What you need", [], { forms: ["smart_volume"] });
+  const page = await joined(server);
+  await page.click(".task .main");
+  await page.fill('label:has-text("What is it?") input', "Kiosk");
+  await page.click('.sizes button:has-text("kiosk")');
+  const canvas = await page.locator(".paper").boundingBox();
+  await page.touchscreen.tap(canvas.x + canvas.width * 0.75, canvas.y + canvas.height * 0.75);
+  await page.click('button:has-text("Add it")');
+  await page.waitForSelector(".counted");
+  const node = room.log.filter((m) => m.c?.command === "add_node").pop().c.arguments;
+  assert.match(node.id, /^smart_volume_\d+_\d+$/);
+  assert.equal(node.node.types.smart_volume.demand, 100);
+  await page.context().close();
+}
+
+/// Everything can be reached and used by keys alone, and shows its focus.
+async function keyboard(server) {
+  const { room } = server;
+  room.phase("Vote", ["vote"]);
+  room.open_votes("money");
+  const page = await person(server);
+  await page.waitForSelector(".self");
+  const press = async (name, limit = 60) => {
+    for (let i = 0; i < limit; ++i) {
+      await page.keyboard.press("Tab");
+      const at = await page.evaluate(() => {
+        const one = document.activeElement,
+          style = getComputedStyle(one),
+          box = one.getBoundingClientRect();
+        return {
+          text: one.ariaLabel || one.textContent,
+          outline: parseFloat(style.outlineWidth),
+          isSeen: box.top >= 0 && box.bottom <= innerHeight + 1,
+        };
+      });
+      assert.ok(at.outline >= 2, `the focus on "${at.text}" shows`);
+      if (at.text.startsWith(name)) {
+        assert.ok(at.isSeen, `"${name}" is in sight`);
+        return page.keyboard.press("Enter");
+      }
+    }
+    throw new Error(`"${name}" is not reached by keys`);
+  };
+  await press("Join in");
+  await page.waitForSelector("nav");
+  await press("Votes");
+  await press("One more on Trees");
+  await press("Send my vote");
+  await page.waitForSelector(".counted");
+  await page.context().close();
+}
+
+/// In a language of longer marked words nothing is cut off, and no sentence comes from elsewhere than the tables.
+async function pseudo_language(server) {
+  const { room } = server;
+  room.phase("Exploring", ["change", "comment", "vote", "draft"]);
+  room.open_votes("money");
+  const page = await person(server, { size: [320, 568], fragment: "#lang=xx" });
+  await page.waitForSelector(".self");
+  await look(page, "pseudo_join");
+  await page.click(".join .main");
+  await page.waitForSelector("nav");
+  for (let i = 0; i < 5; ++i) {
+    await page.click(`nav button >> nth=${i}`);
+    await look(page, `pseudo_${i}`);
+    const plain = await page.evaluate(() =>
+      [...document.querySelectorAll("button, h1, h2, label > span")]
+        .map((one) => one.textContent.trim())
+        .filter((text) => /^[A-Z][a-z]+( [a-z]+)*$/.test(text)),
+    );
+    const content = [
+      "Trees",
+      "Playground",
+      "Benches and light",
+      "Parents of the quarter",
+      "Where should the money for open space go",
+      "A larger library",
+      "Move the hotel south",
+    ];
+    const open = plain.filter((text) => !content.includes(text) && !room.card.goals.some((goal) => goal.name === text));
+    if (open.length > 0) faults.push(`pseudo_${i}: not in the tables: ${open.join(", ")}`);
+  }
+  await page.context().close();
+}
+
+async function languages(server) {
+  const titles = {};
+  for (const [language, word] of [
+    ["nl-NL", "Meedoen"],
+    ["de-DE", "Mitmachen"],
+    ["ko-KR", "참여하기"],
+  ]) {
+    const page = await person(server, { language, size: [320, 568] });
+    await page.waitForSelector(".self");
+    assert.equal((await page.textContent(".join .main")).trim(), word);
+    assert.equal(await page.evaluate(() => document.documentElement.lang), language.slice(0, 2));
+    await page.click(".join .main");
+    await page.waitForSelector("nav");
+    titles[language] = await page.textContent("main h1");
+    for (let i = 0; i < 5; ++i) {
+      await page.click(`nav button >> nth=${i}`);
+      await look(page, `${language.slice(0, 2)}_${i}`);
+    }
+    await page.context().close();
+  }
+  assert.equal(new Set(Object.values(titles)).size, 3);
+}
+
+async function first_load(server) {
+  const before = { ...server.bytes },
+    requests = counts.requests;
+  const page = await person(server);
+  await page.waitForSelector(".shape");
+  const http = server.bytes.http - before.http,
+    state = server.bytes.state - before.state;
+  console.log(
+    `first load: ${http} bytes compressed over HTTP, ${state} bytes of views uncompressed with the plan, ${counts.requests - requests} requests`,
+  );
+  assert.ok(http + state <= 80000, "at most 80 kB in all");
+  assert.ok(await page.evaluate(() => !window.isSecureContext), "without a secure context");
+  await page.context().close();
+}
+
+// --- All of it ------------------------------------------------------------------------------------------------------
+
+const only = process.argv[2];
+const parts = { first_load, lost_connection, stale_change, leads, dots_by_touch, visitors_form, keyboard, pseudo_language, languages };
+for (const [name, part] of Object.entries(parts)) {
+  if (only && only !== name) continue;
+  const server = await serve();
+  await part(server);
+  server.stop();
+  console.log(`ok ${name}`);
+}
+for (const size of kSizes)
+  for (const scheme of ["light", "dark"]) {
+    if (only && only !== "walk") continue;
+    const server = await serve();
+    await walk_participant(server, size, scheme);
+    await walk_facilitator(server, size, scheme);
+    if (size[0] >= 1280) await walk_beamer(server, size, scheme);
+    server.stop();
+    console.log(`ok walk ${size.join("x")} ${scheme}`);
+  }
+if (!only || only === "walk") {
+  const server = await serve();
+  await walk_beamer(server, [1024, 768], "light");
+  server.stop();
+}
+await browser.close();
+console.log(
+  `${counts.screens} screens looked at, ${counts.axe} times axe, ${counts.targets} targets measured, ${counts.requests} requests, ${faults.length} faults`,
+);
+for (const fault of [...new Set(faults)]) console.log(`not ok ${fault}`);
+process.exit(faults.length > 0 ? 1 : 0);
