@@ -74,7 +74,8 @@ std::string tags_of(const std::string& where) { return where == "free" ? "[]" : 
 std::optional<Command> sample(const std::string& id, const std::string& where, std::int64_t seat) {
   const std::string link = where + "_link";
   if (id == "add_node")
-    return command<AddNode>({"device_" + std::to_string(seat) + "_new", {R"({"tags": )" + tags_of(where) + R"(, "types": {"smart_volume": {}}})"}});
+    return command<AddNode>(
+        {"device_" + std::to_string(seat) + "_new", {R"({"tags": )" + tags_of(where) + R"(, "types": {"smart_volume": {}}})"}});
   if (id == "remove_node") return command<RemoveNode>({where == "mine" ? "mine_2" : where == "theirs" ? "theirs_2" : "free_2"});
   if (id == "rename_node") return command<RenameNode>({where, "renamed"});
   if (id == "typify") return command<Typify>({where, "control", {"{}"}});
@@ -113,7 +114,9 @@ struct Situation {
 bool is_allowed(const std::string& id, Role role, const Situation& at) {
   const bool is_node_of_card = id == "set_port" && at.where == "mine";
   const bool is_link_of_card = (id == "set_link_strength" || id == "set_link_parameter") && at.where == "mine";
-  const bool is_own = id == "cast_vote" || (role == Role::device && id == "add_node") || (role == Role::device && at.where == "mine");  // the device's card names `mine`
+  // The node that a device may remove is one that it has added: another than the one on its card.
+  const bool is_own = id == "cast_vote" || (role == Role::device && id == "add_node") ||
+                      (role == Role::device && at.where == "mine" && id != "remove_node");  // the device's card names `mine`
   for (const char* ground = kCommands.at(id).of(role); *ground != '\0'; ++ground) {
     const bool is_mine = at.where == "mine";
     switch (*ground) {
