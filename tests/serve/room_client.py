@@ -70,7 +70,7 @@ class Page:
         self.next, self.waiting, self.answers = 1, {}, {}
         self.sent_at, self.latencies = {}, []
         self.view, self.entries, self.scene, self.says, self.closed = {}, {}, None, [], None
-        self.reader = None
+        self.reader, self.missing, self.pushed_at = None, None, {}
         self.changed = asyncio.Event()
 
     async def connect(self):
@@ -114,7 +114,10 @@ class Page:
             self.view = {}
         elif kind in ("ack", "nack"):
             number = message["id"]
-            if kind == "nack" and message["why"] in ("gap", "storage"):
+            if kind == "nack" and message["why"] == "gap":
+                self.missing = message["args"]["next"]
+                return
+            if kind == "nack" and message["why"] == "storage":
                 return
             if number in self.answers:
                 assert self.answers[number]["t"] == kind, (self.answers[number], message)
@@ -150,6 +153,7 @@ class Page:
         return self.socket is not None and self.socket.open
 
     async def push(self, number):
+        self.pushed_at[number] = time.monotonic()
         if not self.is_open() or (self.loss and self.random.random() < self.loss):
             return
         try:
@@ -166,9 +170,13 @@ class Page:
         await self.push(number)
         return number
 
-    async def push_all(self):
+    async def push_again(self):
+        """What the server misses at once, and whatever has had no answer for half a second."""
+        missing, self.missing = self.missing, None
+        late = time.monotonic() - 0.5
         for number in sorted(self.waiting):
-            await self.push(number)
+            if (missing is not None and number >= missing) or self.pushed_at[number] < late:
+                await self.push(number)
 
     async def answer(self, message, seconds=10):
         number = await self.say(message)

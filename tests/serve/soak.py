@@ -25,8 +25,8 @@ async def keep_connected(page, end):
     """Comes back after each broken connection, and says again what has no answer."""
     while time.monotonic() < end or page.waiting:
         if page.is_open():
-            await page.push_all()
-            await asyncio.sleep(0.5)
+            await page.push_again()
+            await asyncio.sleep(0.05)
             continue
         try:
             page.closed = None
