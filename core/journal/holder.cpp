@@ -7,10 +7,10 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <sstream>
 
+#include "core/base/moment.h"
 #include "core/base/printable.h"
 #include "core/file/file_io.h"
 
@@ -21,15 +21,6 @@ namespace {
 constexpr std::size_t kMostNote = 1024;  // [bytes]
 
 std::string note_of(const std::string& path) { return path + "-holder"; }
-
-// "2026-03-01 09:30 UTC" of milliseconds since 1970.
-std::string moment_text(std::int64_t milliseconds) {
-  const std::time_t seconds = static_cast<std::time_t>(milliseconds / 1000);
-  std::tm parts{};
-  std::array<char, 64> text{};
-  if (gmtime_r(&seconds, &parts) == nullptr) return {};
-  return std::string(text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts));
-}
 
 }  // namespace
 

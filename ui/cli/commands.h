@@ -55,6 +55,11 @@ struct EraseOptions {
 };
 int erase_command(const EraseOptions& options);
 
+struct MinutesOptions {
+  std::string session, out;
+};
+int minutes_command(const MinutesOptions& options);
+
 struct ServeOptions {
   std::vector<std::string> sources;  ///< scenes and session files
   int port = 8080;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/minutes/minutes.h"
 #include "core/report/report.h"
 #include "core/session/types/plugins.h"
 #include "ui/cli/declarations.h"
@@ -133,6 +134,20 @@ void declare_erase(CLI::App& app, EraseOptions& o) {
       "Exit codes: 0 nothing of the person is left; 2 bad input, or the file is in use.");
 }
 
+void declare_minutes(CLI::App& app, MinutesOptions& o) {
+  CLI::App& c = *app.add_subcommand("minutes", "Writes the minutes of a session file: a page, tables, the log and the scenes.");
+  c.add_option("session", o.session, "The session file (.blsession).")->type_name("FILE")->required();
+  c.add_option("--out", o.out, "The folder for minutes.html and what lies beside it.")->type_name("DIR")->required();
+  files_of(c).reads({"session"}).fills("--out", {".html", ".csv", ".jsonl"}, minutes::may_fill_with_minutes);
+  c.footer(
+      "minutes.html says who took part, what was decided, proposed, voted and commented, and what was refused. People appear by\n"
+      "their pseudonyms. decisions.csv, comments.csv and votes.csv hold the same for spreadsheets, log.jsonl can be replayed, "
+      "and\n"
+      "scenes/ has each scenario and the end. The session file is not changed.\n\n"
+      "Example:\n  behaviourlinks minutes quarter.blsession --out minutes\n\n"
+      "Exit codes: 0 written; 2 bad input, or the file is in use.");
+}
+
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
@@ -165,6 +180,7 @@ struct Options {
   CheckOptions check;
   ReplayOptions replay;
   EraseOptions erase;
+  MinutesOptions minutes;
   ServeOptions serve;
   CompareOptions compare;
   DocsOptions docs;
@@ -186,6 +202,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_replay(app, o.replay);
   declare_serve(app, o.serve);
   declare_erase(app, o.erase);
+  declare_minutes(app, o.minutes);
   declare_compare(app, o.compare);
   declare_cells(app, o.cells);
   declare_fit(app, o.fit);
@@ -204,6 +221,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("replay")) return replay_command(o.replay);
   if (app.got_subcommand("serve")) return serve_command(o.serve);
   if (app.got_subcommand("erase")) return erase_command(o.erase);
+  if (app.got_subcommand("minutes")) return minutes_command(o.minutes);
   if (app.got_subcommand("compare")) return compare_command(o.compare);
   if (app.got_subcommand("cells")) return cells_command(o.cells);
   if (app.got_subcommand("fit")) return fit_command(o.fit);

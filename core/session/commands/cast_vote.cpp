@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/session/table_rows.h"
+#include "core/session/vote_question.h"
 #include "core/vote/ballot_json.h"
 
 namespace bl {
@@ -12,18 +13,10 @@ namespace {
 
 constexpr std::size_t kLongestVoter = 64;  // bytes
 
-// What the vote asks, as people have set it: none of these settings can be changed by a link.
-Result<vote::Question> question_of(const Scene& scene, const PortSite& site) {
-  const auto now = [&](const char* port) { return set_value(scene, *site.node, *site.type, *site.type->find_port(port)); };
-  if (!std::get<bool>(now("is_open")))
+Result<vote::Question> open_question(const Scene& scene, const PortSite& site) {
+  if (!std::get<bool>(set_value(scene, *site.node, *site.type, *site.type->find_port("is_open"))))
     return Error{ErrorCode::conflict, "is_open", "the vote is closed: ballots are cast and changed while it is open"};
-  vote::Question asked;
-  asked.kind = vote::kind_named(std::get<std::string>(now("kind"))).value_or(asked.kind);
-  asked.points = std::get<std::int64_t>(now("points"));
-  asked.is_whole_ranking = std::get<bool>(now("is_whole_ranking"));
-  asked.least = as_number(now("least"));
-  asked.most = as_number(now("most"));
-  return vote::question_of(asked, *std::get<Shared<Table>>(now("options")));
+  return question_of_vote(scene, *site.node, *site.type);
 }
 
 Result<TableRow> row_for(const vote::Question& question, const CastVote::In& in) {
@@ -81,7 +74,7 @@ Inverse CastVote::apply(SceneEdit& edit, const In& in) {
   const auto site = find_table(edit, in.node, {"vote.ballots"});
   if (!site) return site.error();
   const std::string vote = "nodes/" + in.node + "/vote", place = site->place + "/" + in.voter;
-  const auto question = question_of(edit.scene(), site->port);
+  const auto question = open_question(edit.scene(), site->port);
   if (!question) return question.error().within(vote);
   if (in.voter.empty() || in.voter.size() > kLongestVoter)
     return Error{ErrorCode::out_of_range, site->place,

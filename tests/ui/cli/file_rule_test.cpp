@@ -237,8 +237,8 @@ std::vector<FileOption> file_options(const std::string& help) {
 TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
   const std::set<std::string> in_place = {"run --save", "script --out", "import --out", "place --out"};
   int pairs = 0;
-  for (const std::string task : {"run", "new", "check", "docs", "schema", "replay", "erase", "bench", "cells", "fit", "assign",
-                                 "import", "script", "compare", "place"}) {
+  for (const std::string task : {"run", "new", "check", "docs", "schema", "replay", "erase", "minutes", "bench", "cells", "fit",
+                                 "assign", "import", "script", "compare", "place"}) {
     const bool is_bench = task == "bench";
     const std::vector<FileOption> options = file_options((is_bench ? place.bench({"--help"}) : place.run({task, "--help"})).out);
     ASSERT_FALSE(options.empty()) << task;

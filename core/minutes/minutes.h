@@ -1,0 +1,20 @@
+// The minutes of a session: a page, tables, the log and the scenes, in one folder.
+#pragma once
+
+#include <string>
+
+#include "core/minutes/account.h"
+
+namespace bl::minutes {
+
+/// Writes minutes.html, decisions.csv, comments.csv, votes.csv, log.jsonl, and in scenes/ one scene file for each scenario and
+/// end.json into `directory`, which is made where it is missing. The files depend on the account alone. Returns how many there
+/// are. What others have put there is not written over: `may_fill_with_minutes`, and the folder holds no minutes of another
+/// session.
+Result<std::size_t> write_minutes(const std::string& directory, const Account& account);
+
+/// Checks that minutes overwrite no other file in `directory`: files under their names must be empty or of earlier minutes. A
+/// missing folder is accepted.
+Result<void> may_fill_with_minutes(const std::string& directory);
+
+}  // namespace bl::minutes
