@@ -153,6 +153,7 @@ void Room::after_event(const std::string& event, const std::map<std::string, Val
     }
     set_open(name("vote"), true);
   } else if (event == "close_vote") {
+    set_open(name("vote"), true);  // whatever was done to the node by hand: ballots that were taken are counted
     write_secret_ballots(name("vote"), said.now);
     set_open(name("vote"), false);
     if (ballot_keys_.erase(name("vote")) > 0) record_.ballot_keys.push_back({name("vote"), ""});

@@ -70,7 +70,7 @@ class Page:
         self.next, self.waiting, self.answers = 1, {}, {}
         self.sent_at, self.latencies = {}, []
         self.view, self.entries, self.scene, self.says, self.closed = {}, {}, None, [], None
-        self.reader, self.missing, self.pushed_at = None, None, {}
+        self.reader, self.missing, self.pushed_at, self.fault = None, None, {}, None
         self.changed = asyncio.Event()
 
     async def connect(self):
@@ -103,6 +103,9 @@ class Page:
                 self.changed.set()
         except (websockets.ConnectionClosed, OSError):
             pass
+        except Exception as error:
+            self.fault = error
+            raise
         self.closed = (self.socket.close_code, self.socket.close_reason)
         self.changed.set()
 
@@ -146,6 +149,8 @@ class Page:
                 await asyncio.wait_for(self.changed.wait(), max(0.01, min(0.25, end - time.monotonic())))
             except asyncio.TimeoutError:
                 pass
+            if self.fault:
+                raise self.fault
             if time.monotonic() > end:
                 raise TimeoutError(f"waited {seconds} s; closed: {self.closed}")
 

@@ -7,11 +7,14 @@ import asyncio
 import json
 import os
 import random
+import shutil
 import sqlite3
 import subprocess
 import sys
 import tempfile
 import time
+
+import websockets
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from room_client import Page, Server  # noqa: E402
@@ -21,9 +24,9 @@ def quantile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))] if values else float("nan")
 
 
-async def keep_connected(page, end):
-    """Comes back after each broken connection, and says again what has no answer."""
-    while time.monotonic() < end or page.waiting:
+async def keep_connected(page, person=None, end=0):
+    """Comes back after each broken connection, and says again what has no answer, until the person has said all."""
+    while time.monotonic() < end or page.waiting or (person is not None and not person.done()):
         if page.is_open():
             await page.push_again()
             await asyncio.sleep(0.05)
@@ -31,9 +34,7 @@ async def keep_connected(page, end):
         try:
             page.closed = None
             await page.connect()
-        except (OSError, ConnectionError, TimeoutError, AssertionError) as error:
-            if isinstance(error, AssertionError):
-                raise
+        except (OSError, TimeoutError, websockets.WebSocketException):
             await asyncio.sleep(0.2 + 0.3 * page.random.random())
 
 
@@ -89,8 +90,9 @@ async def run(options, server, seed):
             await lead.event("set_role", seat=page.you["seat"], role="designer", areas=["all"])
         page.loss, page.doubled = options.loss, 0.05
         pages.append(page)
-        tasks.append(asyncio.ensure_future((designer if is_designer else phone)(page, end, nodes)))
-        tasks.append(asyncio.ensure_future(keep_connected(page, end)))
+        person = asyncio.ensure_future((designer if is_designer else phone)(page, end, nodes))
+        tasks.append(person)
+        tasks.append(asyncio.ensure_future(keep_connected(page, person)))
         if options.outage:
             tasks.append(asyncio.ensure_future(outages(page, end, options.outage)))
     heard = []
@@ -116,8 +118,8 @@ async def run(options, server, seed):
 
     tasks.append(asyncio.ensure_future(probe()))
     if options.kills:
-        tasks.append(asyncio.ensure_future(keep_connected(lead, end)))
-        tasks.append(asyncio.ensure_future(keep_connected(screen, end)))
+        tasks.append(asyncio.ensure_future(keep_connected(lead, end=end)))
+        tasks.append(asyncio.ensure_future(keep_connected(screen, end=end)))
 
         async def kill():
             starts = []
@@ -130,8 +132,10 @@ async def run(options, server, seed):
             print("starts after kills: %d, median %.2f s, longest %.2f s" % (len(starts), quantile(starts, 0.5), max(starts)))
         tasks.append(asyncio.ensure_future(kill()))
     failed = [one for one in await asyncio.gather(*tasks, return_exceptions=True) if isinstance(one, Exception)]
+    for one in failed:
+        print("a client failed:", repr(one))
     for page in pages:
-        await page.until(lambda: not page.waiting, 30)
+        await page.until(lambda: not page.waiting, 60)
     last = max([answer["s"] for page in [lead, *pages] for answer in page.answers.values() if answer["t"] == "ack"])
     await lead.until(lambda: last in lead.entries, 30)
     for page in [lead, screen, *pages]:
@@ -147,6 +151,7 @@ def main():
                               ("kills", int, 0), ("seed", int, 1)):
         parser.add_argument("--" + name, type=kind, default=usual)
     parser.add_argument("--scene", default="scenes/studies/sixty_volumes.json")
+    parser.add_argument("--keep", help="where the session file is copied to")
     options = parser.parse_args()
     print("seed", options.seed)
     with tempfile.TemporaryDirectory() as folder:
@@ -181,6 +186,8 @@ def main():
                 1000 * quantile([one[1] for one in heard], 0.5), 1000 * quantile([one[1] for one in heard], 0.95), len(heard)))
         print("server: %.0f %% of one core since its last start, %.0f MB, disk %.1f ms, file %.1f MB" %
               (100 * used / seconds, memory, health["disk_ms"], os.path.getsize(server.journal) / 1e6))
+        if options.keep:
+            shutil.copy(server.journal, options.keep)
         print("replay:", (replay.stdout + replay.stderr).strip().replace("\n", "; "))
         return 1 if lost or doubled or gaps or code or failed or replay.returncode else 0
 
