@@ -38,6 +38,22 @@ export function browser_store(): Store {
   };
 }
 
+/// Of this tab alone, also over a reload.
+export function tab_kept(key: string): string | null {
+  try {
+    return window.sessionStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+export function tab_keep(key: string, text: string): void {
+  try {
+    window.sessionStorage.setItem(key, text);
+  } catch {
+    // A browser that refuses it begins a new run after a reload, and finds what the old one has left.
+  }
+}
+
 const store = browser_store();
 export const kept = (key: string): string | null => store.get(`bl1/page/${key}`);
 export const keep = (key: string, text: string): boolean => store.set(`bl1/page/${key}`, text);

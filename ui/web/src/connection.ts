@@ -39,6 +39,8 @@ export class Connection {
   private covered = new Map<number, number>(); // how often only a later operation was answered
   private held = 0; // until then nothing is sent
   private jumped = false;
+  private gapBefore = 0; // the operation that the server has missed
+  private gapsDue = 0; // refusals because of it that are still to come on this link
   private isStopped = false;
   private opened = 0; // when the link was asked for
   private me: string;
@@ -320,6 +322,7 @@ export class Connection {
   private welcome(welcome: Welcome): void {
     this.timers.stop("hello");
     this.isGreeted = true;
+    this.gapsDue = 0;
     // A room that could not store for a while greets its pages again; what it has not answered is sent again.
     this.sent.clear();
     if (welcome.token) this.world.store.set(`${this.options.prefix}token`, welcome.token);
@@ -377,9 +380,13 @@ export class Connection {
     const first = this.queue.items[0];
     if (!first) return;
     if (next < first.id) return this.jump();
-    const missing = this.sent.get(next),
-      told = this.sent.get(id);
-    if (missing && told && missing.order > told.order) return; // sent again meanwhile
+    if (next === this.gapBefore && this.gapsDue > 0) {
+      this.gapsDue -= 1;
+      return;
+    }
+    // Each of those that have gone out after it gets the same refusal; only the first one is a reason to send again.
+    this.gapBefore = next;
+    this.gapsDue = [...this.sent.keys()].filter((one) => one > next && one !== id).length;
     this.unsend(next);
     this.pump();
   }

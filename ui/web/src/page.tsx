@@ -2,7 +2,7 @@
 import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { browser_world, kept, keep, socket_address } from "./browser";
+import { browser_world, keep, kept, socket_address, tab_keep, tab_kept } from "./browser";
 import { Announcer, Avatar, Icon, IconName, Notices, Refusals, Sheet, StatusLine } from "./parts";
 import { Plan } from "./plan";
 import { Beamer } from "./screens/beamer";
@@ -184,11 +184,11 @@ function start(): void {
   const world = browser_world(socket_address());
   // Each invitation is a seat of its own, with its own key and its own queue: a page never speaks for another of its seats.
   const base = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`;
-  const invite = address.invite ?? window.sessionStorage.getItem(`${base}invite`) ?? world.store.get(`${base}invite`);
+  const invite = address.invite ?? tab_kept(`${base}invite`) ?? world.store.get(`${base}invite`);
   const prefix = invite === null ? `${base}code/` : `${base}by-${invite}/`;
   const runKey = `${prefix}run`;
   if (invite !== null) {
-    window.sessionStorage.setItem(`${base}invite`, invite);
+    tab_keep(`${base}invite`, invite);
     world.store.set(`${base}invite`, invite);
   }
   const session = new Session(
@@ -196,12 +196,12 @@ function start(): void {
     {
       room: address.code,
       prefix,
-      run: window.sessionStorage.getItem(runKey),
+      run: tab_kept(runKey),
       lang: locale(),
       views,
       invite,
     },
-    (run) => window.sessionStorage.setItem(runKey, run),
+    (run) => tab_keep(runKey, run),
     () => window.location.reload(),
   );
   const ui = new Ui();

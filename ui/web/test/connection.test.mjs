@@ -263,9 +263,8 @@ test("a socket that hangs is noticed: by 9 seconds while visible, by 1.5 after a
 test("a page that wakes from a freeze keeps a socket that lives", () => {
   const { clock, network, store } = setting();
   const page = new Page(network, store);
-  clock.run(4990);
+  clock.run(5070); // the ping is out, its answer is on the way
   const opened = network.opened;
-  clock.run(20); // the ping is out
   page.isFrozen = true;
   clock.run(30000);
   page.isFrozen = false;
@@ -429,4 +428,31 @@ test("runs of pages that are long gone are forgotten, but not what they left", (
   Queue.tidy(store, "p/", day + 1);
   assert.equal(store.get("p/run/empty"), null);
   assert.equal(Queue.leftOver(store, "p/", "third", day + 1).items.length, 1);
+});
+
+test("what a broken socket has not answered is sent again at once", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  network.dropHeard = 1;
+  page.say("a");
+  clock.run(100);
+  network.dropHeard = 0;
+  [...room.links.values()].forEach((link) => link.end(1006));
+  clock.run(1000);
+  expect_each_once(room, [page], ["a"]);
+});
+
+test("what follows a lost operation is sent again at once", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  clock.run(200);
+  network.dropSent = 1;
+  page.say("a");
+  network.dropSent = 0;
+  for (const value of ["b", "c", "d"]) page.say(value);
+  clock.run(1000);
+  expect_each_once(room, [page], ["a", "b", "c", "d"]);
+  const sent = room.heard.filter((message) => message.t === "op").length;
+  assert.ok(sent <= 7, `${sent} messages: each refusal does not send everything again`);
 });

@@ -1,5 +1,5 @@
 // A room with a small scene that speaks the contract of messages, so that the page can be tested without the real server.
-import { first_views } from "./mock_scene.mjs";
+import { disc, first_views } from "./mock_scene.mjs";
 
 const kAnimals = ["Heron", "Otter", "Lynx", "Badger", "Curlew", "Marten", "Beaver", "Swift", "Stoat", "Plover"];
 const kColours = ["#1f6f8b", "#8a5a00", "#6d3f9c", "#2c6e49", "#a0341b", "#34507a", "#7a3555", "#4d6b12", "#0b6b60", "#5a4a3a"];

@@ -13,7 +13,7 @@ const kFills = {
   school: "#c8cf8d",
 };
 
-const disc = (x, y, r, n, squash = 1) =>
+export const disc = (x, y, r, n, squash = 1) =>
   "M" +
   Array.from({ length: n }, (_, i) => {
     const a = (i / n) * 2 * Math.PI + 0.3;

@@ -247,6 +247,7 @@ try {
   assert.deepEqual(faults, []);
   console.log("ok the page and the real server");
 } catch (error) {
+  for (const [i, page] of browser.contexts().flatMap((context) => context.pages()).entries()) await picture(page, `failed_${i}`);
   console.log(room.said().slice(-600));
   console.log(faults.join("\n"));
   throw error;

@@ -30,9 +30,9 @@ export interface BallotProps {
 
 function YesNo({ vote, ballot, set }: BallotProps): JSX.Element {
   return (
-    <div class="choices two" role="radiogroup" aria-label={vote.question}>
+    <div class="choices two" role="group" aria-label={vote.question}>
       {["yes", "no"].map((id) => (
-        <button key={id} role="radio" class="choice" aria-checked={ballot === id} onClick={() => set(id)}>
+        <button key={id} class="choice" aria-pressed={ballot === id} onClick={() => set(id)}>
           {ballot === id ? <Icon name="check" /> : null}
           {option_label(vote, id)}
         </button>
@@ -186,13 +186,12 @@ function Dots({ s, ui, vote, ballot, set }: BallotProps): JSX.Element {
       <p class="how">
         {t("dots_how")} <span aria-live="polite">{t("dots_left", { n: left, all: vote.points })}</span>
       </p>
-      <div class="kinds" role="radiogroup" aria-label={t("dots_how")}>
+      <div class="kinds" role="group" aria-label={t("dots_how")}>
         {vote.options.map((option) => (
           <button
             key={option.id}
-            role="radio"
             class={`choice ${tone_of(vote, option.id)}`}
-            aria-checked={chosen === option.id}
+            aria-pressed={chosen === option.id}
             onClick={() => choose(option.id)}
           >
             <b class={`spot ${tone_of(vote, option.id)}`} aria-hidden="true">
