@@ -3,7 +3,6 @@ export * from "./ballots";
 export * from "./connection";
 export * from "./format";
 export * from "./outline";
-export * from "./qr";
 export * from "./queue";
 export * from "./session";
 export * from "./timers";

@@ -1,4 +1,4 @@
-// Numbers, sentences, outlines and QR codes.
+// Numbers, sentences and outlines.
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import test from "node:test";
@@ -13,7 +13,6 @@ import {
   kTables,
   number,
   points_of,
-  qr_code,
   round_step,
   set_language,
   share,
@@ -185,97 +184,3 @@ test("outlines are read as browsers read them", () => {
   assert.equal(extent_of([]), null);
 });
 
-// A reader of its own: it follows the standard from the picture to the text, and checks the correction of each block.
-function read_qr(code) {
-  const size = code.length,
-    version = (size - 17) / 4,
-    layout = [
-      [26, 10, 1],
-      [44, 16, 1],
-      [70, 26, 1],
-      [100, 18, 2],
-      [134, 24, 2],
-      [172, 16, 4],
-    ][version - 1];
-  const at = (x, y) => (code[y][x] ? 1 : 0);
-  let format = 0;
-  for (const [x, y] of [
-    [0, 8],
-    [1, 8],
-    [2, 8],
-    [3, 8],
-    [4, 8],
-    [5, 8],
-    [7, 8],
-    [8, 8],
-    [8, 7],
-    [8, 5],
-    [8, 4],
-    [8, 3],
-    [8, 2],
-    [8, 1],
-    [8, 0],
-  ])
-    format = format * 2 + at(x, y);
-  const mask = ((format ^ 0x5412) >> 10) & 7,
-    level = (format ^ 0x5412) >> 13;
-  const isFrame = (x, y) =>
-    (x < 9 && y < 9) ||
-    (x < 9 && y > size - 9) ||
-    (x > size - 9 && y < 9) ||
-    x === 6 ||
-    y === 6 ||
-    (version > 1 && Math.abs(x - (size - 7)) < 3 && Math.abs(y - (size - 7)) < 3);
-  const flips = [
-    (x, y) => (y + x) % 2,
-    (x, y) => y % 2,
-    (x) => x % 3,
-    (x, y) => (x + y) % 3,
-    (x, y) => ((y >> 1) + Math.floor(x / 3)) % 2,
-    (x, y) => ((x * y) % 2) + ((x * y) % 3),
-    (x, y) => (((x * y) % 2) + ((x * y) % 3)) % 2,
-    (x, y) => (((x + y) % 2) + ((x * y) % 3)) % 2,
-  ];
-  const bits = [];
-  let isUp = true;
-  for (let right = size - 1; right > 0; right -= 2, isUp = !isUp) {
-    if (right === 6) right -= 1;
-    for (let i = 0; i < size; ++i)
-      for (const x of [right, right - 1]) {
-        const y = isUp ? size - 1 - i : i;
-        if (!isFrame(x, y)) bits.push(at(x, y) ^ (flips[mask](x, y) === 0 ? 1 : 0));
-      }
-  }
-  const words = Array.from({ length: layout[0] }, (_, i) => parseInt(bits.slice(i * 8, i * 8 + 8).join(""), 2));
-  const [total, correction, blocks] = layout,
-    length = (total - correction * blocks) / blocks;
-  const parts = Array.from({ length: blocks }, (_, b) => words.filter((_, i) => i % blocks === b));
-  const times = (a, b) => {
-    let product = 0;
-    for (; b > 0; b >>= 1, a = a & 128 ? (a << 1) ^ 0x11d : a << 1) if (b & 1) product ^= a;
-    return product;
-  };
-  for (const part of parts)
-    for (let root = 1, i = 0; i < correction; ++i, root = times(root, 2))
-      assert.equal(
-        part.reduce((sum, word) => times(sum, root) ^ word, 0),
-        0,
-        "the block is whole",
-      );
-  const data = parts
-    .flatMap((part) => part.slice(0, length))
-    .map((word) => word.toString(2).padStart(8, "0"))
-    .join("");
-  assert.equal(data.slice(0, 4), "0100", "bytes");
-  const count = parseInt(data.slice(4, 12), 2);
-  return { level, text: Buffer.from(Array.from({ length: count }, (_, i) => parseInt(data.slice(12 + i * 8, 20 + i * 8), 2))).toString() };
-}
-
-test("QR codes say their text, in all sizes", () => {
-  for (let length = 1; length <= 106; ++length) {
-    const text = "http://192.168.178.20:8080/BCDF?".repeat(4).slice(0, length);
-    assert.deepEqual(read_qr(qr_code(text)), { level: 0, text }, `${length} bytes`);
-  }
-  assert.equal(qr_code("x".repeat(107)), null);
-  assert.equal(read_qr(qr_code("Köln/방")).text, "Köln/방");
-});

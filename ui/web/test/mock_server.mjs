@@ -19,6 +19,10 @@ export async function serve(port = 0) {
     bytes = { http: 0, state: 0 };
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
+    if (path.startsWith("/qr/"))
+      return answer
+        .writeHead(200, { "Content-Type": "image/svg+xml" })
+        .end('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4"><path fill="#fff" d="M0 0h4v4H0z"/><path d="M1 1h2v2H1z"/></svg>');
     const file = path.startsWith("/assets/") ? join(folder, path) : join(folder, "index.html");
     if (path.includes("..") || !existsSync(file) || path === "/favicon.ico") return answer.writeHead(404).end();
     answer.writeHead(200, {

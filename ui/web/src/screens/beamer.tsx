@@ -95,7 +95,7 @@ function CommentsLayout({ s }: { s: Session }): JSX.Element {
 function CodeLayout({ s }: { s: Session }): JSX.Element {
   return (
     <div class="stage code">
-      <CodePicture text={join_address(s)} />
+      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
       <div>
         <p>{t("beamer_join")}</p>
         <p class="address">
@@ -138,7 +138,7 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
         ) : null}
         {layout === "code" ? null : (
           <p class="corner">
-            <CodePicture text={join_address(s)} />
+            <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
             <b>{room.code}</b>
           </p>
         )}

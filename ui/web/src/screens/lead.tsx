@@ -26,7 +26,7 @@ function set_phase(s: Session, name: string, activities: Activity[], ends_at: nu
 
 function PhasePart({ s }: { s: Session }): JSX.Element {
   const { phase, paused, rate } = s.views.room;
-  const [plan, set] = useState<Plan>({ name: "", activities: [], minutes: "10" });
+  const [plan, set] = useState<Plan>({ name: "", activities: phase?.activities ?? [], minutes: "10" });
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
     { key: "lead_look", activities: [] },
@@ -385,7 +385,7 @@ export function join_address(s: Session): string {
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
     <main class="largecode">
-      <CodePicture text={join_address(s)} />
+      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
       <h1 class="bigcode">{s.views.room.code}</h1>
       <p>{join_address(s)}</p>
       <button class="quiet" onClick={onClose}>
