@@ -1,4 +1,4 @@
-// Declares `serve`.
+// Declares `serve` with its options: where it listens, what it stores, and what it lets people do.
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 

@@ -206,7 +206,7 @@ TEST_F(CanvasSlipsTest, ACommentFromTheSearchBoxComesToLieWhereItWasOpened) {
   const ImVec2 wanted = canvas().to_plane(opened);
   canvas::open_addition(board(), opened);
   desktop.frames(2);
-  desktop.type("comment");
+  desktop.type("comment on");
   desktop.move_to({700, 600});
   desktop.key(GLFW_KEY_ENTER);
   desktop.frames(2);

@@ -242,8 +242,8 @@ void open_addition(Board& board, ImVec2 screen) {
   }
   follow_choice(board);
   offer_links(board, picker);
-  picker.choices.push_back(
-      {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
+  picker.choices.push_back({"comment", "Comment on the canvas", "A text box that stays on the canvas; no tick reads it.", "",
+                            board.theme().colours().warning, 3000, "text note", "comment"});
   picker.taken = [at](Board& b, const Choice& choice) {
     if (choice.extra == "comment") add_comment(b, at);
     else if (choice.extra == "role") add_role(b, choice.id);
