@@ -102,7 +102,7 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
     other = visitors_.erase(other);
   }
   Visitor& visitor = visitors_[guest.get()];
-  visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views), {}};
+  visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views)};
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
   welcome(visitor, token, hello.have);
   flush();
@@ -134,6 +134,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
     message.done = room_->greet(who.seat, who.run, 0);
     message.token = token;
     who.guest->send(frame_of_message(message));
+    who.is_welcome = true;
     if (who.kind == "desktop") {
       const auto& log = session_->log();
       const bool is_tail = have >= base_ && have <= stored_seq_ && stored_seq_ - have <= kMostTail && have > 0;
@@ -296,6 +297,7 @@ void RoomHost::recover() {
           problem_.clear();
           for (auto& [key, visitor] : visitors_) {
             visitor.shown.clear();
+            visitor.is_welcome = false;
             visitor.guest->send(frame_of_message(wire::Say{"stored", {}}));
             welcome(visitor, "", 0);
           }
@@ -397,7 +399,7 @@ void RoomHost::show() {
 }
 
 void RoomHost::show(Visitor& visitor) {
-  if (!now_ || visitor.guest->unsent() > kSkipAbove) return;
+  if (!now_ || !visitor.is_welcome || visitor.guest->unsent() > kSkipAbove) return;
   for (const std::string& name : visitor.wanted) {
     std::shared_ptr<const wire::View> view;
     if (!wire::is_of_seat(name)) {

@@ -78,7 +78,8 @@ class RoomHost {
     std::int64_t seat = 0;
     std::string run, kind;
     std::set<std::string> wanted;
-    std::map<std::string, std::shared_ptr<const wire::View>> shown;  // by view: what was sent last
+    std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
+    bool is_welcome = false;  // nothing is shown before: pages take the first of each view after it for the whole
   };
   /// Something to be told once the record that it stands in is stored.
   using Telling = std::function<void()>;

@@ -110,6 +110,22 @@ TEST_F(RoomHosts, AnAnswerComesAfterTheDisk) {
   run_until([&] { return lead->last("state") != nullptr; });
 }
 
+// Pages take the first of each view after the welcome for the whole of it.
+TEST_F(RoomHosts, NothingIsShownBeforeTheWelcome) {
+  const auto lead = join("a", "facilitator", {"room"});
+  for (int k = 0; k < 10; ++k) {
+    auto guest = std::make_shared<FakeGuest>();
+    wire::Hello hello;
+    hello.run = "guest " + std::to_string(k);
+    hello.views = {"room", "plan"};
+    host_->hear(*lead,
+                R"({"t": "room", "id": )" + std::to_string(k + 1) + R"(, "e": {"event": "mark", "arguments": {"text": "x"}}})");
+    ASSERT_TRUE(host_->greet(guest, hello));
+    run_until([&] { return guest->last("state") != nullptr && (*guest->last("state"))["view"] == "room"; });
+    EXPECT_EQ(guest->frames.front()["t"], "welcome");
+  }
+}
+
 TEST_F(RoomHosts, ItGoesOnWhereItWas) {
   auto lead = join("a", "facilitator", {"room"});
   const std::string token = (*lead->last("welcome"))["token"], invite = host_->invites().at("designer");
