@@ -134,6 +134,9 @@ async def run(options, server, seed):
     failed = [one for one in await asyncio.gather(*tasks, return_exceptions=True) if isinstance(one, Exception)]
     for one in failed:
         print("a client failed:", repr(one))
+    for page in [lead, screen, *pages]:
+        if not page.is_open():
+            await page.connect()
     for page in pages:
         await page.until(lambda: not page.waiting, 60)
     last = max([answer["s"] for page in [lead, *pages] for answer in page.answers.values() if answer["t"] == "ack"])
