@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "tests/core/room/room_world.h"
 #include "tests/support/random_commands.h"
+#include "tests/support/sanitized.h"
 
 namespace bl::room {
 namespace {
@@ -127,7 +128,9 @@ void listen(const RoomWorld& world, Bot& bot) {
 TEST(RoomLaws, NoOperationIsLostOrDoneTwiceWhateverIsLostOnTheWay) {
   std::size_t operations = 0, entries = 0, refused = 0;
   int crashes = 0;
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  // Ten times as slow under sanitizers, which look for other faults than this law does.
+  const std::uint64_t seeds = test::kIsSanitized ? 1 : 12;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Server server(seed);
     RoomWorld& world = server.world;
     std::vector<Bot> bots;
@@ -202,8 +205,8 @@ TEST(RoomLaws, NoOperationIsLostOrDoneTwiceWhateverIsLostOnTheWay) {
     crashes += server.crashes;
   }
   std::printf("%zu operations, %zu entries, %zu refused, %d crashes\n", operations, entries, refused, crashes);
-  EXPECT_GT(entries, 1000u);
-  EXPECT_GT(crashes, 50);
+  EXPECT_GT(entries, 90 * seeds);
+  EXPECT_GT(crashes, 3 * static_cast<int>(seeds));
 }
 
 }  // namespace
