@@ -141,7 +141,7 @@ class Page:
         elif kind == "say":
             self.says.append(message["id"])
 
-    async def until(self, condition, seconds=10):
+    async def until(self, condition, seconds=30):
         end = time.monotonic() + seconds
         while not condition():
             self.changed.clear()
@@ -183,7 +183,7 @@ class Page:
             if (missing is not None and number >= missing) or self.pushed_at[number] < late:
                 await self.push(number)
 
-    async def answer(self, message, seconds=10):
+    async def answer(self, message, seconds=30):
         number = await self.say(message)
         await self.until(lambda: number in self.answers, seconds)
         return self.answers[number]
