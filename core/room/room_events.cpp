@@ -216,15 +216,28 @@ Answer Room::cast_secretly(const Said& said, const Command& command) {
   return done(said.now);
 }
 
-// In the order of their names, which is a shuffled one.
+// In the order of their names, which is a shuffled one. A ballot that fits the question no more is told in the minutes.
 void Room::write_secret_ballots(const std::string& vote, Now now) {
   const auto waiting = secret_ballots_.find(vote);
   if (waiting == secret_ballots_.end()) return;
+  std::size_t misfits = 0;
   for (const auto& [id, ballot] : waiting->second) {
-    (void)put({.command = secret_cast(vote, id, ballot), .author = Author("ballots", AuthorKind::program)}, {now.tick, 0});
+    const auto put_in =
+        put({.command = secret_cast(vote, id, ballot), .author = Author("ballots", AuthorKind::program)}, {now.tick, 0});
+    // Who has given a ballot and withdrawn it before it was written has none to withdraw.
+    const bool is_missing = !put_in && !(ballot.is_null() && put_in.error().code == ErrorCode::not_found);
+    misfits += is_missing ? 1 : 0;
   }
   secret_ballots_.erase(waiting);
   record_.ballots_in_log.push_back(vote);
+  if (misfits == 0) return;
+  const EventDefinition& mark = event_kinds().at("mark");
+  std::map<std::string, Value> told{
+      {"kind", std::string("ballots")},
+      {"text", "Secret ballots of `" + vote +
+                   "` that are not counted, because the question was changed after they were given: " + std::to_string(misfits)}};
+  store_texts(mark, told, 0);
+  (void)note(mark, told, kRoomItself, now, {});
 }
 
 // --- People ---------------------------------------------------------------------------------------------------------

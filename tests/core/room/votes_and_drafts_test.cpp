@@ -66,6 +66,19 @@ TEST(RoomVotes, ASecretBallotCannotBeTraced) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end())) << "the order of the rows is that of meaningless names";
 }
 
+// The question is changed while ballots wait to be written: nothing is dropped in silence.
+TEST(RoomVotes, SecretBallotsThatFitNoMoreAreTold) {
+  RoomWorld world;
+  const auto lead = world.seat(Role::facilitator), anna = world.seat(Role::participant);
+  (void)world.event(lead, "open_vote", R"({"vote": "secret_poll"})");
+  ASSERT_EQ(sentence(world.command(anna, vote_of(anna, "\"yes\"", "secret_poll"))), "");
+  ASSERT_EQ(sentence(world.command(lead, command<SetPort>({"secret_poll", {"vote.kind"}, {"\"slider\""}}))), "");
+  ASSERT_EQ(sentence(world.event(lead, "close_vote", R"({"vote": "secret_poll"})")), "");
+  ASSERT_EQ(world.room().state().marks.size(), 1u);
+  EXPECT_EQ(world.room().text(world.room().state().marks[0].text)->body,
+            "Secret ballots of `secret_poll` that are not counted, because the question was changed after they were given: 1");
+}
+
 TEST(RoomVotes, BallotsOutliveCrashesAndCannotBeRewound) {
   RoomWorld world;
   const auto lead = world.seat(Role::facilitator), anna = world.seat(Role::participant);
