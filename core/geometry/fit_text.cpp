@@ -2,6 +2,9 @@
 #include "core/geometry/fit_text.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include "core/base/text.h"
 
@@ -23,16 +26,22 @@ constexpr std::string_view kShortOfIt = "; short of it fall ";
 // The greatest loss first; `missing` is all of them together.
 std::string list_of_losses(std::span<const DemandLoss> losses, std::span<const std::string> names, double& missing) {
   constexpr std::size_t kNamed = 5;
-  std::vector<DemandLoss> sorted(losses.begin(), losses.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
+  // Only those that are named are put in order: a tick that changes a little may have a thousand losses to tell of.
+  std::vector<std::uint32_t> order(losses.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto loss_of = [&](std::uint32_t k) { return losses[k].demand - losses[k].granted; };
+  const std::size_t named = std::min(kNamed, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(named), order.end(),
+                    [&](std::uint32_t a, std::uint32_t b) {
+                      const double of_a = loss_of(a), of_b = loss_of(b);
+                      return of_a != of_b ? of_a > of_b : a < b;
+                    });
   std::string who;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const double loss = sorted[i].demand - sorted[i].granted;
-    missing += loss;
-    if (i < kNamed) who += (i > 0 ? ", `" : "`") + names[sorted[i].site] + "` by " + fixed(loss, 1) + " m³";
+  for (const DemandLoss& loss : losses) missing += loss.demand - loss.granted;
+  for (std::size_t i = 0; i < named; ++i) {
+    who += (i > 0 ? ", `" : "`") + names[losses[order[i]].site] + "` by " + fixed(loss_of(order[i]), 1) + " m³";
   }
-  if (sorted.size() > kNamed) who += " and " + std::to_string(sorted.size() - kNamed) + " more";
+  if (order.size() > kNamed) who += " and " + std::to_string(order.size() - kNamed) + " more";
   return who;
 }
 

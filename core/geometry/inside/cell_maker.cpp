@@ -74,6 +74,7 @@ void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site, std::
     const Vector3 to = position - centre;
     const double squared = squared_norm(to), sum = squared + (weight - other_weight);
     if (sum > 0 && sum * sum >= squared * four_reach_squared) return;
+    if (cell_.is_clear_of(to, 0.5 * sum)) return;
     const double per_distance = 1 / std::sqrt(squared);
     cell_.cut(per_distance * to, 0.5 * sum * per_distance, FaceKind::site, index);
     reach = this->reach();
@@ -111,6 +112,8 @@ void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site, std::
     cut_by(other.position, other.weight, j);
     is_done_[j] = cell_number_;
   }
+  // All neighbours are likely to have cut by now, so that most of those who come are not even near.
+  if (!expected.empty()) cell_.measure_reaches();
   ground.grid.search(
       centre, weight, site, skip, [&] { return reach; },
       [&](const SiteGrid::Entry& entry) {

@@ -104,12 +104,11 @@ void measure_parts(const CellInput& ground, std::uint32_t index, std::span<const
   const PowerSite& site = ground.sites[index];
   for (std::size_t k = 0; k < parts.size(); ++k) {
     ShapeMeasure& shape = shapes[k];
-    Point3 middle;
-    const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kNoLimit;
-    if (options.with_shape) out.cell_volume += cell_volume;
+    const WholeMeasure whole = options.with_shape ? measure_whole(parts[k]) : WholeMeasure{};
+    if (options.with_shape) out.cell_volume += whole.volume;
     shape.is_empty = true;
     if (!(site.weight > 0)) continue;
-    measure_shape(parts[k], site.weight, cell_volume, options.with_centroid, shape);
+    measure_shape(parts[k], site.weight, whole, options.with_centroid, shape);
     if (shape.is_empty || !(shape.volume > 0)) continue;
     // A sliver seen from a far-away site may have a centroid of pure rounding; a point of its facets is then the better answer.
     if (options.with_centroid && !holds(parts[k], site.weight, shape.centroid, 0)) shape.centroid = shape.point_inside;

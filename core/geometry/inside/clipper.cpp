@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/inside/lane_pair.h"
-
 namespace bl::geometry {
 
 namespace {
@@ -17,14 +15,12 @@ namespace {
 constexpr double kTouchShare = 1e-14, kFirstTouchShare = 1e-15;
 // Within this share of the reach another order of the cuts may decide otherwise.
 constexpr double kTouchyShare = 1e-12;
+// A plane that is farther away than so many tolerances neither cuts nor is touchy, whatever the rounding says.
+constexpr double kClearTolerances = 1e5;
 // A vertex of a start is put onto the domain's own corner within this share of the domain's size.
 constexpr double kSnapShare = 1e-9;
 
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
-
-// Vertices are worked through two at a time; the arrays are padded with copies of the last one.
-constexpr std::uint32_t kLanes = 2;
-constexpr std::size_t padded(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
 }  // namespace
 
@@ -33,8 +29,8 @@ std::uint32_t Clipper::edge_to(std::uint32_t vertex, std::uint32_t slot_back) { 
 std::uint32_t Clipper::slot_back(std::uint32_t edge) { return kNext[edge % 4]; }
 
 void Clipper::reserve(std::size_t vertices) {
-  if (vertices + kLanes <= x_.size()) return;
-  const std::size_t room = padded(2 * vertices + 64);
+  if (vertices + kVertexLanes <= x_.size()) return;
+  const std::size_t room = padded_to_lanes(2 * vertices + 64);
   x_.resize(room);
   y_.resize(room);
   z_.resize(room);
@@ -55,15 +51,13 @@ void Clipper::set_place(std::uint32_t vertex, const Point3& at) {
 }
 
 void Clipper::measure_reach() {
-  for (std::size_t v = size_; v < padded(size_); ++v) {
+  for (std::size_t v = size_; v < padded_to_lanes(size_); ++v) {
     x_[v] = x_[size_ - 1];
     y_[v] = y_[size_ - 1];
     z_[v] = z_[size_ - 1];
     squared_[v] = squared_[size_ - 1];
   }
-  LanePair most = in_both_lanes(0);
-  for (std::size_t v = 0; v < size_; v += kLanes) most = larger_of(most, lanes_at(&squared_[v]));
-  reach_squared_ = largest_lane(most);
+  reach_squared_ = largest_of_lanes(squared_.data(), size_);
   reach_ = std::sqrt(reach_squared_);
 }
 
@@ -104,7 +98,7 @@ Clipper::Start::Start(const ConvexDomain& domain, const std::vector<std::uint32_
 
 void Clipper::start(const Start& from, const Point3& origin) {
   size_ = static_cast<std::uint32_t>(from.vertices_.size());
-  is_touchy_ = false;
+  is_touchy_ = has_reaches_ = false;
   reserve(size_);
   sides_.clear();
   for (const Start::Side& side : from.sides_) {
@@ -122,7 +116,7 @@ void Clipper::start(const Start& from, const Point3& origin) {
 
 void Clipper::start_box(const Vector3& minimum, const Vector3& maximum) {
   size_ = 8;
-  is_touchy_ = false;
+  is_touchy_ = has_reaches_ = false;
   reserve(size_);
   sides_.clear();
   const std::array<Plane, 6> planes{{{{-1, 0, 0}, -minimum.x},
@@ -157,34 +151,30 @@ void Clipper::copy(const Clipper& other) {
   std::copy_n(other.corners_.begin(), size_, corners_.begin());
   sides_ = other.sides_;
   is_touchy_ = other.is_touchy_;
+  has_reaches_ = false;
   start_reach_ = other.start_reach_;
   if (size_ > 0) measure_reach();
 }
 
+double Clipper::tolerance() const { return kTouchShare * reach_ + kFirstTouchShare * start_reach_; }
+
+void Clipper::measure_reaches() {
+  has_reaches_ = size_ > 0;
+  if (has_reaches_) reaches_.measure({x_.data(), y_.data(), z_.data(), size_});
+}
+
+bool Clipper::is_clear_of(const Vector3& along, double most) const {
+  if (!has_reaches_) return false;
+  const double size = std::abs(along.x) + std::abs(along.y) + std::abs(along.z);
+  return reaches_.bound(along) + kClearTolerances * tolerance() * size < most;
+}
+
 // Signed distances of all vertices from the plane; those beyond are taken. Is there one?
 bool Clipper::judge(const Vector3& normal, double offset, double tolerance) {
-  const double *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
-  double* const out = beyond_.data();
-  const LanePair along_x = in_both_lanes(normal.x), along_y = in_both_lanes(normal.y), along_z = in_both_lanes(normal.z),
-                 far = in_both_lanes(offset), most = in_both_lanes(tolerance);
-  LanePair nearest = in_both_lanes(1e300);
-  std::uint64_t any = 0;
-  for (std::uint32_t first = 0; first < size_; first += 64) {
-    const std::uint32_t end = std::min(size_, first + 64);
-    std::uint64_t taken = 0;
-    for (std::uint32_t v = first; v < end; v += kLanes) {
-      const LanePair beyond = lanes_at(x + v) * along_x + lanes_at(y + v) * along_y + lanes_at(z + v) * along_z - far;
-      put_lanes(out + v, beyond);
-      nearest = smaller_of(nearest, larger_of(beyond, -beyond));
-      taken |= bits_of(beyond > most) << (v - first);
-    }
-    // The copies behind the last vertex do not count.
-    taken &= lowest_bits(end - first);
-    taken_[first / 64] = taken;
-    any |= taken;
-  }
-  if (smallest_lane(nearest) <= tolerance * (kTouchyShare / kTouchShare)) is_touchy_ = true;
-  return any != 0;
+  const PlaneSides sides =
+      find_plane_sides({x_.data(), y_.data(), z_.data(), size_}, normal, offset, tolerance, beyond_.data(), taken_.data());
+  if (sides.nearest <= tolerance * (kTouchyShare / kTouchShare)) is_touchy_ = true;
+  return sides.is_any_beyond;
 }
 
 // Lists the vertices that go, and the edges from them to vertices that stay, in any order. Returns the number of these edges.
@@ -329,7 +319,7 @@ void Clipper::remove_taken(std::uint32_t fresh) {
 bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index) {
   if (size_ == 0) return false;
   if (offset > 0 && offset * offset > reach_squared_) return true;
-  const double tolerance = kTouchShare * reach_ + kFirstTouchShare * start_reach_;
+  const double tolerance = this->tolerance();
   if (!judge(normal, offset, tolerance)) return true;
   reserve(2 * std::size_t{size_});
   std::uint32_t count = find_rim();
@@ -367,7 +357,7 @@ bool Clipper::cut(const Start& piece, const Point3& origin, double limit) {
 }
 
 void Clipper::name_by(const Start& piece, const Point3& origin) {
-  const double near = 4 * (kTouchShare * reach_ + kFirstTouchShare * start_reach_);
+  const double near = 4 * tolerance();
   for (const Start::Side& surface : piece.sides_) {
     if (surface.kind != FaceKind::plane) continue;
     const double offset = dot(surface.normal, surface.anchor - origin);
@@ -382,7 +372,7 @@ void Clipper::name_by(const Start& piece, const Point3& origin) {
 }
 
 bool Clipper::is_flat() const {
-  const double thick = 4 * (kTouchShare * reach_ + kFirstTouchShare * start_reach_);
+  const double thick = 4 * tolerance();
   return std::any_of(sides_.begin(), sides_.end(), [&](const Side& side) {
     for (std::uint32_t v = 0; v < size_; ++v) {
       if (side.normal.x * x_[v] + side.normal.y * y_[v] + side.normal.z * z_[v] < side.offset - thick) return false;

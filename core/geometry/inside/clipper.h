@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/vector.h"
+#include "core/geometry/inside/plane_side.h"
 #include "core/geometry/inside/polyhedron.h"
 
 namespace bl::geometry {
@@ -48,6 +49,10 @@ class Clipper {
   bool cut(const Start& piece, const Point3& origin, double limit);
 
   bool is_empty() const { return size_ == 0; }
+  /// Measures how far the shape reaches along some directions, for is_clear_of(); cuts that follow only make it smaller.
+  void measure_reaches();
+  /// Is it sure that a cut by along·x <= most takes nothing away, nor comes near? A cheap look that often says no although it is.
+  bool is_clear_of(const Vector3& along, double most) const;
   /// Planes so far: one more after a cut that took something away.
   std::size_t side_count() const { return sides_.size(); }
   /// Largest squared distance of a vertex from the origin [m²].
@@ -96,6 +101,7 @@ class Clipper {
   void reserve(std::size_t vertices);
   void set_place(std::uint32_t vertex, const Point3& at);
   void measure_reach();
+  double tolerance() const;  ///< touching, not cut [m]
   bool judge(const Vector3& normal, double offset, double tolerance);
   static std::uint32_t end_of(std::uint32_t edge) { return edge / 4; }
   static std::uint32_t edge_to(std::uint32_t vertex, std::uint32_t slot_back);
@@ -123,6 +129,8 @@ class Clipper {
   std::vector<double> beyond_;   // signed distances from the plane that is being cut with [m]
   std::vector<Corner> corners_;
   std::vector<Side> sides_;
+  Reaches reaches_;
+  bool has_reaches_ = false;
   std::vector<std::uint64_t> taken_;    // a bit per vertex: goes with the cut under way
   std::vector<std::uint32_t> leaving_;  // the vertices that go: the first leaving_count_ of them
   std::uint32_t leaving_count_ = 0;

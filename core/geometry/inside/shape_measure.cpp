@@ -12,6 +12,7 @@ namespace bl::geometry {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 // Shapes below this share of their cell (or of the ball's box) are a touch, not a volume.
 constexpr double kTouchingShare = 1e-13;
 // Nearer to a facet's plane than this share of the radius, the centre sees the facet's edges at angles of pure rounding.
@@ -30,7 +31,7 @@ double polygon_area(const Polyhedron& cell, const PolyhedronFace& face) {
 }
 
 // The ball holds the whole polyhedron.
-void measure_unwrapped(const Polyhedron& cell, double cell_volume, bool with_centroid, ShapeMeasure& out) {
+void measure_unwrapped(const Polyhedron& cell, const WholeMeasure& whole, bool with_centroid, ShapeMeasure& out) {
   Point3 middle;
   for (const Point3& v : cell.vertices) middle += v;
   middle *= 1 / static_cast<double>(cell.vertices.size());
@@ -39,10 +40,10 @@ void measure_unwrapped(const Polyhedron& cell, double cell_volume, bool with_cen
     out.areas.push_back(face.count < 3 ? 0 : polygon_area(cell, face));
     sum += out.areas.back() * (face.offset - dot(face.normal, middle));
   }
-  out.volume = std::clamp(sum / 3, 0.0, cell_volume);
+  out.volume = std::clamp(sum / 3, 0.0, whole.volume);
   out.is_empty = !(out.volume > 0);
   out.centroid = out.point_inside = middle;
-  if (with_centroid) volume_and_centroid(cell, out.centroid);
+  if (with_centroid) out.centroid = whole.volume < kUnknown ? whole.centroid : measure_whole(cell).centroid;
 }
 
 }  // namespace
@@ -52,13 +53,20 @@ bool is_centre_apart(const Polyhedron& cell, double radius) {
                      [&](const PolyhedronFace& face) { return std::abs(face.offset) > kApartShare * radius; });
 }
 
-void measure_shape(const Polyhedron& cell, double squared_radius, double cell_volume, bool with_centroid, ShapeMeasure& out) {
+WholeMeasure measure_whole(const Polyhedron& cell) {
+  WholeMeasure whole;
+  whole.volume = volume_and_centroid(cell, whole.centroid);
+  return whole;
+}
+
+void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMeasure& whole, bool with_centroid,
+                   ShapeMeasure& out) {
   out.areas.clear();
   out.volume = out.spherical_area = 0;
   out.is_empty = true;
   out.centroid = out.point_inside = {};
   if (cell.is_empty()) return;
-  if (cell.reach_squared <= squared_radius) return measure_unwrapped(cell, cell_volume, with_centroid, out);
+  if (cell.reach_squared <= squared_radius) return measure_unwrapped(cell, whole, with_centroid, out);
   const double radius = std::sqrt(squared_radius);
   thread_local std::vector<Place> places;
   places.clear();
@@ -99,9 +107,9 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
       counts_inside ? (is_centre_inside ? 4 * kPi : 0) - 2 * solid.value() - sectors : 2 * solid.value() - sectors;
   // Without facets it is a whole ball or nothing.
   out.spherical_area = squared_radius * (facets > 0 ? std::clamp(free, 0.0, 4 * kPi) : free > 2 * kPi ? 4 * kPi : 0);
-  out.volume = std::clamp((cones + radius * out.spherical_area) / 3, 0.0, cell_volume);
+  out.volume = std::clamp((cones + radius * out.spherical_area) / 3, 0.0, whole.volume);
   // A ball that touches its cell from outside: what is left is rounding, and has no inside that a mesh could be wrapped around.
-  out.is_empty = out.volume <= kTouchingShare * std::min(cell_volume, 8 * squared_radius * radius);
+  out.is_empty = out.volume <= kTouchingShare * std::min(whole.volume, 8 * squared_radius * radius);
   if (out.is_empty) {
     out.volume = out.spherical_area = 0;
     return;

@@ -1,6 +1,7 @@
 // Closed-form measures of (convex polyhedron ∩ ball around the origin): the formulas of "facet by facet" integration.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,16 @@ struct ShapeMeasure {
 /// Is the centre so far from the planes of all faces that faces beyond the ball (offset >= radius) need not be there?
 bool is_centre_apart(const Polyhedron& cell, double radius);
 
-/// `squared_radius` [m²] positive; `cell_volume` [m³] is that of the whole polyhedron, or infinite where nobody knows it.
-/// Without `with_centroid` the centroid and the point inside are not worked out.
-void measure_shape(const Polyhedron& cell, double squared_radius, double cell_volume, bool with_centroid, ShapeMeasure& out);
+/// What is known of a whole polyhedron before its ball is looked at; infinite where nothing is.
+struct WholeMeasure {
+  double volume = std::numeric_limits<double>::infinity();  ///< [m³]
+  Point3 centroid;
+};
+WholeMeasure measure_whole(const Polyhedron& cell);
+
+/// `squared_radius` [m²] positive. Without `with_centroid` the centroid and the point inside are not worked out.
+void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMeasure& whole, bool with_centroid,
+                   ShapeMeasure& out);
 
 /// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
 void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape);

@@ -112,11 +112,9 @@ TEST(CellEngine, TheGridFindsWhatTheTriangulationFinds) {
     const auto volume = [&](geometry::CellMaker& maker, const geometry::CellInput& ground, std::uint32_t i, bool whole) {
       maker.make(ground, i, whole);
       double sum = 0;
-      Point3 middle;
       for (const geometry::Polyhedron& part : maker.parts()) {
-        const double all = whole ? volume_and_centroid(part, middle) : std::numeric_limits<double>::infinity();
-        if (!whole) measure_shape(part, std::max(0.0, set.sites[i].weight), all, false, shape);
-        sum += whole ? all : shape.volume;
+        if (!whole) measure_shape(part, std::max(0.0, set.sites[i].weight), {}, false, shape);
+        sum += whole ? geometry::measure_whole(part).volume : shape.volume;
       }
       return sum;
     };

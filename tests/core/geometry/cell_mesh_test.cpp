@@ -90,8 +90,7 @@ struct MadeAtOnce {
     double volume = 0;
     Vector3 moment;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      Point3 middle;
-      measure_shape(parts[k], site.weight, volume_and_centroid(parts[k], middle), true, shapes[k]);
+      measure_shape(parts[k], site.weight, measure_whole(parts[k]), true, shapes[k]);
       if (shapes[k].is_empty || !(shapes[k].volume > 0)) continue;
       if (!holds(parts[k], site.weight, shapes[k].centroid, 0)) shapes[k].centroid = shapes[k].point_inside;
       volume += shapes[k].volume;
