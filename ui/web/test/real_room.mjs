@@ -1,135 +1,10 @@
 // The page with the real server: people join, vote, change, comment and propose, and the facilitator leads.
 // BEHAVIOURLINKS names the program; its room is made of the quarter and lies in a folder that is removed afterwards.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { opened, shots, start_room } from "./real_server.mjs";
 
-const require = createRequire(new URL("../package.json", import.meta.url));
-const { chromium } = require("playwright-core");
-const { WebSocket } = require("ws");
-const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
-const shots = path_of("build/web_shots");
-mkdirSync(shots, { recursive: true });
-
-function scene() {
-  const all = JSON.parse(readFileSync(path_of("scenes/start/quarter.json"), "utf8"));
-  const option = (id) => ({ id, label: id[0].toUpperCase() + id.slice(1) });
-  const vote = (id, types) => all.nodes.push({ id, name: id, position: [0, -60, 0], types: { vote: types } });
-  vote("v_bridge", { question: "Should there be a bridge?", electorate: 10 });
-  vote("v_uses", {
-    question: "Which use comes first?",
-    kind: "rank",
-    options: ["shops", "workshops", "nursery"].map(option),
-    electorate: 10,
-  });
-  vote("v_money", {
-    question: "Where should the money go?",
-    kind: "coins",
-    options: ["trees", "play"].map(option),
-    points: 5,
-    is_secret: true,
-  });
-  vote("v_places", { question: "Where is a tower good?", kind: "dots", points: 3 });
-  vote("v_height", { question: "How high?", kind: "slider", least: 10, most: 60, unit: "m" });
-  all.nodes.push({
-    id: "sun",
-    name: "Sun in the gardens",
-    position: [0, -70, 0],
-    types: { indicator: { value: 3.4, unit: "h", target: 4 } },
-  });
-  all.nodes.push({
-    id: "parents",
-    name: "Parents",
-    position: [0, -80, 0],
-    types: {
-      stakeholder_group: {
-        interest: "A library near the school",
-        goals: ["sun"],
-        budget: 12000,
-        controls: [
-          {
-            node: "library",
-            port: "smart_volume.demand",
-            label: "Size of the library",
-            minimum: 500,
-            maximum: 6000,
-            step: 100,
-            costs_whom: "the hotel",
-          },
-        ],
-      },
-    },
-  });
-  return all;
-}
-
-async function started() {
-  const folder = mkdtempSync(join(tmpdir(), "room-"));
-  const invites = join(folder, "invites.json"),
-    source = join(folder, "room.json");
-  writeFileSync(source, JSON.stringify(scene()));
-  const program = spawn(process.env.BEHAVIOURLINKS, [
-    "serve",
-    source,
-    "--port",
-    "0",
-    "--bind",
-    "127.0.0.1",
-    "--journal",
-    folder,
-    "--invites",
-    invites,
-    "--page",
-    path_of("build/web"),
-  ]);
-  let said = "";
-  const address = await new Promise((found, failed) => {
-    const hear = (data) => {
-      said += data;
-      const match = /http:\/\/[\d.]+:\d+\/([A-Z]{4})/.exec(said);
-      if (match) found({ url: match[0], code: match[1] });
-    };
-    program.stdout.on("data", hear);
-    program.stderr.on("data", hear);
-    program.on("exit", () => failed(new Error(said)));
-  });
-  await new Promise((wait) => setTimeout(wait, 300));
-  const keys = JSON.parse(readFileSync(invites, "utf8"))[address.code];
-  const end = () => {
-    program.removeAllListeners("exit");
-    program.kill("SIGINT");
-    return new Promise((gone) => program.on("exit", gone)).then(() => rmSync(folder, { recursive: true, force: true }));
-  };
-  return { ...address, keys, end, said: () => said };
-}
-
-// The page of the facilitator cannot give role cards, so a connection of its own does.
-async function give_card(seat) {
-  const { origin, host } = new URL(room.url);
-  const socket = new WebSocket(`ws://${host}/ws`, "bl1", { origin });
-  await new Promise((open) => socket.on("open", open));
-  const heard = (t) =>
-    new Promise((found) =>
-      socket.on("message", (data) => {
-        const message = JSON.parse(data.toString());
-        if (message.t === t) found(message);
-      }),
-    );
-  socket.send(JSON.stringify({ t: "hello", room: room.code, run: "cards", kind: "page", invite: room.keys.facilitator, views: [] }));
-  await heard("welcome");
-  socket.send(
-    JSON.stringify({ t: "room", id: 1, e: { event: "set_role", arguments: { seat, role: "stakeholder", areas: [], card: "parents" } } }),
-  );
-  await heard("ack");
-  socket.close();
-}
-
-const room = await started();
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+const room = await start_room();
+const browser = await opened();
 const faults = [];
 
 async function person(fragment, size = [390, 844]) {
@@ -212,7 +87,7 @@ try {
   await heron.waitForSelector('.answer:has-text("Yes.")');
 
   // With a role card, a value is changed, changed back, and proposed in a draft that the facilitator accepts.
-  await give_card(2);
+  await room.give_card(3);
   await tab(heron, "Goals");
   await heron.waitForSelector('text="Sun in the gardens"');
   const field = "#control-library-smart_volume-demand-number";
@@ -247,7 +122,11 @@ try {
   assert.deepEqual(faults, []);
   console.log("ok the page and the real server");
 } catch (error) {
-  for (const [i, page] of browser.contexts().flatMap((context) => context.pages()).entries()) await picture(page, `failed_${i}`);
+  for (const [i, page] of browser
+    .contexts()
+    .flatMap((context) => context.pages())
+    .entries())
+    await picture(page, `failed_${i}`);
   console.log(room.said().slice(-600));
   console.log(faults.join("\n"));
   throw error;

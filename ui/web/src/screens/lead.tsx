@@ -5,10 +5,12 @@ import { typed_number } from "../format";
 import { Avatar, Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
+import { useLook } from "../ui";
 import type { Ui } from "../ui";
-import type { Activity, Door, Json, Layout, Proposal, Role, Vote } from "../wire";
+import type { Activity, Door, Json, Layout, Proposal, Role, Seat, Vote } from "../wire";
 import { Key, t } from "../words";
 import { ProposalEntry } from "./proposals";
+import { TrialFigures } from "./trials";
 import { ResultOf, Turnout } from "./votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
@@ -184,6 +186,7 @@ function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposa
   return (
     <ProposalEntry s={s} proposal={proposal}>
       <>
+        <TrialFigures trial={proposal.trial} />
         <fieldset class="field">
           <legend>{t("proposal_steps")}</legend>
           {steps.map(({ word, i }) => {
@@ -254,10 +257,28 @@ function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.
   );
 }
 
-const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "beamer", "recorder"];
+const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "recorder"];
+
+// Somebody is away without a connection. With one, the page may still lie in a pocket.
+function presence_words(s: Session, number: string, seat: Seat): string {
+  if (!seat.here) return t("lead_away");
+  const presence = s.presences[number];
+  if (!presence) return t("lead_here");
+  if (presence.hidden) return t("lead_hidden");
+  const [node] = presence.holds ?? [];
+  return node ? t("lead_looks_at", { what: s.nameOf(node) }) : t("lead_active");
+}
+
+/// Gives a role, and keeps the card and the areas that somebody has.
+function set_role(s: Session, n: number, seat: Seat, change: { role?: string; card?: string }): void {
+  // A card makes a participant a stakeholder: others may not use its values.
+  const role = change.role ?? (change.card && seat.role === "participant" ? "stakeholder" : seat.role);
+  s.event("set_role", { seat: n, role, areas: seat.areas ?? [], card: change.card ?? seat.card ?? "" }, { mark: `lead/seat${n}` });
+}
 
 function People({ s }: { s: Session }): JSX.Element {
   const seats = Object.entries(s.views.room.seats ?? {}).sort((a, b) => Number(b[1].here) - Number(a[1].here));
+  const cards = s.views.room.cards ?? {};
   const here = seats.filter(([, seat]) => seat.here).length;
   return (
     <section class="panel">
@@ -275,7 +296,8 @@ function People({ s }: { s: Session }): JSX.Element {
                   <span class="grow">
                     <b>{seat.name}</b>
                     <span class="faint">
-                      {t(`role_${seat.role}` as Key)} · {t(seat.here ? "lead_here" : "lead_away")}
+                      {t(`role_${seat.role}` as Key)}
+                      {seat.card ? ` · ${cards[seat.card]?.name ?? seat.card}` : ""} · {presence_words(s, number, seat)}
                     </span>
                   </span>
                   <MarkState s={s} mark={mark} />
@@ -283,10 +305,7 @@ function People({ s }: { s: Session }): JSX.Element {
                 <div class="row">
                   <label class="field">
                     <span>{t("lead_role", { name: seat.name })}</span>
-                    <select
-                      value={seat.role}
-                      onChange={(event) => s.event("set_role", { seat: n, role: event.currentTarget.value }, { mark })}
-                    >
+                    <select value={seat.role} onChange={(event) => set_role(s, n, seat, { role: event.currentTarget.value })}>
                       {kRoles.map((role) => (
                         <option key={role} value={role}>
                           {t(`role_${role}` as Key)}
@@ -294,6 +313,19 @@ function People({ s }: { s: Session }): JSX.Element {
                       ))}
                     </select>
                   </label>
+                  {Object.keys(cards).length > 0 ? (
+                    <label class="field">
+                      <span>{t("lead_card", { name: seat.name })}</span>
+                      <select value={seat.card ?? ""} onChange={(event) => set_role(s, n, seat, { card: event.currentTarget.value })}>
+                        <option value="">{t("lead_card_none")}</option>
+                        {Object.entries(cards).map(([id, card]) => (
+                          <option key={id} value={id}>
+                            {card.name}
+                          </option>
+                        ))}
+                      </select>
+                    </label>
+                  ) : null}
                   <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
                     {t(seat.muted ? "lead_unmute" : "lead_mute")}
                   </button>
@@ -399,6 +431,10 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const votes = Object.entries(s.views.votes);
   const proposals = Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
   const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
+  useLook(
+    s,
+    proposals.map(([id]) => id),
+  );
   return (
     <>
       <Title>{t("tab_lead")}</Title>
