@@ -119,7 +119,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
         <Refusals s={s} />
         {s.views.room.closed ? (
           <p class="notice" role="status">
-            <b>{t("closed_title")}.</b> {t("closed")}
+            <b>{t("closed_title")}.</b> {t(you?.role === "facilitator" ? "closed_minutes" : "closed")}
           </p>
         ) : null}
         {screen_of(s, ui, isWide)}

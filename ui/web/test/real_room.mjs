@@ -6,14 +6,20 @@ import { opened, shots, start_room } from "./real_server.mjs";
 const room = await start_room();
 const browser = await opened();
 const faults = [];
+let requests = 0;
 
-async function person(fragment, size = [390, 844]) {
-  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale: "en-GB" });
+async function person(fragment, size = [390, 844], path = room.url, more = {}) {
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale: "en-GB", ...more });
   const page = await context.newPage();
+  // Nothing comes from anywhere else, so that a room needs no way to the internet.
+  page.on("request", (request) => {
+    requests += 1;
+    if (new URL(request.url()).origin !== new URL(room.url).origin) faults.push(`a request to ${request.url()}`);
+  });
   page.setDefaultTimeout(15000);
   page.on("pageerror", (error) => faults.push(error.message));
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  await page.goto(room.url + fragment);
+  await page.goto(path + fragment);
   return page;
 }
 async function joined(fragment, size) {
@@ -87,7 +93,10 @@ try {
   await heron.waitForSelector('.answer:has-text("Yes.")');
 
   // With a role card, a value is changed, changed back, and proposed in a draft that the facilitator accepts.
-  await room.give_card(3);
+  const row = '.people li:has-text("Lynx")';
+  await lead.click(`${row} summary`);
+  await lead.selectOption(`${row} label:has-text("Role card") select`, "parents");
+  await lead.waitForSelector(`${row} summary:has-text("Stakeholder"):has-text("Parents")`);
   await tab(heron, "Goals");
   await heron.waitForSelector('text="Sun in the gardens"');
   const field = "#control-library-smart_volume-demand-number";
@@ -119,8 +128,40 @@ try {
   await picture(other, "comment");
   const seats = await lead.locator(".people li").count();
   assert.equal(seats, 4);
+  await heron.waitForSelector('.control:has-text("Last changed by")');
+
+  // Who has no scripts joins, puts dots on things and at a place, and comments.
+  const plain = await person("", [390, 844], room.url.replace(/\/([A-Z]{4})$/, "/plain/$1"), { javaScriptEnabled: false });
+  await plain.click('button:has-text("Take part")');
+  await lead.click('.rows li:has-text("Where is a tower good?") button:has-text("Open")');
+  await lead.waitForSelector('.rows li:has-text("Where is a tower good?") button:has-text("Close")');
+  await plain.click('button:has-text("Show it as it is now")');
+  await plain.selectOption('select[name="d1_on"]', { label: "Library" });
+  await plain.selectOption('select[name="d2_on"]', { label: "the place below" });
+  await plain.selectOption('select[name="d2_is"]', { index: 1 });
+  await plain.fill('input[name="d2_x"]', "12.5");
+  await plain.fill('input[name="d2_y"]', "-3");
+  await picture(plain, "plain_dots");
+  await plain.click('section:has-text("Where is a tower good?") button');
+  await plain.waitForSelector(".notice");
+  assert.match(await plain.textContent(".notice"), /stored/);
+  assert.equal(await plain.inputValue('input[name="d2_x"]'), "12.5");
+  await plain.fill("textarea", "Without scripts.");
+  await plain.click('section:has-text("Comments") button');
+  await other.waitForSelector('.said:has-text("Without scripts.")');
+  await plain.screenshot({ path: `${shots}/real_plain.png`, fullPage: true });
+
+  // A beamer that was opened by the code alone watches, and is nobody who votes.
+  const beamer = await person("#beamer", [1920, 1080]);
+  await beamer.waitForSelector(".beamer .shape");
+  for (const what of ["Vote", "Comments", "Code", "Plan"]) {
+    await lead.click(`.segments button:text-is("${what}")`);
+    await beamer.waitForTimeout(500);
+    await picture(beamer, `beamer_${what.toLowerCase()}`);
+  }
+  assert.ok(Object.values(room.lead.views.room.seats).some((seat) => seat.role === "viewer" && seat.here));
   assert.deepEqual(faults, []);
-  console.log("ok the page and the real server");
+  console.log(`ok the page and the real server: ${requests} requests, none of them elsewhere`);
 } catch (error) {
   for (const [i, page] of browser
     .contexts()

@@ -28,7 +28,10 @@ function set_phase(s: Session, name: string, activities: Activity[], ends_at: nu
 
 function PhasePart({ s }: { s: Session }): JSX.Element {
   const { phase, paused, rate } = s.views.room;
-  const [plan, set] = useState<Plan>({ name: "", activities: phase?.activities ?? [], minutes: "10" });
+  const [typed, set] = useState<Plan | null>(null);
+  // Until something is typed, the form shows what holds now.
+  const plan = typed ?? { name: "", activities: phase?.activities ?? [], minutes: "10" };
+  const allowed = kActivities.filter((one) => phase?.activities.includes(one)).map((one) => t(`lead_${one}` as Key));
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
     { key: "lead_look", activities: [] },
@@ -56,6 +59,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
         <MarkState s={s} mark="lead/phase" />
       </header>
       <p class="lead">{phase?.name ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
+      {phase ? <p>{allowed.length > 0 ? t("lead_now_may", { what: allowed.join(", ") }) : t("lead_now_nothing")}</p> : null}
       <Timer s={s} ends_at={phase?.ends_at} />
       <div class="row">
         {phase && phase.ends_at > 0 ? (
@@ -365,6 +369,9 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         onChange={(layout) => s.event("show", { layout }, { mark: "lead/show" })}
         choices={layouts.map((id) => ({ id, text: t(`show_${id}` as Key) }))}
       />
+      <p class="small">
+        {t("lead_beamer_open")} <b>{join_address(s)}#beamer</b>
+      </p>
       <header class="row spread">
         <h2>{t("lead_door")}</h2>
         <MarkState s={s} mark="lead/door" />
@@ -375,10 +382,16 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
         choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
       />
+      <p class="small">{t(`door_${room.door ?? "open"}_text` as Key)}</p>
       <h2>{t("lead_code")}</h2>
       <p>{t("lead_code_text")}</p>
       <p class="bigcode">{room.code}</p>
       <p class="small">{join_address(s)}</p>
+      {is_local() ? (
+        <p class="notice" role="status">
+          {t("lead_local")}
+        </p>
+      ) : null}
       <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
         {t("lead_big_code")}
       </button>
@@ -414,6 +427,9 @@ export function join_address(s: Session): string {
   return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
 }
 
+// An address of this computer alone, which no phone can open.
+const is_local = (): boolean => /^(localhost|127\..*|\[::1\])$/.test(window.location.hostname);
+
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
     <main class="largecode">
@@ -439,16 +455,18 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     <>
       <Title>{t("tab_lead")}</Title>
       <PhasePart s={s} />
-      {votes.length > 0 ? (
-        <section class="panel">
-          <h2>{t("lead_votes")}</h2>
+      <section class="panel">
+        <h2>{t("lead_votes")}</h2>
+        {votes.length > 0 ? (
           <ul class="rows">
             {votes.map(([id, vote]) => (
               <VoteRow key={id} s={s} id={id} vote={vote} />
             ))}
           </ul>
-        </section>
-      ) : null}
+        ) : (
+          <p class="small">{t("lead_no_votes")}</p>
+        )}
+      </section>
       {proposals.length > 0 ? (
         <section class="panel">
           <h2>{t("ideas_proposals")}</h2>

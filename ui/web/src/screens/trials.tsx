@@ -119,6 +119,12 @@ export function TwoPlans({ s, left, right }: { s: Session; left: string; right: 
         <div class="layer" style={{ clipPath: `inset(0 ${100 - share}% 0 0)` }}>
           <Picture items={first} box={box} live={live} label={title(left)} />
         </div>
+        <b class="corner first" aria-hidden="true">
+          {share > 0 ? title(left) : ""}
+        </b>
+        <b class="corner second" aria-hidden="true">
+          {share < 100 ? title(right) : ""}
+        </b>
         <i class="edge" aria-hidden="true" style={{ left: `${share}%` }} />
       </div>
       <div class="row">
