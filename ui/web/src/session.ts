@@ -47,6 +47,7 @@ export class Session {
   refusals: Refusal[] = [];
   notices: Notice[] = [];
   announcement = "";
+  lastVote: string | null = null; ///< the last one that was seen open
   presences: Record<string, Presence> = {};
   latest = 0; ///< when the last message of the server came [ms since 1970]
   readonly connection: Connection;
@@ -224,6 +225,7 @@ export class Session {
   private merge(state: StateMessage): void {
     const view = state.view as ViewName;
     if (!(view in this.views)) return;
+    if (view === "votes") for (const [id, vote] of Object.entries(this.views.votes)) if (vote.open) this.lastVote = id;
     const kept = this.stale.delete(view) ? {} : { ...this.views[view] };
     const next: Record<string, Json> = { ...(kept as Record<string, Json>) };
     for (const [key, value] of Object.entries(state.set ?? {})) next[key] = whole(view, key, value);

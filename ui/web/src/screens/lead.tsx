@@ -451,6 +451,8 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     s,
     proposals.map(([id]) => id),
   );
+  // The page says above what to do after the end.
+  if (s.views.room.closed) return <Title>{t("tab_lead")}</Title>;
   return (
     <>
       <Title>{t("tab_lead")}</Title>
