@@ -46,6 +46,7 @@ export class Connection {
   private opened = 0; // when the link was asked for
   readonly presence: PresenceVoice;
   private looked: string[] = []; // drafts
+  private asked = 0; // how many views the hello of this link has named
   private me: string;
 
   constructor(
@@ -213,6 +214,7 @@ export class Connection {
     const { room, lang, invite } = this.options;
     const token = this.token;
     const who = token ? { token } : invite ? { invite } : {};
+    this.asked = this.views.size;
     this.send({
       t: "hello",
       room,
@@ -350,7 +352,8 @@ export class Connection {
     this.listener.welcomed(welcome);
     this.setStage("open");
     this.presence.greeted(this.world.isVisible());
-    if (this.looked.length > 0) this.sendWant();
+    // What was wanted after the hello had gone out stands in no message yet.
+    if (this.views.size > this.asked || this.looked.length > 0) this.sendWant();
     this.schedulePing();
     this.pump();
   }
