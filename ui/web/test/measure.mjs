@@ -43,6 +43,7 @@ async function scan(network) {
   await page.click(".join .main");
   await page.waitForSelector('nav button:has-text("Goals")');
   const card = performance.now() - began;
+  console.error(`${usable.toFixed(0)} ${card.toFixed(0)}`);
   await browser.close();
   return { usable, paint, card };
 }
@@ -70,6 +71,7 @@ async function back(milliseconds, how) {
   if (how !== "waiting") await page.evaluate(() => document.dispatchEvent(new Event("visibilitychange")));
   await page.waitForFunction((text) => document.body.textContent.includes(text), title, { polling: 20, timeout: 30000 });
   const time = performance.now() - began;
+  console.error(`${how} ${time.toFixed(0)}`);
   await browser.close();
   door.end();
   return time;
