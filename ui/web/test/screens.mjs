@@ -508,7 +508,9 @@ async function first_load(server) {
 // --- All of it ------------------------------------------------------------------------------------------------------
 
 const only = process.argv[2];
+const beamer = (server) => walk_beamer(server, [1024, 768], "light");
 const parts = {
+  beamer,
   first_load,
   lost_connection,
   stale_change,
@@ -538,11 +540,6 @@ for (const size of kSizes)
     server.stop();
     console.log(`ok walk ${size.join("x")} ${scheme}`);
   }
-if (!only || only === "walk") {
-  const server = await serve();
-  await walk_beamer(server, [1024, 768], "light");
-  server.stop();
-}
 await browser.close();
 console.log(
   `${counts.screens} screens looked at, ${counts.axe} times axe, ${counts.targets} targets measured, ${counts.requests} requests, ${faults.length} faults`,

@@ -173,7 +173,8 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
     ) : (
       <>{t("none")}</>
     );
-  const both = [left, right];
+  const both = [left, right],
+    figures = figures_of_both(both);
   return (
     <table class="compare">
       <thead>
@@ -189,22 +190,26 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
         </tr>
       </thead>
       <tbody>
-        <tr>
-          <th scope="row">{t("compare_state")}</th>
-          {both.map((one, i) => (
-            <td key={i}>
-              {state_word(one.state)}
-              <br />
-              <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
-            </td>
-          ))}
-        </tr>
-        <tr>
-          <th scope="row">{t("proposal_why")}</th>
-          {both.map((one, i) => (
-            <td key={i}>{one.why || t("none")}</td>
-          ))}
-        </tr>
+        {isShort ? null : (
+          <tr>
+            <th scope="row">{t("compare_state")}</th>
+            {both.map((one, i) => (
+              <td key={i}>
+                {state_word(one.state)}
+                <br />
+                <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
+              </td>
+            ))}
+          </tr>
+        )}
+        {isShort && figures.length > 0 ? null : (
+          <tr>
+            <th scope="row">{t("proposal_why")}</th>
+            {both.map((one, i) => (
+              <td key={i}>{one.why || t("none")}</td>
+            ))}
+          </tr>
+        )}
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => (
