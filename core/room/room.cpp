@@ -139,6 +139,14 @@ void Room::follow(const LogEntry& entry) {
   touches_.clear();
 }
 
+std::string Room::last_writer(Touch place) const {
+  do {
+    const auto write = writes_.find(place);
+    if (write != writes_.end()) return write->second.author;
+  } while (widen(place));
+  return "";
+}
+
 Result<void> Room::submit_device(const Submission& submission, Now now) { return put(submission, now); }
 
 std::optional<Refusal> Room::why_stale(const Operation& operation) const {

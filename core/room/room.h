@@ -89,6 +89,8 @@ class Room {
   const Scene& scene_of(const std::string& draft);
   /// What a draft changes, and with whom it meets; the draft must be there.
   DraftSummary summary_of(const std::string& draft);
+  /// The author of the last change of the place, or of the nearest place around it; empty where nobody has changed it.
+  std::string last_writer(Touch place) const;
   /// The words of a comment, a reason, a note; nothing where there are none of that name.
   const TextRecord* text(const std::string& id) const;
   /// What has to be stored since the last call, in the order in which it was said.

@@ -1,6 +1,10 @@
 // Every screen of a page without scripts, on one page; what is sent comes back with the answer.
 #include "core/serve/plain_page.h"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
@@ -88,10 +92,104 @@ std::string number_field(const std::string& name, const std::string& label, doub
          (value.is_number() ? " value=\"" + shortest(value.get<double>()) + "\"" : "") + "></label>";
 }
 
-std::string ballot_fields(const Json& vote) {
+constexpr std::int64_t kMostDotFields = 10;
+
+std::string dot_field(std::int64_t number, const char* part) { return "d" + std::to_string(number) + "_" + part; }
+
+// The place of a thing on the plan: the middle of the box around its outline. Outlines are relative steps with y downwards.
+std::optional<std::pair<double, double>> middle_of(const std::string& outline) {
+  double x = 0, y = 0, low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
+  std::string numbers = outline;
+  for (char& letter : numbers)
+    if (letter == 'M' || letter == 'l' || letter == 'z') letter = letter == 'M' ? '|' : ' ';
+  std::size_t at = 0;
+  bool is_absolute = false;
+  std::vector<double> pair;
+  while (at < numbers.size()) {
+    if (numbers[at] == '|' || numbers[at] == ' ') {
+      is_absolute = is_absolute || numbers[at] == '|';
+      ++at;
+      continue;
+    }
+    const std::size_t end = std::min(numbers.find_first_of("| ", at), numbers.size());
+    const auto number = parse_number(numbers.substr(at, end - at));
+    at = end;
+    if (!number) return std::nullopt;
+    pair.push_back(*number);
+    if (pair.size() < 2) continue;
+    x = is_absolute ? pair[0] : x + pair[0];
+    y = is_absolute ? pair[1] : y + pair[1];
+    is_absolute = false;
+    pair.clear();
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x), low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  if (low_x > high_x) return std::nullopt;
+  return std::pair((low_x + high_x) / 2, -(low_y + high_y) / 2);
+}
+
+std::string option_of(const std::string& value, const std::string& label, bool is_chosen) {
+  return "<option value=\"" + escape_xml(value) + "\"" + (is_chosen ? " selected" : "") + ">" + escape_xml(label) + "</option>";
+}
+
+// Each dot says what it means, and where it stands: on a thing of the plan, or at a place in metres.
+std::string dot_fields(RoomHost& room, const Json& vote) {
+  const auto plan = content_of(room.view("plan", 0));
+  const Json& mine = vote["mine"];
+  const std::int64_t most = std::min(vote["points"].get<std::int64_t>(), kMostDotFields);
+  std::vector<std::pair<std::string, std::string>> meanings;
+  for (const Json& option : vote["options"])
+    meanings.emplace_back(text_in(option, "id"),
+                          text_in(option, "label").empty() ? text_in(option, "id") : text_in(option, "label"));
+  if (meanings.empty()) meanings = {{"plus", "Good here"}, {"minus", "Not here"}};
+  std::string inside = "<p>You have " + std::to_string(most) + (most == 1 ? " dot." : " dots.") +
+                       " Choose a thing for each, or say where it is in metres east and north.</p>";
+  for (std::int64_t number = 1; number <= most; ++number) {
+    const Json dot =
+        mine.is_array() && static_cast<std::size_t>(number) <= mine.size() ? mine[static_cast<std::size_t>(number) - 1] : Json();
+    std::string options = option_of("", "not used", dot.is_null()), what;
+    for (const auto& [id, label] : meanings) what += option_of(id, label, dot.is_object() && dot["option"] == id);
+    options += option_of("=", "the place below", dot.is_object());
+    for (const auto& [key, thing] : plan)
+      if (key.starts_with("n/") && text_in(thing, "kind") != "street")
+        options += option_of(key.substr(2), text_in(thing, "name"), false);
+    inside += "<fieldset><legend>Dot " + std::to_string(number) + "</legend><label>Where<select name=\"" +
+              dot_field(number, "on") + "\">" + options + "</select></label><label>What<select name=\"" +
+              dot_field(number, "is") + "\">" + what + "</select></label>" +
+              number_field(dot_field(number, "x"), "Metres east", -1e6, 1e6, dot.is_object() ? dot["place"][0] : Json()) +
+              number_field(dot_field(number, "y"), "Metres north", -1e6, 1e6, dot.is_object() ? dot["place"][1] : Json()) +
+              "</fieldset>";
+  }
+  return inside;
+}
+
+// The dots of the form, or what is missing in it.
+std::variant<Json, std::string> dots_in(RoomHost& room, const Json& vote, const std::map<std::string, std::string>& fields) {
+  const auto plan = content_of(room.view("plan", 0));
+  const auto field = [&](std::int64_t number, const char* part) {
+    const auto found = fields.find(dot_field(number, part));
+    return found == fields.end() ? std::string() : found->second;
+  };
+  Json dots = Json::array();
+  for (std::int64_t number = 1; number <= std::min(vote["points"].get<std::int64_t>(), kMostDotFields); ++number) {
+    const std::string on = field(number, "on"), name = "dot " + std::to_string(number);
+    if (on.empty()) continue;
+    std::optional<std::pair<double, double>> place;
+    if (on == "=") {
+      const auto x = parse_number(field(number, "x")), y = parse_number(field(number, "y"));
+      if (!x || !y) return "Not taken: say how many metres east and north " + name + " is.";
+      place = std::pair(*x, *y);
+    } else if (const auto thing = plan.find("n/" + on); thing != plan.end()) place = middle_of(text_in(thing->second, "d"));
+    if (!place) return "Not taken: the thing of " + name + " is not on the plan any more.";
+    dots.push_back({{"place", {place->first, place->second, 0}}, {"option", field(number, "is")}});
+  }
+  return dots;
+}
+
+std::string ballot_fields(RoomHost& room, const Json& vote) {
   const std::string kind = text_in(vote, "kind");
   const Json& mine = vote["mine"];
   std::string inside;
+  if (kind == "dots") return dot_fields(room, vote);
   if (kind == "yes_no") return choice("answer", "yes", "Yes", mine == "yes") + choice("answer", "no", "No", mine == "no");
   if (kind == "slider")
     return number_field("value",
@@ -117,14 +215,13 @@ std::string votes_of(RoomHost& room, std::int64_t seat, const std::string& token
   for (const auto& [id, vote] : content_of(room.view("votes", seat))) {
     page += "<section><h2>" + escape_xml(text_in(vote, "question")) + "</h2>";
     const std::string kind = text_in(vote, "kind");
-    if (vote["open"] == true && kind == "dots")
-      page += "<p>This vote puts dots on the plan; it needs a browser with scripts.</p>";
-    else if (vote["open"] == true) {
+    if (vote["open"] == true) {
       const char* how = kind == "rank" ? "<p>Give 1 to the best, 2 to the next, and so on.</p>" : "";
       const std::string coins = kind == "coins" ? "<p>You have " + shortest(vote["points"].get<double>()) + " coins.</p>" : "";
-      page += how + coins +
-              form_of(room, "vote", token,
-                      "<input type=\"hidden\" name=\"vote\" value=\"" + escape_xml(id) + "\">" + ballot_fields(vote), "Vote");
+      page +=
+          how + coins +
+          form_of(room, "vote", token,
+                  "<input type=\"hidden\" name=\"vote\" value=\"" + escape_xml(id) + "\">" + ballot_fields(room, vote), "Vote");
     } else page += "<p>This vote is closed.</p>";
     if (vote["result"].is_array()) {
       page += "<table><tr><th>Answer</th><th>Points</th><th>Share</th></tr>";
@@ -210,6 +307,10 @@ std::variant<PlainWish, std::string> wish_of_vote(RoomHost& room, std::int64_t s
     const auto number = fields.contains("value") ? parse_number(fields.at("value")) : std::nullopt;
     if (!number) return std::string("Not taken: say a number.");
     ballot = *number;
+  } else if (kind == "dots") {
+    auto dots = dots_in(room, vote->second, fields);
+    if (auto* missing = std::get_if<std::string>(&dots)) return std::move(*missing);
+    ballot = std::move(std::get<Json>(dots));
   } else {
     std::map<double, std::string> ranks;
     Json coins = Json::object();

@@ -76,8 +76,10 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
       guest->close(CloseCode::no_seat, "this invitation is not one of this room");
       return false;
     }
-    if (hello.invite.empty()) invitation.is_by_code = true;
-    else
+    if (hello.invite.empty()) {
+      invitation.is_by_code = true;
+      if (hello.kind == "beamer") invitation.role = Role::viewer;
+    } else
       invitation.role = static_cast<Role>(std::find(kRoleNames.begin(), kRoleNames.end(), invited->first) - kRoleNames.begin());
     std::variant<room::Admission, room::Refusal> admitted = room::Refusal{};
     say([&](room::Now now) { admitted = room_->admit(invitation, now); });

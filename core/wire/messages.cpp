@@ -22,7 +22,7 @@ void Hello::declare(MessageBuilder<Hello>& m) {
   m.field(&Hello::run, "run").required().doc("Random name of the life of this page or window; it numbers operations.");
   m.field(&Hello::invite, "invite").doc("Key of an invitation, on the first visit.");
   m.field(&Hello::token, "token").doc("Token of the seat, on later visits.");
-  m.field(&Hello::kind, "kind").doc("`page` or `desktop`.");
+  m.field(&Hello::kind, "kind").doc("`page`, `beamer` or `desktop`. A beamer that comes by the code only watches.");
   m.field(&Hello::lang, "lang").doc("Language of the page, such as `en`.");
   m.field(&Hello::build, "build").doc("Build of a window.");
   m.field(&Hello::fingerprint, "fp").doc("What a window's build computes in its self-test.");

@@ -6,10 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/base/unit.h"
 #include "core/define/codec.h"
 #include "core/host/step_labels.h"
 #include "core/reading/views/people.h"
+#include "core/room/refusals.h"
 #include "core/wire/messages.h"
 #include "core/wire/plan_view.h"
 
@@ -34,6 +36,25 @@ std::string seat_name(const room::RoomState& state, const std::string& author) {
   return seat == state.seats.end() ? author : seat->second.name;
 }
 
+// The numbers that a visitor's form asks for, with their usual ranges.
+Json form_of(const std::string& typification) {
+  Json form = Json::object();
+  const TypificationDefinition* type = full_registry().typification(typification);
+  if (type == nullptr) return form;
+  for (const PortDefinition& port : type->ports)
+    if (!port.is_computed && port.kind == ValueKind::number && port.soft_minimum && port.soft_maximum)
+      form[port.id] = {{"minimum", *port.soft_minimum}, {"maximum", *port.soft_maximum}, {"unit", info(port.unit).symbol}};
+  return form;
+}
+
+// The role cards of the scene: who can be given which.
+Json cards_of(const State& state) {
+  Json cards = Json::object();
+  for (const auto& row : reading::rows<reading::GroupFigures>(state))
+    cards[state.plan->nodes[row.node].id] = {{"name", name_of(state, row.node)}, {"interest", row.figures.interest}};
+  return cards;
+}
+
 View room_view(const ViewSources& sources) {
   const room::RoomState& state = sources.room.state();
   View view;
@@ -47,12 +68,18 @@ View room_view(const ViewSources& sources) {
       seats[std::to_string(number)] = {{"role", kRoleNames[static_cast<std::size_t>(seat.role)]},
                                        {"name", seat.name},
                                        {"colour", seat.colour},
+                                       {"card", seat.card},
+                                       {"areas", seat.areas},
                                        {"here", seat.is_here},
                                        {"muted", seat.is_muted}};
   put(view, "title", sources.title);
   put(view, "code", sources.code);
   put(view, "phase", phase);
   put(view, "seats", seats);
+  Json forms = Json::object();
+  for (const std::string& typification : state.phase.forms) forms[typification] = form_of(typification);
+  put(view, "forms", forms);
+  put(view, "cards", cards_of(sources.state));
   put(view, "areas", [&] {
     Json areas = Json::object();
     for (const auto& [name, area] : state.areas) areas[name] = {{"pen", area.pen}, {"asking", area.asking}};
@@ -68,8 +95,8 @@ View room_view(const ViewSources& sources) {
 
 Json figure_of(const State& state, const reading::Row<reading::IndicatorFigures>& row) {
   const reading::IndicatorFigures& figures = row.figures;
-  return {{"name", name_of(state, row.node)}, {"value", figures.value},   {"unit", figures.unit},
-          {"target", figures.target},         {"status", figures.status}, {"score", figures.score}};
+  return {{"name", name_of(state, row.node)}, {"value", figures.value},   {"unit", figures.unit},  {"target", figures.target},
+          {"direction", figures.direction},   {"status", figures.status}, {"score", figures.score}};
 }
 
 View figures_view(const ViewSources& sources) {
@@ -92,6 +119,9 @@ Json control_of(const ViewSources& sources, const Table& controls, std::size_t r
     control["value"] = value_to_json(set == values.end() ? (*definition)->default_value : set->second, **definition);
     control["unit"] = info((*definition)->unit).symbol;
     if (control["label"] == "") control["label"] = (*definition)->id;
+    const std::string by =
+        sources.room.last_writer({ScenePart::node, node, "types/" + step_of(path->typification) + "/" + step_of(path->port)});
+    if (!by.empty()) control["by"] = seat_name(sources.room.state(), by);
   }
   for (const char* number : {"minimum", "maximum", "step"}) control[number] = controls.number(row, number);
   control["costs"] = controls.text(row, "costs_whom");
@@ -224,11 +254,41 @@ Json misfits_of(const std::vector<room::Misfit>& misfits) {
   return list;
 }
 
+// A number from what the scene has to what a step sets: `: 1000 to 4000 m³`. Empty where it is not about one number.
+std::string change_of(const ViewSources& sources, const Command& step) {
+  const auto text = [&](const char* name) {
+    const auto found = step.arguments.find(name);
+    const auto* value = found == step.arguments.end() ? nullptr : std::get_if<std::string>(&found->second);
+    return value == nullptr ? std::string() : *value;
+  };
+  Touch place;
+  std::string unit;
+  Json after;
+  if (step.id == "set_link_strength" && step.arguments.contains("strength")) {
+    place = {ScenePart::link, text("id"), "strength"};
+    after = std::get<double>(step.arguments.at("strength"));
+  } else if (step.id == "set_port") {
+    const auto path = parse_port_path(text("port"));
+    const auto port = path ? full_registry().port(*path) : Result<const PortDefinition*>(Error{});
+    const auto value = step.arguments.find("value");
+    const auto* json = value == step.arguments.end() ? nullptr : std::get_if<JsonValue>(&value->second);
+    if (!port || json == nullptr || !json->read()) return "";
+    place = {ScenePart::node, text("node"), "types/" + step_of(path->typification) + "/" + step_of(path->port)};
+    unit = info((*port)->unit).pretty;
+    after = **json->read();
+  }
+  if (!after.is_number()) return "";
+  const auto before = room::value_at(sources.room.scene(), full_registry(), place);
+  const std::string from = before && (*before->read())->is_number() ? shortest((*before->read())->get<double>()) + " to " : "";
+  return ": " + from + shortest(after.get<double>()) + (unit.empty() ? "" : " " + unit);
+}
+
 // A step that was taken back has no words, and keeps its number.
 Json words_of_steps(const ViewSources& sources, const room::Draft& draft) {
   Json words = Json::array();
   for (const Command& step : draft.steps())
-    words.push_back(step.id.empty() ? "" : host::label_of_step(full_registry(), step, sources.room.scene()));
+    words.push_back(
+        step.id.empty() ? "" : host::label_of_step(full_registry(), step, sources.room.scene()) + change_of(sources, step));
   return words;
 }
 

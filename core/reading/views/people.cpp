@@ -10,6 +10,7 @@ void IndicatorFigures::declare(ViewBuilder<IndicatorFigures>& v) {
   v.reads(&IndicatorFigures::unit, "indicator.unit");
   v.reads(&IndicatorFigures::score, "indicator.score", Unit::ratio);
   v.reads(&IndicatorFigures::status, "indicator.status");
+  v.reads(&IndicatorFigures::direction, "indicator.direction");
 }
 BL_VIEW(IndicatorFigures)
 

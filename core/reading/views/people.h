@@ -12,7 +12,8 @@ struct IndicatorFigures {
   double value = 0, target = 0;  ///< in the indicator's own unit
   std::string unit;              ///< its symbol
   double score = 0;
-  std::string status;  ///< `met`, `close` or `far`
+  std::string status;     ///< `met`, `close` or `far`
+  std::string direction;  ///< `at_least`, `at_most` or `near`
 
   static void declare(ViewBuilder<IndicatorFigures>& v);
   static const ViewDefinition& view();

@@ -68,6 +68,66 @@ TEST(Views, ThePlanHasEveryVolumeAndItsBoxHoldsThem) {
   EXPECT_EQ(parse_json(plan.at("box"))->size(), 4u);
 }
 
+TEST(Views, ThePageKnowsCardsFormsDirectionsAndWhoChangedAValue) {
+  World world = World::from_file("scenes/nodes/stakeholder_group.json");
+  room::Room room(world.session().ledger(), {});
+  const auto admitted = room.admit({.role = Role::stakeholder, .areas = {"north"}, .card = "residents"}, {0, 0});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(admitted));
+  world.tick(1);
+  const ViewSources sources{world.state(), room, "CODE", "Title"};
+  const View view = make_view("room", sources, 1);
+  const Json seat = (*parse_json(view.at("seats")))["1"];
+  EXPECT_EQ(seat["card"], "residents");
+  EXPECT_EQ(seat["areas"], Json::array({"north"}));
+  const Json cards = *parse_json(view.at("cards"));
+  std::size_t groups = 0;
+  for (const auto& [id, node] : world.session().scene().nodes) groups += node.types.contains("stakeholder_group") ? 1 : 0;
+  EXPECT_EQ(cards.size(), groups);
+  EXPECT_GT(groups, 0u);
+  for (const auto& [id, content] : make_view("figures", sources, 1)) {
+    const std::string direction = (*parse_json(content))["direction"];
+    EXPECT_TRUE(direction == "at_least" || direction == "at_most" || direction == "near") << id;
+  }
+}
+
+TEST(Views, StepsAndControlsNameValuesAndWhoSetThem) {
+  World world = World::from_file("scenes/start/quarter.json");
+  room::Room room(world.session().ledger(), {});
+  const auto admitted = room.admit({.role = Role::facilitator}, {0, 0});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(admitted));
+  const auto set = [](const char* value) {
+    return JsonValue(
+        std::string(R"({"command": "set_port", "arguments": {"node": "library", "port": "smart_volume.demand", "value": )") +
+        value + "}}");
+  };
+  const auto say = [&](std::int64_t id, room::OperationKind kind, const JsonValue& content, const char* draft) {
+    return room.submit(1, {.run = "r", .id = id, .kind = kind, .content = content, .draft = draft}, {0, 0});
+  };
+  const Touch place{ScenePart::node, "library", "types/smart_volume/demand"};
+  EXPECT_EQ(room.last_writer(place), "");
+  (void)say(1, room::OperationKind::command, set("4000"), "");
+  EXPECT_EQ(room.last_writer(place), room::RoomState::author_of_seat(1));
+  (void)say(2, room::OperationKind::draft_begin, JsonValue(R"({"draft": "d", "title": "Larger"})"), "");
+  (void)say(3, room::OperationKind::command, set("5200"), "d");
+  const View drafts = make_view("drafts", {world.state(), room, "", ""}, 1);
+  ASSERT_TRUE(drafts.contains("d"));
+  const std::string words = (*parse_json(drafts.at("d")))["steps"][0];
+  EXPECT_TRUE(words.ends_with(": 4000 to 5200 m³")) << words;
+}
+
+TEST(Views, AVisitorsFormKnowsItsRange) {
+  World world = World::from_file("scenes/start/quarter.json");
+  room::Room room(world.session().ledger(), {});
+  (void)room.admit({.role = Role::facilitator}, {0, 0});
+  const JsonValue phase(
+      R"({"event": "set_phase", "arguments": {"name": "Visitors", "activities": [], "forms": ["smart_volume"]}})");
+  (void)room.submit(1, {.run = "r", .id = 1, .kind = room::OperationKind::event, .content = phase}, {0, 0});
+  const View view = make_view("room", {world.state(), room, "", ""}, 1);
+  const Json demand = (*parse_json(view.at("forms")))["smart_volume"]["demand"];
+  EXPECT_EQ(demand["minimum"], 0);
+  EXPECT_EQ(demand["maximum"], 20000);
+}
+
 TEST(Views, AnUnknownViewIsEmpty) {
   EXPECT_FALSE(is_view("secrets"));
   EXPECT_TRUE(is_view("plan"));

@@ -1,6 +1,7 @@
 // The life of a connection: it keeps one seat in a room and gives every operation exactly one answer, whatever the network does.
 import { Queue, kLease } from "./queue";
 import type { Item } from "./queue";
+import { PresenceVoice } from "./presence";
 import { Timers, back_off, kLongestWait } from "./timers";
 import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
 import type { Answer, Link, Listener, Options, Stage, World } from "./world";
@@ -43,6 +44,9 @@ export class Connection {
   private gapsDue = 0; // refusals because of it that are still to come on this link
   private isStopped = false;
   private opened = 0; // when the link was asked for
+  readonly presence: PresenceVoice;
+  private looked: string[] = []; // drafts
+  private asked = 0; // how many views the hello of this link has named
   private me: string;
 
   constructor(
@@ -52,6 +56,7 @@ export class Connection {
   ) {
     this.me = world.name();
     this.timers = new Timers(world);
+    this.presence = new PresenceVoice(this.timers, (message) => this.send(message));
     this.since = world.now();
     this.views = new Set(options.views);
     Queue.tidy(world.store, options.prefix, world.now());
@@ -108,7 +113,18 @@ export class Connection {
     const fresh = views.filter((view) => !this.views.has(view));
     if (fresh.length === 0) return;
     for (const view of fresh) this.views.add(view);
-    if (this.isGreeted) this.send({ t: "want", views: [...this.views] });
+    if (this.isGreeted) this.sendWant();
+  }
+
+  /// The drafts that are on the screen: the server tries those.
+  look(drafts: string[]): void {
+    if (drafts.join() === this.looked.join()) return;
+    this.looked = drafts;
+    if (this.isGreeted) this.sendWant();
+  }
+
+  private sendWant(): void {
+    this.send({ t: "want", views: [...this.views], ...(this.looked.length > 0 ? { drafts: this.looked } : {}) });
   }
 
   /// The page is looked at again, or the network is back: is the connection alive?
@@ -118,7 +134,7 @@ export class Connection {
       this.changeRun();
       this.reconnect(0);
     } else if (this.isGreeted) {
-      this.send({ t: "presence", n: ++this.order, hidden: false });
+      this.presence.change({ hidden: false });
       this.ping(kWakeWait);
     } else if (this.world.now() - this.opened > kWakeWait || !this.link) this.reconnect(0);
   }
@@ -127,7 +143,7 @@ export class Connection {
   sleep(): void {
     this.timers.stop("ping");
     this.timers.stop("pong");
-    if (this.isGreeted) this.send({ t: "presence", n: ++this.order, hidden: true });
+    this.presence.hide();
   }
 
   // --- Runs ---------------------------------------------------------------------------------------------------------
@@ -187,6 +203,7 @@ export class Connection {
     this.link = null;
     this.isGreeted = false;
     for (const name of ["hello", "ping", "pong", "pump", "silence", "calm"]) this.timers.stop(name);
+    this.presence.gone();
     this.sent.clear();
     if (!link) return;
     link.onopen = link.onmessage = link.onclose = null;
@@ -197,11 +214,12 @@ export class Connection {
     const { room, lang, invite } = this.options;
     const token = this.token;
     const who = token ? { token } : invite ? { invite } : {};
+    this.asked = this.views.size;
     this.send({
       t: "hello",
       room,
       run: this.queue.run,
-      kind: "page",
+      kind: this.options.isBeamer ? "beamer" : "page",
       ...who,
       unacked: this.queue.lastAnswered,
       views: [...this.views],
@@ -333,6 +351,9 @@ export class Connection {
     });
     this.listener.welcomed(welcome);
     this.setStage("open");
+    this.presence.greeted(this.world.isVisible());
+    // What was wanted after the hello had gone out stands in no message yet.
+    if (this.views.size > this.asked || this.looked.length > 0) this.sendWant();
     this.schedulePing();
     this.pump();
   }

@@ -119,7 +119,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
         <Refusals s={s} />
         {s.views.room.closed ? (
           <p class="notice" role="status">
-            <b>{t("closed_title")}.</b> {t("closed")}
+            <b>{t("closed_title")}.</b> {t(you?.role === "facilitator" ? "closed_minutes" : "closed")}
           </p>
         ) : null}
         {screen_of(s, ui, isWide)}
@@ -200,11 +200,14 @@ function start(): void {
       lang: locale(),
       views,
       invite,
+      isBeamer: address.isBeamer,
     },
     (run) => tab_keep(runKey, run),
     () => window.location.reload(),
   );
   const ui = new Ui();
+  // Others may know what somebody looks at: what stands in the scene itself, not plots and streets.
+  ui.watch(() => session.connection.presence.change({ holds: ui.selected !== null && !ui.selected.includes("/") ? [ui.selected] : [] }));
   const turned = (): void => (document.visibilityState === "visible" ? session.connection.wake() : session.connection.sleep());
   document.addEventListener("visibilitychange", turned);
   window.addEventListener("pageshow", () => session.connection.wake());

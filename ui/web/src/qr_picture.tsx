@@ -2,6 +2,7 @@
 import type { JSX } from "preact";
 import { t } from "./words";
 
-export function CodePicture({ code, address }: { code: string; address: string }): JSX.Element {
+export function CodePicture({ code, address }: { code: string; address: string }): JSX.Element | null {
+  if (code === "") return null; // it comes with the room
   return <img class="qr" src={`/qr/${code}.svg`} alt={t("qr_of", { address })} />;
 }

@@ -1,7 +1,7 @@
 // What the page knows of its room: the views that the server sends, and how each own change stands.
 import { Connection } from "./connection";
 import type { Item } from "./queue";
-import type { Ballot, Deed, Json, PlanItem, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
+import type { Ballot, Deed, Json, PlanItem, Presence, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
 import { whole } from "./whole";
 import type { Answer, Options, World } from "./world";
 import type { Key } from "./words";
@@ -24,7 +24,18 @@ export interface Notice {
   at: number;
 }
 
-const kEmpty = (): Views => ({ room: {}, plan: {}, figures: {}, card: {}, votes: {}, comments: {}, proposals: {}, drafts: {} });
+const kEmpty = (): Views => ({
+  room: {},
+  plan: {},
+  figures: {},
+  card: {},
+  votes: {},
+  comments: {},
+  proposals: {},
+  drafts: {},
+  draft_plans: {},
+});
+const kMostLooked = 4; // drafts
 const kNoticeTime = 20000,
   kMarkTime = 6000;
 
@@ -36,6 +47,8 @@ export class Session {
   refusals: Refusal[] = [];
   notices: Notice[] = [];
   announcement = "";
+  lastVote: string | null = null; ///< the last one that was seen open
+  presences: Record<string, Presence> = {};
   latest = 0; ///< when the last message of the server came [ms since 1970]
   readonly connection: Connection;
   private stale = new Set<ViewName>(); // views whose next message has all of them
@@ -79,6 +92,13 @@ export class Session {
   want(...views: ViewName[]): void {
     for (const view of views) if (!this.arrived.has(view)) this.stale.add(view);
     this.connection.want(views);
+  }
+
+  /// These drafts are on the screen. A server that does not try drafts is not asked to.
+  look(drafts: string[]): void {
+    const tried = drafts.filter((id) => (this.views.proposals[id] ?? this.views.drafts[id])?.trial !== undefined);
+    if (tried.length > 0) this.want("draft_plans");
+    this.connection.look(tried.slice(0, kMostLooked));
   }
 
   // --- Own changes --------------------------------------------------------------------------------------------------
@@ -148,6 +168,15 @@ export class Session {
     return out;
   }
 
+  /// The plan of a draft that was tried.
+  draftPlan(draft: string): [string, PlanItem][] {
+    const begin = `${draft}/n/`,
+      out: [string, PlanItem][] = [];
+    for (const [key, value] of Object.entries(this.views.draft_plans))
+      if (key.startsWith(begin)) out.push([key.slice(begin.length), value as unknown as PlanItem]);
+    return out;
+  }
+
   nameOf(node: string): string {
     const item = this.views.plan[`n/${node}`] as unknown as PlanItem | undefined;
     return item?.name || node;
@@ -166,6 +195,7 @@ export class Session {
 
   private welcomed(welcome: Welcome): void {
     this.you = welcome.you;
+    this.presences = {};
     if (!this.views.room.title)
       this.views = { ...this.views, room: { ...this.views.room, title: welcome.room.title, code: welcome.room.code } };
     for (const view of Object.keys(this.views) as ViewName[]) this.stale.add(view);
@@ -179,14 +209,23 @@ export class Session {
       const id = String(message.id);
       if (id === "stored") this.notices = this.notices.filter((notice) => notice.id !== "storage");
       this.notices = [...this.notices.filter((notice) => notice.id !== id), { id, at: this.now() }];
-    }
+    } else if (message.t === "presence") this.meet(message.seats as Record<string, Presence | null>);
     this.touch();
+  }
+
+  private meet(seats: Record<string, Presence | null>): void {
+    const next = { ...this.presences };
+    for (const [seat, presence] of Object.entries(seats ?? {}))
+      if (presence === null) delete next[seat];
+      else next[seat] = presence;
+    this.presences = next;
   }
 
   // The first message of a view after each welcome has all of it, so what it lacks is gone.
   private merge(state: StateMessage): void {
     const view = state.view as ViewName;
     if (!(view in this.views)) return;
+    if (view === "votes") for (const [id, vote] of Object.entries(this.views.votes)) if (vote.open) this.lastVote = id;
     const kept = this.stale.delete(view) ? {} : { ...this.views[view] };
     const next: Record<string, Json> = { ...(kept as Record<string, Json>) };
     for (const [key, value] of Object.entries(state.set ?? {})) next[key] = whole(view, key, value);

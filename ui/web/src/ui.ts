@@ -73,6 +73,14 @@ export function useMedia(query: string): boolean {
 /// Is there room for the plan beside the screen?
 export const useWide = (): boolean => useMedia("(min-width: 900px)");
 
+/// The server tries these drafts while the caller is on the screen.
+export function useLook(s: { look(drafts: string[]): void }, drafts: string[]): void {
+  useEffect(() => {
+    s.look(drafts);
+    return () => s.look([]);
+  }, [drafts.join()]);
+}
+
 /// Draws again every so often, for clocks.
 export function useClock(milliseconds: number): void {
   const [, again] = useReducer((count: number) => count + 1, 0);

@@ -2,7 +2,7 @@
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type Point = [number, number, number];
-export type Role = "facilitator" | "designer" | "stakeholder" | "participant" | "viewer" | "beamer" | "recorder" | "device";
+export type Role = "facilitator" | "designer" | "stakeholder" | "participant" | "viewer" | "recorder" | "device";
 export type Activity = "change" | "draft" | "comment" | "vote";
 export type Status = "met" | "close" | "far";
 export type Why =
@@ -89,12 +89,24 @@ export interface Seat {
   colour: string;
   here: boolean;
   muted?: boolean;
+  card?: string;
+  areas?: string[];
 }
+/// What somebody does at the moment; nothing of it is stored.
+export interface Presence {
+  hidden?: boolean;
+  holds?: string[];
+  cursor?: Point | null;
+}
+/// The numbers that a visitor's form asks for, by port.
+export type FormRanges = Record<string, { minimum: number; maximum: number; unit: string }>;
 export interface RoomView {
   title?: string;
   code?: string;
   phase?: Phase;
   seats?: Record<string, Seat>;
+  cards?: Record<string, { name: string; interest: string }>;
+  forms?: Record<string, FormRanges>;
   door?: Door;
   layout?: Layout | "";
   paused?: boolean;
@@ -121,6 +133,7 @@ export interface Goal {
   target: number;
   status: Status;
   score?: number;
+  direction?: "at_least" | "at_most" | "near";
 }
 export interface Control {
   node: string;
@@ -132,6 +145,7 @@ export interface Control {
   maximum: number;
   step: number;
   costs: string | string[];
+  by?: string; ///< who has changed it last
 }
 export interface CardView {
   name?: string;
@@ -193,9 +207,33 @@ export interface Comment {
   state: "open" | "accepted" | "rejected";
   answer?: string;
 }
+/// A place that somebody else has changed since the draft was begun.
 export interface Conflict {
   place: string;
   by: string;
+  label?: string;
+  live?: Json;
+  draft?: Json;
+}
+export interface TrialValue {
+  value: number;
+  status: Status;
+  score: number;
+}
+export interface TrialFigure {
+  id: string;
+  name: string;
+  unit: string;
+  target: number;
+  before: TrialValue | null;
+  after: TrialValue | null;
+  difference: number | null;
+}
+/// What has come of a draft beside the room. A server that tries no drafts leaves it out; null: not tried yet.
+export interface Trial {
+  state: "waiting" | "running" | "settled" | "restless" | "old";
+  line?: number;
+  figures: TrialFigure[];
 }
 export interface Misfit {
   step: number;
@@ -212,12 +250,14 @@ export interface Proposal {
   words: string[];
   conflicts: Conflict[];
   misfits: Misfit[];
+  trial?: Trial | null;
 }
 export interface Draft {
   title: string;
   state: string;
   steps: string[];
   misfits: Misfit[];
+  trial?: Trial | null;
 }
 
 export interface Views {
@@ -229,5 +269,6 @@ export interface Views {
   comments: Record<string, Comment>;
   proposals: Record<string, Proposal>;
   drafts: Record<string, Draft>;
+  draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
 }
 export type ViewName = keyof Views;

@@ -45,4 +45,5 @@ export interface Options {
   lang: string;
   views: ViewName[];
   invite: string | null;
+  isBeamer?: boolean;
 }

@@ -456,3 +456,16 @@ test("what follows a lost operation is sent again at once", () => {
   const sent = room.heard.filter((message) => message.t === "op").length;
   assert.ok(sent <= 7, `${sent} messages: each refusal does not send everything again`);
 });
+
+test("a view that is wanted between the hello and the welcome is asked for", () => {
+  // At every moment of the first connection: a screen may ask for its views whenever it is drawn.
+  for (let moment = 0; moment <= 100; moment += 5) {
+    const { clock, room, network, store } = setting();
+    const page = new Page(network, store);
+    clock.run(moment);
+    page.connection.want(["comments"]);
+    clock.run(2000);
+    const asked = room.heard.filter((m) => m.t === "hello" || m.t === "want").pop();
+    assert.ok(asked.views.includes("comments"), `wanted after ${moment} ms`);
+  }
+});

@@ -183,4 +183,3 @@ test("outlines are read as browsers read them", () => {
   assert.deepEqual(extent_of(points_of("M1e1 2L-4 8")), { x: -4, y: 2, width: 14, height: 6 });
   assert.equal(extent_of([]), null);
 });
-

@@ -13,6 +13,7 @@ export class MockRoom {
   log = [];
   ballots = new Map(); // vote -> seat -> ballot
   ratings = new Map();
+  presences = {};
   mute = false; // swallows everything, as a network that hangs
   busy = null;
   constructor() {
@@ -31,8 +32,21 @@ export class MockRoom {
       colour: kColours[(n - 1) % kColours.length],
       here: true,
       muted: false,
+      card: "",
+      areas: [],
     };
     return n;
+  }
+
+  // The plans of the drafts that this seat looks at: the library stands elsewhere in each.
+  draft_plans(seat) {
+    const looked = [...this.links].filter((link) => link.seat === seat).flatMap((link) => link.drafts ?? []);
+    const out = {};
+    looked.forEach((draft, i) => {
+      for (const [key, content] of Object.entries(this.plan)) out[`${draft}/${key}`] = content;
+      out[`${draft}/n/library`] = { ...this.plan["n/library"], d: disc(40 + 30 * i, 40, 9, 12) };
+    });
+    return out;
   }
 
   // --- Views ----------------------------------------------------------------------------------------------------
@@ -40,8 +54,9 @@ export class MockRoom {
   view(name, seat) {
     if (name === "room") return { ...this.room, seats: this.seats };
     if (name === "plan") return this.plan;
+    if (name === "draft_plans") return this.draft_plans(seat);
     if (name === "figures") return this.figures;
-    if (name === "card") return ["facilitator", "viewer", "beamer"].includes(this.seats[seat]?.role) ? {} : this.card;
+    if (name === "card") return ["facilitator", "viewer"].includes(this.seats[seat]?.role) ? {} : this.card;
     if (name === "votes")
       return Object.fromEntries(
         Object.entries(this.votes).map(([id, one]) => {
@@ -154,13 +169,20 @@ export class MockRoom {
     if (m.t === "ping") return this.tell(link, { t: "pong", n: m.n, k: this.tick });
     if (m.t === "want") {
       link.views = new Set(m.views);
+      link.drafts = m.drafts ?? [];
       return this.publish();
+    }
+    if (m.t === "presence") {
+      const { hidden, holds } = m;
+      this.presences[link.seat] = { hidden, holds };
+      for (const other of this.links) this.tell(other, { t: "presence", seats: { [link.seat]: { hidden, holds } } });
+      return;
     }
     if (["op", "room", "undo", "redo", "rewind", "draft"].includes(m.t)) return this.operate(link, m);
   }
 
   hello(link, m) {
-    const roles = { LEAD: "facilitator", SHOW: "beamer", LOOK: "viewer" };
+    const roles = { LEAD: "facilitator", SHOW: "viewer", LOOK: "viewer" };
     let seat = m.token ? this.tokens.get(m.token) : undefined,
       token;
     if (m.token && seat === undefined) return link.close(4401);
@@ -192,6 +214,7 @@ export class MockRoom {
       room: { code: this.room.code, title: this.room.title },
       limits: {},
     });
+    this.tell(link, { t: "presence", seats: this.presences });
     this.publish();
   }
 
@@ -304,7 +327,7 @@ export class MockRoom {
     else if (event === "show") this.room.layout = a.layout;
     else if (event === "set_door") this.room.door = a.door;
     else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
-    else if (event === "set_role") this.seats[a.seat].role = a.role;
+    else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas });
     else if (event === "close_room") this.room.closed = true;
     return null;
   }

@@ -77,6 +77,21 @@ const vote = (question, kind, more) => ({
 });
 
 /// The views as they are when the room opens.
+/// What has come of a draft: the sun gets better, and the open ground less.
+function trial(state, before, after) {
+  const figure = (id, name, unit, target, was, is) => ({
+    id,
+    name,
+    unit,
+    target,
+    before: { value: was, status: "close", score: 0.8 },
+    after: { value: is, status: is >= target ? "met" : "close", score: 0.9 },
+    difference: Math.round((is - was) * 100) / 100,
+  });
+  const figures = [figure("sun", "Sun in the gardens", "h", 4, before, after), figure("green", "Open ground", "%", 40, 31.5, 30)];
+  return { state, ticks: 60, is_settled: state === "settled", seq: 40, figures };
+}
+
 export function first_views() {
   return {
     plan: plan_of_scene(),
@@ -86,12 +101,14 @@ export function first_views() {
       phase: { name: "Arriving", activities: [], ends_at: 0, forms: [] },
       door: "open",
       layout: "plan",
+      cards: { parents: { name: "Parents of the quarter", interest: "A school that is large enough" } },
+      forms: { smart_volume: { demand: { minimum: 0, maximum: 20000, unit: "m³" } } },
       paused: false,
       closed: false,
       rate: 10,
     },
     figures: {
-      sun: { name: "Sun in the gardens", value: 3.42, unit: "h", target: 4, status: "close", score: 0.8 },
+      sun: { name: "Sun in the gardens", value: 3.42, unit: "h", target: 4, direction: "at_least", status: "close", score: 0.8 },
       area: { name: "Total floor area", value: 24310, unit: "m²", target: 24000, status: "met", score: 1 },
       green: { name: "Open ground", value: 31.5, unit: "%", target: 40, status: "far", score: 0.5 },
     },
@@ -101,7 +118,7 @@ export function first_views() {
       goals: [
         { name: "Room for the school", value: 3850, unit: "m²", target: 5200, status: "far" },
         { name: "Sun in the school yard", value: 3.1, unit: "h", target: 3, status: "met" },
-        { name: "Way to the school", value: 412.5, unit: "m", target: 400, status: "close" },
+        { name: "Way to the school", value: 412.5, unit: "m", target: 400, direction: "at_most", status: "close" },
       ],
       controls: [
         {
@@ -114,6 +131,7 @@ export function first_views() {
           maximum: 9000,
           step: 100,
           costs: ["Hotel", "Café"],
+          by: "Otter",
         },
         {
           node: "near_park",
@@ -175,8 +193,9 @@ export function first_views() {
         steps: 2,
         kept: 0,
         words: ["Library: demand from 4800 m³ to 6200 m³", "Hotel: demand from 9000 m³ to 7600 m³"],
-        conflicts: [{ place: "Hotel, demand", by: "Otter" }],
+        conflicts: [{ place: "nodes/hotel/types/smart_volume/demand", label: "Hotel, demand", by: "Otter", live: 8200, draft: 7600 }],
         misfits: [],
+        trial: trial("settled", 3.42, 3.9),
       },
       p2: {
         seat: 0,
@@ -188,6 +207,7 @@ export function first_views() {
         words: ["Hotel: moved to 120.4, 20, 11.9"],
         conflicts: [],
         misfits: [{ step: 0, why: "the hotel has been removed" }],
+        trial: trial("running", 3.42, 4.1),
       },
     },
     drafts: {},

@@ -1,144 +1,29 @@
 // The page with the real server: people join, vote, change, comment and propose, and the facilitator leads.
 // BEHAVIOURLINKS names the program; its room is made of the quarter and lies in a folder that is removed afterwards.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { opened, shots, start_room } from "./real_server.mjs";
 
-const require = createRequire(new URL("../package.json", import.meta.url));
-const { chromium } = require("playwright-core");
-const { WebSocket } = require("ws");
-const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
-const shots = path_of("build/web_shots");
-mkdirSync(shots, { recursive: true });
-
-function scene() {
-  const all = JSON.parse(readFileSync(path_of("scenes/start/quarter.json"), "utf8"));
-  const option = (id) => ({ id, label: id[0].toUpperCase() + id.slice(1) });
-  const vote = (id, types) => all.nodes.push({ id, name: id, position: [0, -60, 0], types: { vote: types } });
-  vote("v_bridge", { question: "Should there be a bridge?", electorate: 10 });
-  vote("v_uses", {
-    question: "Which use comes first?",
-    kind: "rank",
-    options: ["shops", "workshops", "nursery"].map(option),
-    electorate: 10,
-  });
-  vote("v_money", {
-    question: "Where should the money go?",
-    kind: "coins",
-    options: ["trees", "play"].map(option),
-    points: 5,
-    is_secret: true,
-  });
-  vote("v_places", { question: "Where is a tower good?", kind: "dots", points: 3 });
-  vote("v_height", { question: "How high?", kind: "slider", least: 10, most: 60, unit: "m" });
-  all.nodes.push({
-    id: "sun",
-    name: "Sun in the gardens",
-    position: [0, -70, 0],
-    types: { indicator: { value: 3.4, unit: "h", target: 4 } },
-  });
-  all.nodes.push({
-    id: "parents",
-    name: "Parents",
-    position: [0, -80, 0],
-    types: {
-      stakeholder_group: {
-        interest: "A library near the school",
-        goals: ["sun"],
-        budget: 12000,
-        controls: [
-          {
-            node: "library",
-            port: "smart_volume.demand",
-            label: "Size of the library",
-            minimum: 500,
-            maximum: 6000,
-            step: 100,
-            costs_whom: "the hotel",
-          },
-        ],
-      },
-    },
-  });
-  return all;
-}
-
-async function started() {
-  const folder = mkdtempSync(join(tmpdir(), "room-"));
-  const invites = join(folder, "invites.json"),
-    source = join(folder, "room.json");
-  writeFileSync(source, JSON.stringify(scene()));
-  const program = spawn(process.env.BEHAVIOURLINKS, [
-    "serve",
-    source,
-    "--port",
-    "0",
-    "--bind",
-    "127.0.0.1",
-    "--journal",
-    folder,
-    "--invites",
-    invites,
-    "--page",
-    path_of("build/web"),
-  ]);
-  let said = "";
-  const address = await new Promise((found, failed) => {
-    const hear = (data) => {
-      said += data;
-      const match = /http:\/\/[\d.]+:\d+\/([A-Z]{4})/.exec(said);
-      if (match) found({ url: match[0], code: match[1] });
-    };
-    program.stdout.on("data", hear);
-    program.stderr.on("data", hear);
-    program.on("exit", () => failed(new Error(said)));
-  });
-  await new Promise((wait) => setTimeout(wait, 300));
-  const keys = JSON.parse(readFileSync(invites, "utf8"))[address.code];
-  const end = () => {
-    program.removeAllListeners("exit");
-    program.kill("SIGINT");
-    return new Promise((gone) => program.on("exit", gone)).then(() => rmSync(folder, { recursive: true, force: true }));
-  };
-  return { ...address, keys, end, said: () => said };
-}
-
-// The page of the facilitator cannot give role cards, so a connection of its own does.
-async function give_card(seat) {
-  const { origin, host } = new URL(room.url);
-  const socket = new WebSocket(`ws://${host}/ws`, "bl1", { origin });
-  await new Promise((open) => socket.on("open", open));
-  const heard = (t) =>
-    new Promise((found) =>
-      socket.on("message", (data) => {
-        const message = JSON.parse(data.toString());
-        if (message.t === t) found(message);
-      }),
-    );
-  socket.send(JSON.stringify({ t: "hello", room: room.code, run: "cards", kind: "page", invite: room.keys.facilitator, views: [] }));
-  await heard("welcome");
-  socket.send(
-    JSON.stringify({ t: "room", id: 1, e: { event: "set_role", arguments: { seat, role: "stakeholder", areas: [], card: "parents" } } }),
-  );
-  await heard("ack");
-  socket.close();
-}
-
-const room = await started();
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+const room = await start_room();
+const browser = await opened();
 const faults = [];
+let requests = 0;
 
-async function person(fragment, size = [390, 844]) {
-  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale: "en-GB" });
+async function person(fragment, size = [390, 844], path = room.url, more = {}) {
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale: "en-GB", ...more });
   const page = await context.newPage();
+  // Nothing comes from anywhere else, so that a room needs no way to the internet.
+  page.on("request", (request) => {
+    requests += 1;
+    if (new URL(request.url()).origin !== new URL(room.url).origin) faults.push(`a request to ${request.url()}`);
+  });
   page.setDefaultTimeout(15000);
   page.on("pageerror", (error) => faults.push(error.message));
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  await page.goto(room.url + fragment);
+  page.on("console", (message) => {
+    // The page without scripts names no icon, and browsers look for one.
+    if (message.type() === "error" && !message.location().url.endsWith("/favicon.ico"))
+      faults.push(`${message.text()} ${message.location().url}`);
+  });
+  await page.goto(path + fragment);
   return page;
 }
 async function joined(fragment, size) {
@@ -212,7 +97,10 @@ try {
   await heron.waitForSelector('.answer:has-text("Yes.")');
 
   // With a role card, a value is changed, changed back, and proposed in a draft that the facilitator accepts.
-  await give_card(2);
+  const row = '.people li:has-text("Lynx")';
+  await lead.click(`${row} summary`);
+  await lead.selectOption(`${row} label:has-text("Role card") select`, "parents");
+  await lead.waitForSelector(`${row} summary:has-text("Stakeholder"):has-text("Parents")`);
   await tab(heron, "Goals");
   await heron.waitForSelector('text="Sun in the gardens"');
   const field = "#control-library-smart_volume-demand-number";
@@ -244,10 +132,46 @@ try {
   await picture(other, "comment");
   const seats = await lead.locator(".people li").count();
   assert.equal(seats, 4);
+  await heron.waitForSelector('.control:has-text("Last changed by")');
+
+  // Who has no scripts joins, puts dots on things and at a place, and comments.
+  const plain = await person("", [390, 844], room.url.replace(/\/([A-Z]{4})$/, "/plain/$1"), { javaScriptEnabled: false });
+  await plain.click('button:has-text("Take part")');
+  await lead.click('.rows li:has-text("Where is a tower good?") button:has-text("Open")');
+  await lead.waitForSelector('.rows li:has-text("Where is a tower good?") button:has-text("Close")');
+  await plain.click('button:has-text("Show it as it is now")');
+  await plain.selectOption('select[name="d1_on"]', { label: "Library" });
+  await plain.selectOption('select[name="d2_on"]', { label: "the place below" });
+  await plain.selectOption('select[name="d2_is"]', { index: 1 });
+  await plain.fill('input[name="d2_x"]', "12.5");
+  await plain.fill('input[name="d2_y"]', "-3");
+  await picture(plain, "plain_dots");
+  await plain.click('section:has-text("Where is a tower good?") button');
+  await plain.waitForSelector(".notice");
+  assert.match(await plain.textContent(".notice"), /counted/);
+  assert.equal(await plain.inputValue('input[name="d2_x"]'), "12.5");
+  await plain.fill("textarea", "Without scripts.");
+  await plain.click('section:has-text("Comments") button');
+  await other.waitForSelector('.said:has-text("Without scripts.")');
+  await plain.screenshot({ path: `${shots}/real_plain.png`, fullPage: true });
+
+  // A beamer that was opened by the code alone watches, and is nobody who votes.
+  const beamer = await person("#beamer", [1920, 1080]);
+  await beamer.waitForSelector(".beamer .shape");
+  for (const what of ["Vote", "Comments", "Code", "Plan"]) {
+    await lead.click(`.segments button:text-is("${what}")`);
+    await beamer.waitForTimeout(500);
+    await picture(beamer, `beamer_${what.toLowerCase()}`);
+  }
+  assert.ok(Object.values(room.lead.views.room.seats).some((seat) => seat.role === "viewer" && seat.here));
   assert.deepEqual(faults, []);
-  console.log("ok the page and the real server");
+  console.log(`ok the page and the real server: ${requests} requests, none of them elsewhere`);
 } catch (error) {
-  for (const [i, page] of browser.contexts().flatMap((context) => context.pages()).entries()) await picture(page, `failed_${i}`);
+  for (const [i, page] of browser
+    .contexts()
+    .flatMap((context) => context.pages())
+    .entries())
+    await picture(page, `failed_${i}`);
   console.log(room.said().slice(-600));
   console.log(faults.join("\n"));
   throw error;

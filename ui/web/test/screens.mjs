@@ -315,6 +315,51 @@ async function leads(server) {
   await page.context().close();
 }
 
+/// Roles keep cards and areas; people see who looks at the page; the facilitator sees what would come of a proposal.
+async function people_and_cards(server) {
+  const { room } = server;
+  const other = await joined(server),
+    lead = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  const seat = Math.max(...[...room.links].map((link) => link.seat)) - 1;
+  room.seats[seat].areas = ["north"];
+  room.publish();
+  const row = `.people li:has-text("${room.seats[seat].name}")`;
+  await lead.waitForSelector(`${row}:has-text("Looks at the page")`);
+  await tab(other, "Plan");
+  await other.click('[data-node="library"]');
+  await lead.waitForSelector(`${row}:has-text("Looks at Library")`);
+  await lead.click(`${row} summary`);
+  await lead.selectOption(`${row} label:has-text("Role card") select`, "parents");
+  await lead.waitForSelector(`${row} summary:has-text("Stakeholder"):has-text("Parents of the quarter")`);
+  await lead.selectOption(`${row} label:has-text("Role of") select`, "designer");
+  await lead.waitForSelector(`${row} summary:has-text("Designer"):has-text("Parents of the quarter")`);
+  assert.deepEqual(room.seats[seat].areas, ["north"], "a change of the role keeps the areas");
+  assert.match(await lead.textContent(".proposal >> nth=0"), /Sun in the gardens[^]*3\.42\sh[^]*3\.9\sh \(\+0\.48\sh\)/);
+  assert.ok(room.log.some((m) => m.t === "want" && m.drafts?.includes("p1") && m.drafts.includes("p2")));
+  for (const page of [other, lead]) await page.context().close();
+}
+
+/// Two plans, one over the other, by two buttons and by keys.
+async function swipe(server) {
+  server.room.phase("Compare", ["draft"]);
+  const page = await joined(server);
+  await tab(page, "Ideas");
+  await page.click('.segments button:has-text("Proposals")');
+  await page.waitForSelector(".layers");
+  assert.equal(await page.locator(".layers .layer >> nth=0 >> .shape.other").count(), 1, "what differs is drawn thick");
+  const inset = () =>
+    page.evaluate(() => document.querySelectorAll(".layer")[1].style.clipPath.replace(/^inset\(0(px)? |% 0(px)?( 0(px)?)?\)$/g, ""));
+  assert.equal(await inset(), "50");
+  await page.click('.swipe button:has-text("More of “A larger library”")');
+  assert.equal(await inset(), "25");
+  await page.focus(".swipe input");
+  await page.keyboard.press("Home");
+  assert.equal(await inset(), "100");
+  assert.match(await page.textContent(".proposal >> nth=0"), /Otter has set 8,200, here it is 7,600/);
+  await look(page, "swipe_390x844");
+  await page.context().close();
+}
+
 async function dots_by_touch(server) {
   const { room } = server;
   room.phase("Vote", ["vote"]);
@@ -463,7 +508,21 @@ async function first_load(server) {
 // --- All of it ------------------------------------------------------------------------------------------------------
 
 const only = process.argv[2];
-const parts = { first_load, lost_connection, stale_change, leads, dots_by_touch, visitors_form, keyboard, pseudo_language, languages };
+const beamer = (server) => walk_beamer(server, [1024, 768], "light");
+const parts = {
+  beamer,
+  first_load,
+  lost_connection,
+  stale_change,
+  leads,
+  people_and_cards,
+  swipe,
+  dots_by_touch,
+  visitors_form,
+  keyboard,
+  pseudo_language,
+  languages,
+};
 for (const [name, part] of Object.entries(parts)) {
   if (only && only !== name) continue;
   const server = await serve();
@@ -481,11 +540,6 @@ for (const size of kSizes)
     server.stop();
     console.log(`ok walk ${size.join("x")} ${scheme}`);
   }
-if (!only || only === "walk") {
-  const server = await serve();
-  await walk_beamer(server, [1024, 768], "light");
-  server.stop();
-}
 await browser.close();
 console.log(
   `${counts.screens} screens looked at, ${counts.axe} times axe, ${counts.targets} targets measured, ${counts.requests} requests, ${faults.length} faults`,

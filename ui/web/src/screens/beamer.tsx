@@ -35,10 +35,11 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
   );
 }
 
-// The vote that is open, or else the last one with a result.
+// The vote that is open, or else the one that was open last, or else any with a result.
 function vote_shown(s: Session): Vote | null {
-  const votes = Object.values(s.views.votes);
-  return votes.find((vote) => vote.open) ?? [...votes].reverse().find((vote) => vote.result !== null && vote.count > 0) ?? null;
+  const votes = Object.values(s.views.votes),
+    last = s.lastVote === null ? undefined : s.views.votes[s.lastVote];
+  return votes.find((vote) => vote.open) ?? last ?? [...votes].reverse().find((vote) => vote.result !== null && vote.count > 0) ?? null;
 }
 
 function VoteLayout({ s }: { s: Session }): JSX.Element {

@@ -4,7 +4,7 @@ import { amount } from "../format";
 import { Icon, MarkState, StatusWord, Stepper, Title } from "../parts";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
-import type { Control, Seen } from "../wire";
+import type { Control, Goal, Seen } from "../wire";
 import { t } from "../words";
 
 /// The place of a control in the scene, as conditions name it.
@@ -50,9 +50,16 @@ function ControlRow({
         isDisabled={isDisabled}
         onChange={(value) => change(s, control, value, draft)}
       />
+      {control.by ? <p class="small faint">{t("changed_by", { name: control.by })}</p> : null}
       {costs ? <p class="small">{t("costs", { who: costs })}</p> : null}
     </li>
   );
+}
+
+/// A goal and how far it is, as a sentence.
+export function goal_sentence(goal: Pick<Goal, "value" | "target" | "unit" | "direction">): string {
+  const key = goal.direction === "at_least" ? "goal_at_least" : goal.direction === "at_most" ? "goal_at_most" : "goal_sentence";
+  return t(key, { value: amount(goal.value, goal.unit), target: amount(goal.target, goal.unit) });
 }
 
 /// The draft that the person works in: its changes are their own until they are proposed.
@@ -112,7 +119,7 @@ export function Card({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
                   <b>{goal.name}</b>
                   <StatusWord status={goal.status} />
                 </div>
-                <p>{t("goal_sentence", { value: amount(goal.value, goal.unit), target: amount(goal.target, goal.unit) })}</p>
+                <p>{goal_sentence(goal)}</p>
               </li>
             ))}
           </ul>

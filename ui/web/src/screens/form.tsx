@@ -1,7 +1,7 @@
 // A visitor adds something new: what it is, where it should stand, and how large it is.
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
-import { typed_number } from "../format";
+import { amount, typed_number } from "../format";
 import { Icon, MarkState, Title } from "../parts";
 import { PlanHere } from "../plan";
 import type { Session } from "../session";
@@ -19,11 +19,13 @@ export function Form({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const [name, setName] = useState(""),
     [size, setSize] = useState("");
   const volume = typed_number(size),
-    place = ui.place;
+    place = ui.place,
+    range = s.views.room.forms?.smart_volume?.demand;
+  const isOut = volume !== null && range !== undefined && (volume < range.minimum || volume > range.maximum);
   const missing = [
     name.trim() === "" ? t("form_needs_name") : "",
     place === null ? t("form_needs_place") : "",
-    volume === null || volume <= 0 ? t("form_needs_size") : "",
+    volume === null || volume <= 0 || isOut ? t("form_needs_size") : "",
   ].filter(Boolean);
   const send = (): void => {
     if (!place || volume === null) return;
@@ -58,11 +60,13 @@ export function Form({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <fieldset class="field">
         <legend>{t("form_size")}</legend>
         <div class="sizes">
-          {kSizes.map((one) => (
-            <button key={one.key} class="choice" aria-pressed={volume === one.volume} onClick={() => setSize(String(one.volume))}>
-              {t(one.key)}
-            </button>
-          ))}
+          {kSizes
+            .filter((one) => !range || (one.volume >= range.minimum && one.volume <= range.maximum))
+            .map((one) => (
+              <button key={one.key} class="choice" aria-pressed={volume === one.volume} onClick={() => setSize(String(one.volume))}>
+                {t(one.key)}
+              </button>
+            ))}
         </div>
         <label class="field inline">
           <span>{t("form_volume")}</span>
@@ -71,9 +75,15 @@ export function Form({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
             inputMode="decimal"
             autocomplete="off"
             value={size}
+            aria-invalid={isOut}
             onInput={(event) => setSize(event.currentTarget.value)}
           />
         </label>
+        {range ? (
+          <p class={isOut ? "wrong" : "small"}>
+            {t("form_range", { least: amount(range.minimum, range.unit), most: amount(range.maximum, range.unit) })}
+          </p>
+        ) : null}
       </fieldset>
       {missing.length > 0 && (name || size || place) ? (
         <p class="missing" aria-live="polite">

@@ -5,10 +5,12 @@ import { typed_number } from "../format";
 import { Avatar, Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
+import { useLook } from "../ui";
 import type { Ui } from "../ui";
-import type { Activity, Door, Json, Layout, Proposal, Role, Vote } from "../wire";
+import type { Activity, Door, Json, Layout, Proposal, Role, Seat, Vote } from "../wire";
 import { Key, t } from "../words";
 import { ProposalEntry } from "./proposals";
+import { TrialFigures } from "./trials";
 import { ResultOf, Turnout } from "./votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
@@ -26,7 +28,10 @@ function set_phase(s: Session, name: string, activities: Activity[], ends_at: nu
 
 function PhasePart({ s }: { s: Session }): JSX.Element {
   const { phase, paused, rate } = s.views.room;
-  const [plan, set] = useState<Plan>({ name: "", activities: phase?.activities ?? [], minutes: "10" });
+  const [typed, set] = useState<Plan | null>(null);
+  // Until something is typed, the form shows what holds now.
+  const plan = typed ?? { name: "", activities: phase?.activities ?? [], minutes: "10" };
+  const allowed = kActivities.filter((one) => phase?.activities.includes(one)).map((one) => t(`lead_${one}` as Key));
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
     { key: "lead_look", activities: [] },
@@ -54,6 +59,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
         <MarkState s={s} mark="lead/phase" />
       </header>
       <p class="lead">{phase?.name ? t("lead_phase_now", { name: phase.name }) : t("lead_phase_none")}</p>
+      {phase ? <p>{allowed.length > 0 ? t("lead_now_may", { what: allowed.join(", ") }) : t("lead_now_nothing")}</p> : null}
       <Timer s={s} ends_at={phase?.ends_at} />
       <div class="row">
         {phase && phase.ends_at > 0 ? (
@@ -184,6 +190,7 @@ function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposa
   return (
     <ProposalEntry s={s} proposal={proposal}>
       <>
+        <TrialFigures trial={proposal.trial} />
         <fieldset class="field">
           <legend>{t("proposal_steps")}</legend>
           {steps.map(({ word, i }) => {
@@ -254,10 +261,28 @@ function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.
   );
 }
 
-const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "beamer", "recorder"];
+const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "recorder"];
+
+// Somebody is away without a connection. With one, the page may still lie in a pocket.
+function presence_words(s: Session, number: string, seat: Seat): string {
+  if (!seat.here) return t("lead_away");
+  const presence = s.presences[number];
+  if (!presence) return t("lead_here");
+  if (presence.hidden) return t("lead_hidden");
+  const [node] = presence.holds ?? [];
+  return node ? t("lead_looks_at", { what: s.nameOf(node) }) : t("lead_active");
+}
+
+/// Gives a role, and keeps the card and the areas that somebody has.
+function set_role(s: Session, n: number, seat: Seat, change: { role?: string; card?: string }): void {
+  // A card makes a participant a stakeholder: others may not use its values.
+  const role = change.role ?? (change.card && seat.role === "participant" ? "stakeholder" : seat.role);
+  s.event("set_role", { seat: n, role, areas: seat.areas ?? [], card: change.card ?? seat.card ?? "" }, { mark: `lead/seat${n}` });
+}
 
 function People({ s }: { s: Session }): JSX.Element {
   const seats = Object.entries(s.views.room.seats ?? {}).sort((a, b) => Number(b[1].here) - Number(a[1].here));
+  const cards = s.views.room.cards ?? {};
   const here = seats.filter(([, seat]) => seat.here).length;
   return (
     <section class="panel">
@@ -275,7 +300,8 @@ function People({ s }: { s: Session }): JSX.Element {
                   <span class="grow">
                     <b>{seat.name}</b>
                     <span class="faint">
-                      {t(`role_${seat.role}` as Key)} · {t(seat.here ? "lead_here" : "lead_away")}
+                      {t(`role_${seat.role}` as Key)}
+                      {seat.card ? ` · ${cards[seat.card]?.name ?? seat.card}` : ""} · {presence_words(s, number, seat)}
                     </span>
                   </span>
                   <MarkState s={s} mark={mark} />
@@ -283,10 +309,7 @@ function People({ s }: { s: Session }): JSX.Element {
                 <div class="row">
                   <label class="field">
                     <span>{t("lead_role", { name: seat.name })}</span>
-                    <select
-                      value={seat.role}
-                      onChange={(event) => s.event("set_role", { seat: n, role: event.currentTarget.value }, { mark })}
-                    >
+                    <select value={seat.role} onChange={(event) => set_role(s, n, seat, { role: event.currentTarget.value })}>
                       {kRoles.map((role) => (
                         <option key={role} value={role}>
                           {t(`role_${role}` as Key)}
@@ -294,6 +317,19 @@ function People({ s }: { s: Session }): JSX.Element {
                       ))}
                     </select>
                   </label>
+                  {Object.keys(cards).length > 0 ? (
+                    <label class="field">
+                      <span>{t("lead_card", { name: seat.name })}</span>
+                      <select value={seat.card ?? ""} onChange={(event) => set_role(s, n, seat, { card: event.currentTarget.value })}>
+                        <option value="">{t("lead_card_none")}</option>
+                        {Object.entries(cards).map(([id, card]) => (
+                          <option key={id} value={id}>
+                            {card.name}
+                          </option>
+                        ))}
+                      </select>
+                    </label>
+                  ) : null}
                   <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
                     {t(seat.muted ? "lead_unmute" : "lead_mute")}
                   </button>
@@ -333,6 +369,9 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         onChange={(layout) => s.event("show", { layout }, { mark: "lead/show" })}
         choices={layouts.map((id) => ({ id, text: t(`show_${id}` as Key) }))}
       />
+      <p class="small">
+        {t("lead_beamer_open")} <b>{join_address(s)}#beamer</b>
+      </p>
       <header class="row spread">
         <h2>{t("lead_door")}</h2>
         <MarkState s={s} mark="lead/door" />
@@ -343,10 +382,16 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
         choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
       />
+      <p class="small">{t(`door_${room.door ?? "open"}_text` as Key)}</p>
       <h2>{t("lead_code")}</h2>
       <p>{t("lead_code_text")}</p>
       <p class="bigcode">{room.code}</p>
       <p class="small">{join_address(s)}</p>
+      {is_local() ? (
+        <p class="notice" role="status">
+          {t("lead_local")}
+        </p>
+      ) : null}
       <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
         {t("lead_big_code")}
       </button>
@@ -382,6 +427,9 @@ export function join_address(s: Session): string {
   return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
 }
 
+// An address of this computer alone, which no phone can open.
+const is_local = (): boolean => /^(localhost|127\..*|\[::1\])$/.test(window.location.hostname);
+
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
     <main class="largecode">
@@ -399,20 +447,28 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const votes = Object.entries(s.views.votes);
   const proposals = Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
   const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
+  useLook(
+    s,
+    proposals.map(([id]) => id),
+  );
+  // The page says above what to do after the end.
+  if (s.views.room.closed) return <Title>{t("tab_lead")}</Title>;
   return (
     <>
       <Title>{t("tab_lead")}</Title>
       <PhasePart s={s} />
-      {votes.length > 0 ? (
-        <section class="panel">
-          <h2>{t("lead_votes")}</h2>
+      <section class="panel">
+        <h2>{t("lead_votes")}</h2>
+        {votes.length > 0 ? (
           <ul class="rows">
             {votes.map(([id, vote]) => (
               <VoteRow key={id} s={s} id={id} vote={vote} />
             ))}
           </ul>
-        </section>
-      ) : null}
+        ) : (
+          <p class="small">{t("lead_no_votes")}</p>
+        )}
+      </section>
       {proposals.length > 0 ? (
         <section class="panel">
           <h2>{t("ideas_proposals")}</h2>

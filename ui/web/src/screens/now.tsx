@@ -23,7 +23,7 @@ export function task_of(s: Session, ui: Ui): Task {
   const open = Object.entries(s.views.votes).filter(([, vote]) => vote.open);
   const due = open.find(([id, vote]) => !s.hasVoted(id, vote) && s.mark(`vote/${id}`)?.state !== "sending");
   const hasCard = (s.views.card.controls ?? []).length > 0;
-  const canSpeak = s.you?.role !== "viewer" && s.you?.role !== "beamer";
+  const canSpeak = s.you?.role !== "viewer";
   if (due && canSpeak) return { kind: "vote", title: t("now_vote"), text: due[1].question, action: t("vote_now"), go: "votes" };
   if (activities.includes("change") && hasCard)
     return { kind: "card", title: t("now_change"), text: t("now_change_text"), action: t("open_card"), go: "card" };

@@ -7,6 +7,7 @@ import { PlanHere } from "../plan";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
 import { Key, t } from "../words";
+import { goal_sentence } from "./card";
 
 // Figures that every volume has come by the names of their ports.
 const kFigures: Record<string, Key> = {
@@ -121,7 +122,7 @@ export function Figures({ s }: { s: Session }): JSX.Element | null {
               <b>{figure.name}</b>
               <StatusWord status={figure.status} />
             </div>
-            <p>{t("goal_sentence", { value: amount(figure.value, figure.unit), target: amount(figure.target, figure.unit) })}</p>
+            <p>{goal_sentence(figure)}</p>
           </li>
         ))}
       </ul>

@@ -1,14 +1,33 @@
 // Own drafts, everybody's proposals, and two of them side by side in a table.
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
+import { number } from "../format";
 import { Icon, MarkState, Sure } from "../parts";
 import type { Session } from "../session";
+import { useLook } from "../ui";
 import type { Ui } from "../ui";
-import type { Draft, Proposal } from "../wire";
+import type { Conflict, Draft, Json, Proposal } from "../wire";
 import { Key, t } from "../words";
+import { TrialCells, TrialFigures, TwoPlans, figures_of_both } from "./trials";
 
 const kStates = ["proposed", "accepted", "rejected", "open"];
 export const state_word = (state: string): string => (kStates.includes(state) ? t(`proposal_state_${state}` as Key) : state);
+
+function value_word(value: Json | undefined): string | null {
+  if (typeof value === "number") return number(value);
+  if (typeof value === "string") return value;
+  return null;
+}
+
+/// What somebody else has made of the same place, with both values where they are short.
+export function conflict_words(one: Conflict): string {
+  const live = value_word(one.live),
+    draft = value_word(one.draft),
+    place = one.label || one.place;
+  return live !== null && draft !== null
+    ? t("conflict_values", { place, by: one.by, live, draft })
+    : t("conflict_at", { place, by: one.by });
+}
 
 function DraftEntry({ s, ui, id, draft }: { s: Session; ui: Ui; id: string; draft: Draft }): JSX.Element {
   const [why, set] = useState("");
@@ -28,6 +47,7 @@ function DraftEntry({ s, ui, id, draft }: { s: Session; ui: Ui; id: string; draf
       ) : (
         <p class="small">{t("draft_empty")}</p>
       )}
+      {draft.steps.length > 0 ? <TrialFigures trial={draft.trial} /> : null}
       {draft.misfits.map((misfit) => (
         <p class="wrong" key={misfit.step}>
           {t("misfit_at", { n: misfit.step + 1, why: misfit.why })}
@@ -125,7 +145,7 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
           <b>{t("proposal_conflicts")}</b>
           <ul>
             {proposal.conflicts.map((one) => (
-              <li key={one.place}>{t("conflict_at", { place: one.place, by: one.by })}</li>
+              <li key={one.place}>{conflict_words(one)}</li>
             ))}
           </ul>
         </div>
@@ -153,7 +173,8 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
     ) : (
       <>{t("none")}</>
     );
-  const both = [left, right];
+  const both = [left, right],
+    figures = figures_of_both(both);
   return (
     <table class="compare">
       <thead>
@@ -169,34 +190,48 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
         </tr>
       </thead>
       <tbody>
-        <tr>
-          <th scope="row">{t("compare_state")}</th>
-          {both.map((one, i) => (
-            <td key={i}>
-              {state_word(one.state)}
-              <br />
-              <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
-            </td>
-          ))}
-        </tr>
-        <tr>
-          <th scope="row">{t("proposal_why")}</th>
-          {both.map((one, i) => (
-            <td key={i}>{one.why || t("none")}</td>
-          ))}
-        </tr>
+        {isShort ? null : (
+          <tr>
+            <th scope="row">{t("compare_state")}</th>
+            {both.map((one, i) => (
+              <td key={i}>
+                {state_word(one.state)}
+                <br />
+                <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
+              </td>
+            ))}
+          </tr>
+        )}
+        {isShort && figures.length > 0 ? null : (
+          <tr>
+            <th scope="row">{t("proposal_why")}</th>
+            {both.map((one, i) => (
+              <td key={i}>{one.why || t("none")}</td>
+            ))}
+          </tr>
+        )}
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => (
             <td key={i}>{list(one.words.filter(Boolean).slice(0, isShort ? 3 : undefined))}</td>
           ))}
         </tr>
+        {figures_of_both(both)
+          .slice(0, isShort ? 2 : undefined)
+          .map((figure) => (
+            <tr key={figure.id}>
+              <th scope="row">{figure.name}</th>
+              {both.map((one, i) => (
+                <TrialCells key={i} figure={one.trial?.figures.find((other) => other.id === figure.id)} />
+              ))}
+            </tr>
+          ))}
         {isShort ? null : (
           <>
             <tr>
               <th scope="row">{t("proposal_conflicts")}</th>
               {both.map((one, i) => (
-                <td key={i}>{list(one.conflicts.map((conflict) => t("conflict_at", { place: conflict.place, by: conflict.by })))}</td>
+                <td key={i}>{list(one.conflicts.map(conflict_words))}</td>
               ))}
             </tr>
             <tr>
@@ -216,6 +251,7 @@ function Compare({ s, all }: { s: Session; all: [string, Proposal][] }): JSX.Ele
   const [pair, set] = useState<[string, string]>([all[0]?.[0] ?? "", all[1]?.[0] ?? ""]);
   const left = all.find(([id]) => id === pair[0])?.[1] ?? all[0]?.[1],
     right = all.find(([id]) => id === pair[1])?.[1] ?? all[1]?.[1];
+  const shown: [string, string] = [all.find(([, one]) => one === left)?.[0] ?? "", all.find(([, one]) => one === right)?.[0] ?? ""];
   if (!left || !right) return null;
   const choice = (label: Key, at: 0 | 1): JSX.Element => (
     <label class="field">
@@ -240,6 +276,7 @@ function Compare({ s, all }: { s: Session; all: [string, Proposal][] }): JSX.Ele
         {choice("compare_second", 1)}
       </div>
       <CompareTable s={s} left={left} right={right} />
+      <TwoPlans s={s} left={shown[0]} right={shown[1]} />
     </section>
   );
 }
@@ -247,6 +284,12 @@ function Compare({ s, all }: { s: Session; all: [string, Proposal][] }): JSX.Ele
 export function Proposals({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const all = Object.entries(s.views.proposals),
     drafts = Object.entries(s.views.drafts).filter(([, draft]) => draft.state !== "proposed" && draft.state !== "accepted");
+  const open = all.filter(([, one]) => one.state === "proposed");
+  // Two proposals are compared; own drafts come after them, and the server tries four in all.
+  useLook(
+    s,
+    [...open, ...drafts].map(([id]) => id),
+  );
   const canDraft = s.may("draft") && (s.views.card.controls ?? []).length > 0;
   return (
     <>
