@@ -73,6 +73,7 @@ Response Pages::health() const {
     const RoomHost::Health health = room->health();
     Json one = {{"code", code},        {"seats", health.seats}, {"guests", health.guests},
                 {"tick", health.tick}, {"seq", health.seq},     {"hash", health.hash}};
+    if (health.followers > 0) one["followers"] = health.followers;
     if (!health.problem.empty()) one["problem"] = health.problem;
     rooms.push_back(std::move(one));
     disk = std::max(disk, health.disk_seconds);

@@ -26,7 +26,7 @@ constexpr double kMessage = 5, kSlowest = 4096, kSilence = 25;  // [s], [bytes/s
 constexpr double kGoodbye = 0.7, kLastWords = 5;                // for the other side to close; to take what is on its way [s]
 constexpr double kFlood = 30;                                   // too fast for so long is a flood [s]
 // A page says ten things a second, and thirty in a burst; who sends more waits, because nothing more is read.
-constexpr double kPageRate = 10, kPageBurst = 30, kDesignerRate = 60;
+constexpr double kPageRate = 10, kPageBurst = 30, kDesignerRate = 60, kFollowerRate = 1000;
 
 // One WebSocket. The stream is plain or encrypted.
 template <class Stream>
@@ -133,7 +133,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     room_ = room == shared_.rooms.end() ? nullptr : room->second.get();
     is_greeted_ = true;
     socket_.read_message_max(is_program ? kMostDesignerFrame : kMostPageFrame);
-    rate_ = is_program ? kDesignerRate : kPageRate;
+    rate_ = hello->kind == "follower" ? kFollowerRate : is_program ? kDesignerRate : kPageRate;
     if (room_ == nullptr) close(CloseCode::no_seat, "there is no room with this code");
     if (room_ == nullptr || !room_->greet(this->shared_from_this(), *hello))
       return shared_.gate.note_failure(visit_.address, now());

@@ -26,6 +26,7 @@ constexpr std::array kLibraries = {
     Library{"nlohmann/json.hpp", "", true, "nlohmann/json.hpp (headers take nlohmann/json_fwd.hpp)"},
     Library{"muParser", "", true, "muParser"},
     Library{"sleef.h", "core/base/", true, "SLEEF"},
+    Library{"utf8proc.h", "core/base/", true, "utf8proc"},
     Library{"proj.h", "core/import/", true, "PROJ"},
     Library{"csv.h", "core/csv/", true, "libcsv"},
     Library{"embree3/", "core/sun/", true, "Embree"},

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -36,6 +37,7 @@ class RunningServer {
     auto room = RoomHost::open(folder_ / "room.blsession", "BKRT", BL_SOURCE_DIR + scene, how);
     if (!room) throw std::runtime_error(room.error().text());
     invites_ = (*room)->invites();
+    follow_key_ = (*room)->follow_key();
     server_->rooms().emplace("BKRT", std::move(*room));
     port_ = server_->port();
     thread_ = std::thread([this] { server_->run(); });
@@ -54,6 +56,7 @@ class RunningServer {
   }
   std::uint16_t port() const { return port_; }
   const std::string& invite(const std::string& role) const { return invites_.at(role); }
+  const std::string& follow_key() const { return follow_key_; }
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -65,6 +68,7 @@ class RunningServer {
   std::filesystem::path folder_;
   std::unique_ptr<Server> server_;
   std::map<std::string, std::string> invites_;
+  std::string follow_key_;
   std::uint16_t port_ = 0;
   std::thread thread_;
 };
