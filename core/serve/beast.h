@@ -33,7 +33,7 @@ inline constexpr std::chrono::seconds kHandshake{5};
 inline double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 inline std::string_view text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// A connection that is looked after twice a second.
+/// A connection that is looked after some times a second.
 class Watched {
  public:
   virtual ~Watched() = default;

@@ -253,7 +253,7 @@ class BeastServer : public Server {
   }
 
   void look_after(double time) {
-    static constexpr double kBetween = 0.5;  // [s]
+    static constexpr double kBetween = 0.2;  // [s]
     shared_.gate.turn(time);
     if (time - looked_ < kBetween) return;
     looked_ = time;

@@ -23,7 +23,7 @@ constexpr seconds kIdle{20};
 // What is sent slower than this is not waited for: five seconds, and one more for each four kilobytes that have come. Who says
 // nothing at all, not even that it is there, is gone.
 constexpr double kMessage = 5, kSlowest = 4096, kSilence = 25;  // [s], [bytes/s], [s]
-constexpr double kGoodbye = 0.7, kLastWords = 5;                // for the other side to close; to take what is on its way [s]
+constexpr double kGoodbye = 0.5, kLastWords = 5;                // for the other side to close; to take what is on its way [s]
 constexpr double kFlood = 30;                                   // too fast for so long is a flood [s]
 // A page says ten things a second, and thirty in a burst; who sends more waits, because nothing more is read.
 constexpr double kPageRate = 10, kPageBurst = 30, kDesignerRate = 60, kFollowerRate = 1000;
@@ -100,7 +100,12 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
   }
 
   void have_read(beast::error_code error) {
-    if (error || closing_ > 0) return gone();
+    if (error) return gone();
+    if (closing_ > 0) {
+      buffer_.consume(buffer_.size());
+      if (!has_said_goodbye_) read();  // the goodbye comes after what is on its way
+      return;
+    }
     if (!socket_.is_message_done()) {
       if (begun_ == 0) begun_ = now();
       return read();

@@ -79,6 +79,20 @@ Result<void> write_invites(const std::string& path, const serve::Rooms& rooms) {
   return write_file(path, write_json(all) + "\n");
 }
 
+// One line for scripts, the code for phones, and what only the facilitator should see.
+void tell_addresses(const ServeOptions& options, const serve::Rooms& rooms, int port) {
+  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
+  const std::string scheme = options.certificate.empty() ? "http" : "https";
+  for (const auto& [code, room] : rooms) {
+    const std::string address =
+        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string(port) + "/" + code;
+    print_line("room " + code + " at " + address);
+    if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
+    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
+    complain(room->title() + ": a second laptop follows by --follow " + address + " --token " + room->follow_key());
+  }
+}
+
 }  // namespace
 
 int serve_command(ServeOptions options) {
@@ -127,16 +141,7 @@ int serve_command(ServeOptions options) {
       print_error(options.invites, written.error());
       return kBadInput;
     }
-  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
-  const std::string scheme = options.certificate.empty() ? "http" : "https";
-  for (const auto& [code, room] : rooms) {
-    const std::string address =
-        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string((*server)->port()) + "/" + code;
-    print_line("room " + code + " at " + address);
-    if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
-    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
-    complain(room->title() + ": a second laptop follows by --follow " + address + " --token " + room->follow_key());
-  }
+  tell_addresses(options, rooms, (*server)->port());
   if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");
   catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a disk that is full, and no reason to end
