@@ -13,7 +13,7 @@ struct GateLimits {
   std::size_t half_open = 32;      ///< connections of an address that have not said yet what they want; more of them wait
   std::size_t connections = 256;   ///< of an address; more are refused. A school may stand behind one address.
   double patience = 5;             ///< so long one waits for its turn [s]
-  double failures = 60;            ///< wrong codes, invitations and tokens at once,
+  double failures = 60;            ///< wrong codes at once,
   double failures_per_second = 1;  ///< and afterwards
 };
 

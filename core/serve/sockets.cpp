@@ -132,16 +132,21 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     if (!visit_.has_origin && !is_program) return close(CloseCode::no_seat, "pages come from this server");
     if (!visit_.has_origin && hello->token.empty() && hello->invite.empty())
       return close(CloseCode::no_seat, "a window comes in by an invitation: copy the whole address, with what follows #");
-    if (!shared_.gate.may_try(visit_.address, now()))
-      return close(CloseCode::flood, "too many wrong codes or keys came from this address; wait a minute");
+    // Codes are short enough to be guessed. Tokens are not: whoever has one is never held up by what others tried, and learns
+    // nothing about a code.
+    const bool is_first = hello->token.empty();
+    if (is_first && !shared_.gate.may_try(visit_.address, now()))
+      return close(CloseCode::flood, "too many wrong codes came from this address; wait a minute");
     const auto room = shared_.rooms.find(hello->room);
-    room_ = room == shared_.rooms.end() ? nullptr : room->second.get();
+    if (room == shared_.rooms.end()) {
+      shared_.gate.note_failure(visit_.address, now());
+      return close(CloseCode::no_seat, is_first ? "there is no room with this code" : "this token opens no seat");
+    }
+    room_ = room->second.get();
     is_greeted_ = true;
     socket_.read_message_max(is_program ? kMostDesignerFrame : kMostPageFrame);
     rate_ = hello->kind == "follower" ? kFollowerRate : is_program ? kDesignerRate : kPageRate;
-    if (room_ == nullptr) close(CloseCode::no_seat, "there is no room with this code");
-    if (room_ == nullptr || !room_->greet(this->shared_from_this(), *hello))
-      return shared_.gate.note_failure(visit_.address, now());
+    if (!room_->greet(this->shared_from_this(), *hello)) return;
     visit_.pass->open();
   }
 
