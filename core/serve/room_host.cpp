@@ -145,6 +145,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
         if (entry.seq <= stored_seq_ && (!is_tail || entry.seq > have)) tail.push_back({entry, 0});
       if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_));
     }
+    who.welcomed_with = who.guest->unsent();
     if (!problem_.empty()) who.guest->send(frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})}));
     show(who);
   });
@@ -374,7 +375,7 @@ void RoomHost::turn() {
   for (auto& [key, visitor] : visitors_)
     if (room_->state().seat(visitor.seat) == nullptr)
       visitor.guest->close(CloseCode::removed, "the facilitator has closed this seat");
-    else if (visitor.guest->unsent() > kCloseAbove) visitor.guest->close(CloseCode::draining, "too much waits to be taken");
+    else if (visitor.guest->unsent() > kCloseAbove + visitor.welcomed_with) visitor.guest->close(CloseCode::draining, "too slow");
   for (auto& [key, visitor] : visitors_) show(visitor);  // who was too slow for the last views gets them now
   const double now = options_.clock->now();
   if (now - last_views_ < kBetweenViews) return;

@@ -83,7 +83,8 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted;
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
-    bool is_welcome = false;  // nothing is shown before: pages take the first of each view after it for the whole
+    bool is_welcome = false;        // nothing is shown before: pages take the first of each view after it for the whole
+    std::size_t welcomed_with = 0;  // the scene or the entries that it missed may be more than what else may wait [bytes]
   };
   /// Something to be told once the record that it stands in is stored.
   using Telling = std::function<void()>;
