@@ -1,6 +1,8 @@
 // Reads UTF-8 character by character; what is none, and what a terminal obeys, is written out.
 #include "core/base/printable.h"
 
+#include "core/base/words.h"
+
 #include <cstdio>
 
 namespace bl {
@@ -46,6 +48,15 @@ void append_code(std::string& out, const Character& character, unsigned char byt
 }
 
 }  // namespace
+
+bool is_harmless(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const Character character = character_at(text, i);
+    if (is_obeyed(character) && character.code != '\n') return false;
+    i += character.length;
+  }
+  return true;
+}
 
 std::string printable(std::string_view text) {
   std::string out;

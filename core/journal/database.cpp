@@ -189,6 +189,7 @@ Result<void> Database::checkpoint() {
 }
 
 Result<void> Database::close() {
+  session_.reset();
   statements_.clear();
   if (sqlite3* raw = database_.release(); sqlite3_close(raw) != SQLITE_OK) {
     database_.reset(raw);

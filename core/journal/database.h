@@ -13,6 +13,7 @@
 #include "core/base/result.h"
 
 struct sqlite3;
+struct sqlite3_session;
 struct sqlite3_stmt;
 
 namespace bl::journal {
@@ -68,6 +69,18 @@ class Database {
   /// Ends the work with the file; otherwise that happens with the object, and failures are not told.
   Result<void> close();
 
+  // Copies that are kept while the file is written (copying.cpp).
+  /// All of the file as bytes.
+  Result<std::string> bytes();
+  /// Makes this file the one that those bytes are, as one transaction.
+  Result<void> become(const std::string& bytes);
+  /// From now on changes of rows are noted.
+  Result<void> note_changes();
+  void stop_noting() { session_.reset(); }
+  /// Those since the last call, for `repeat` on a file that has all before them. Empty where nothing has changed.
+  Result<std::string> take_changes();
+  Result<void> repeat(const std::string& changes);
+
  private:
   struct CloseDatabase {
     void operator()(sqlite3* database) const;
@@ -75,12 +88,19 @@ class Database {
   struct EndStatement {
     void operator()(sqlite3_stmt* statement) const;
   };
+  struct EndSession {
+    void operator()(sqlite3_session* session) const;
+  };
   Error failure() const;
   Result<sqlite3_stmt*> prepared(const char* statement, std::initializer_list<Cell> cells);
 
   std::string path_;
   std::unique_ptr<sqlite3, CloseDatabase> database_;
   std::map<std::string, std::unique_ptr<sqlite3_stmt, EndStatement>, std::less<>> statements_;
+  std::unique_ptr<sqlite3_session, EndSession> session_;  // after the database: it ends before
 };
+
+/// Whether such changes take something out that shall be out for good: names, words, keys, secret ballots.
+Result<bool> erases_words(const std::string& changes);
 
 }  // namespace bl::journal

@@ -55,6 +55,12 @@ class Journal {
   /// so the log leads to the same hashes. The bytes are gone from the file when this returns. It may be repeated.
   Result<Erased> erase(std::int64_t seat);
 
+  /// The whole file as bytes, for a Copy elsewhere. From now on each change is handed out as well, once it is stored; an error
+  /// where it could not be, after which copies begin anew.
+  using Changed = std::function<void(const Result<std::string>&)>;
+  Result<std::string> copied(Changed changed);
+  void stop_copying();
+
   const RoomRow& room() const { return room_; }
   const Registry& registry() const { return *registry_; }
   std::int64_t last_seq() const { return last_seq_; }
@@ -99,6 +105,7 @@ class Journal {
   std::string last_chain_;
   /// Something was taken out that must not stay in what is not yet brought into the file.
   bool is_cleaning_due_ = false;
+  Changed changed_;
   std::optional<Loaded> loaded_;    ///< as it was found when the file was opened; only until the first change
   std::vector<Error> page_damage_;  ///< of a file that is open for reading only
 };

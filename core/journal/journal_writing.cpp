@@ -35,6 +35,8 @@ Result<void> Journal::change(const std::function<Result<void>()>& changes) {
     last_chain_ = last_chain;
     return told(done.error());
   }
+  if (changed_)
+    if (const auto noted = database_.take_changes(); !noted || !noted->empty()) changed_(noted);
   // A failure leaves the work to the next change: this one is on the disk already.
   if (is_cleaning_due_ && database_.checkpoint()) is_cleaning_due_ = false;
   return {};

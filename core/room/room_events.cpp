@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/words.h"
 #include "core/define/codec.h"
 #include "core/room/refusals.h"
 #include "core/room/room.h"
@@ -18,19 +19,6 @@ constexpr const char* kPseudonyms[] = {"Heron",  "Otter", "Lynx", "Badger", "Kes
 // Told apart by people who see few colours: Okabe and Ito, 2008.
 constexpr const char* kColours[] = {"#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"};
 
-// A character that moves or hides what stands around it: controls but the line break, and marks of direction (Unicode, UAX 9).
-bool has_hidden_marks(std::string_view text) {
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const auto c = static_cast<unsigned char>(text[k]);
-    if ((c < 0x20 && c != '\n') || c == 0x7f) return true;
-    if (c == 0xe2 && k + 2 < text.size()) {
-      const auto second = static_cast<unsigned char>(text[k + 1]), third = static_cast<unsigned char>(text[k + 2]);
-      if ((second == 0x80 && third >= 0xaa && third <= 0xae) || (second == 0x81 && third >= 0xa6 && third <= 0xa9)) return true;
-    }
-  }
-  return false;
-}
-
 template <class T>
 T value_of(const std::map<std::string, Value>& arguments, const char* name, T otherwise) {
   const auto found = arguments.find(name);
@@ -45,8 +33,7 @@ std::optional<Refusal> why_bad_words(const EventDefinition& kind, const std::map
     const std::size_t most = is_words ? kLongestText : 200;
     if (text->size() > most)
       return refuse(Reason::size, "arguments/" + name, "has " + std::to_string(most) + " characters at most", {{"most", most}});
-    if (has_hidden_marks(*text))
-      return refuse(Reason::bad, "arguments/" + name, "holds control characters or marks of direction");
+    if (!is_harmless(*text)) return refuse(Reason::bad, "arguments/" + name, "holds control characters or marks of direction");
   }
   return std::nullopt;
 }
@@ -65,6 +52,8 @@ Answer Room::say_event(const Said& said) {
   auto arguments =
       ports_from_json(kind->second, (**content).contains("arguments") ? (**content)["arguments"] : kNone, "arguments");
   if (!arguments) return refusal_of(Reason::bad, arguments.error());
+  for (auto& [argument, value] : *arguments)
+    if (auto* text = std::get_if<std::string>(&value)) *text = composed(*text);
   if (auto refusal = why_bad_words(kind->second, *arguments)) return *refusal;
   if (kind->first == "decide_proposal" && value_of(*arguments, "is_accepted", false))
     return accept(said, kind->second, *arguments);
@@ -246,6 +235,12 @@ std::variant<Admission, Refusal> Room::admit(const Invitation& invitation, Now n
   if (state_.is_closed) return refuse(Reason::closed, "", "the session is over");
   if (invitation.is_by_code && state_.door == Door::shut)
     return refuse(Reason::closed, "", "the door of this room is shut; ask the facilitator");
+  // Words of the person's own; an invitation is no place for a letter.
+  const std::string own_name = composed(invitation.name), contact = composed(invitation.contact);
+  for (const std::string* text : {&own_name, &contact, &invitation.language})
+    if (text->size() > 4 * kLongestName || !is_harmless(*text))
+      return refuse(Reason::bad, "name",
+                    "a name has " + std::to_string(kLongestName) + " characters at most, and no hidden marks");
   if (state_.seats.size() >= kMostSeats)
     return refuse(Reason::size, "", "the room has " + std::to_string(kMostSeats) + " seats, and all are taken");
   const bool only_watches = invitation.is_by_code && state_.door == Door::asks;
@@ -265,8 +260,8 @@ std::variant<Admission, Refusal> Room::admit(const Invitation& invitation, Now n
   const std::string digest = digest_of(admission.token);
   tokens_[digest] = seat;
   record_.tokens.push_back({seat, digest});
-  if (!invitation.name.empty() || !invitation.contact.empty() || !invitation.language.empty())
-    record_.persons.push_back({seat, invitation.name, invitation.contact, invitation.language, invitation.consent_at});
+  if (!own_name.empty() || !contact.empty() || !invitation.language.empty())
+    record_.persons.push_back({seat, own_name, contact, invitation.language, invitation.consent_at});
   return admission;
 }
 

@@ -16,6 +16,7 @@ enum class CloseCode : std::uint16_t {
   no_hello = 4408,
   replaced = 4409,
   too_large = 4413,
+  flood = 4429,
   draining = 4503
 };
 

@@ -9,7 +9,8 @@ namespace bl::serve {
 
 struct Request {
   std::string method, target, body;  ///< `target` as sent, with its query
-  std::string host;                  ///< the field Host
+  std::string host;                  ///< the field Host, or what a proxy says of it
+  std::string scheme = "http";       ///< or https
   bool takes_gzip = false;
 };
 

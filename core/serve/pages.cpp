@@ -73,6 +73,7 @@ Response Pages::health() const {
     const RoomHost::Health health = room->health();
     Json one = {{"code", code},        {"seats", health.seats}, {"guests", health.guests},
                 {"tick", health.tick}, {"seq", health.seq},     {"hash", health.hash}};
+    if (health.followers > 0) one["followers"] = health.followers;
     if (!health.problem.empty()) one["problem"] = health.problem;
     rooms.push_back(std::move(one));
     disk = std::max(disk, health.disk_seconds);
@@ -82,11 +83,11 @@ Response Pages::health() const {
 }
 
 // The address as the one who asks has it: that is the one that others reach as well.
-Response Pages::qr(const std::string& name, const std::string& host) const {
+Response Pages::qr(const std::string& name, const Request& request) const {
   const std::string code = code_in(name.substr(0, name.find('.')));
-  if (!rooms_->contains(code) || host.empty() || !name.ends_with(".svg"))
+  if (!rooms_->contains(code) || request.host.empty() || !name.ends_with(".svg"))
     return sentence(404, "There is no room with this code.");
-  auto svg = qr_svg(scheme_ + "://" + host + "/" + code);
+  auto svg = qr_svg(request.scheme + "://" + request.host + "/" + code);
   return svg ? Response{.type = "image/svg+xml", .body = std::move(*svg), .fields = {{"Cache-Control", "no-cache"}}}
              : sentence(414, svg.error().message);
 }
@@ -123,7 +124,7 @@ void Pages::answer(const Request& request, const Reply& reply) {
   }
   if (!is_read) return reply(sentence(404, "There is no such form."));
   if (path == "/health") return reply(health());
-  if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request.host));
+  if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request));
   if (path == "/plain.css")
     return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});
   if (path.starts_with("/assets/")) {

@@ -14,10 +14,8 @@ using Rooms = std::map<std::string, std::unique_ptr<RoomHost>>;
 
 class Pages {
  public:
-  /// `folder` holds the built page; where it is empty or has no index.html, the pages without scripts take its place. `scheme`:
-  /// http or https.
-  Pages(Rooms& rooms, std::string folder, std::string scheme)
-      : rooms_(&rooms), folder_(std::move(folder)), scheme_(std::move(scheme)) {}
+  /// `folder` holds the built page; where it is empty or has no index.html, the pages without scripts take its place.
+  Pages(Rooms& rooms, std::string folder) : rooms_(&rooms), folder_(std::move(folder)) {}
 
   /// Calls back once, perhaps later: what a form says is stored first.
   void answer(const Request& request, const Reply& reply);
@@ -25,12 +23,12 @@ class Pages {
  private:
   Response door() const;
   Response health() const;
-  Response qr(const std::string& name, const std::string& host) const;
+  Response qr(const std::string& name, const Request& request) const;
   Response file(const std::string& path, bool is_immutable, bool takes_gzip) const;
   void plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply);
 
   Rooms* rooms_;
-  std::string folder_, scheme_;
+  std::string folder_;
 };
 
 }  // namespace bl::serve

@@ -62,6 +62,7 @@ void RoomHost::say(const std::function<void(room::Now now)>& words) {
 }
 
 bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hello) {
+  if (hello.kind == "follower") return greet_follower(guest, hello);
   std::int64_t seat = hello.token.empty() ? 0 : room_->seat_of_token(hello.token);
   std::string token;
   if (seat == 0 && !hello.token.empty()) {
@@ -106,7 +107,7 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
   Visitor& visitor = visitors_[guest.get()];
   visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views)};
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
-  welcome(visitor, token, hello.have);
+  welcome(visitor, token, hello.epoch == 0 || hello.epoch == epoch_ ? hello.have : 0);
   flush();
   return true;
 }
@@ -129,7 +130,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
                                  {"card", seat->card}});
     message.room = JsonValue::of({{"code", code_}, {"title", title_}});
     message.limits = JsonValue::of({{"text", room::kLongestText}, {"parts", room::kMostParts}});
-    message.epoch = 1;
+    message.epoch = epoch_;
     message.seq = stored_seq_;
     message.tick = session_->moment()->state->tick;
     message.rate = room_->state().rate;
@@ -146,6 +147,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
         if (entry.seq <= stored_seq_ && (!is_tail || entry.seq > have)) tail.push_back({entry, 0});
       if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_));
     }
+    who.welcomed_with = who.guest->unsent();
     if (!problem_.empty()) who.guest->send(frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})}));
     show(who);
   });
@@ -153,7 +155,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
 
 void RoomHost::hear(Guest& guest, std::string_view text) {
   const auto found = visitors_.find(&guest);
-  if (found == visitors_.end()) return;
+  if (found == visitors_.end()) return (void)followers_->hear(guest, text);
   Visitor& visitor = found->second;
   const auto frame = wire::read_frame(text);
   if (!frame) return guest.close(CloseCode::bad_frame, frame.error().text());
@@ -191,7 +193,7 @@ void RoomHost::submit(Visitor& visitor, const room::Operation& operation) {
 
 void RoomHost::leave(Guest& guest) {
   const auto found = visitors_.find(&guest);
-  if (found == visitors_.end()) return;
+  if (found == visitors_.end()) return (void)followers_->leave(guest);
   const std::int64_t seat = found->second.seat;
   visitors_.erase(found);
   const bool is_elsewhere =
@@ -250,8 +252,8 @@ void RoomHost::flush() {
 
 void RoomHost::stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
                       const Result<void>& result) {
-  --commits_under_way_;
   if (!result) {
+    --commits_under_way_;
     if (problem_.empty()) {
       problem_ = result.error().text();
       problem_since_ = options_.clock->now();
@@ -260,6 +262,13 @@ void RoomHost::stored(std::int64_t seq, std::vector<Telling> tellings, std::vect
     }
     return;  // who waits for an answer asks again
   }
+  followers_->when_kept(
+      [this, seq, tellings = std::move(tellings), entries = std::move(entries)] { tell(seq, tellings, entries); });
+}
+
+void RoomHost::tell(std::int64_t seq, const std::vector<Telling>& tellings,
+                    const std::vector<std::shared_ptr<const std::string>>& entries) {
+  --commits_under_way_;
   stored_seq_ = std::max(stored_seq_, seq);
   for (const auto& frame : entries)
     for (auto& [key, visitor] : visitors_)
@@ -358,6 +367,7 @@ void RoomHost::follow_pace() {
 }
 
 void RoomHost::turn() {
+  followers_->turn();
   if (!problem_.empty()) return recover();
   // Whoever says something wakes the ticks; a room where nothing happens lets them rest.
   if (room_->waits_for_time()) {
@@ -367,7 +377,7 @@ void RoomHost::turn() {
   for (auto& [key, visitor] : visitors_)
     if (room_->state().seat(visitor.seat) == nullptr)
       visitor.guest->close(CloseCode::removed, "the facilitator has closed this seat");
-    else if (visitor.guest->unsent() > kCloseAbove) visitor.guest->close(CloseCode::draining, "too much waits to be taken");
+    else if (visitor.guest->unsent() > kCloseAbove + visitor.welcomed_with) visitor.guest->close(CloseCode::draining, "too slow");
   for (auto& [key, visitor] : visitors_) show(visitor);  // who was too slow for the last views gets them now
   const double now = options_.clock->now();
   if (now - last_views_ < kBetweenViews) return;
@@ -429,6 +439,7 @@ RoomHost::Health RoomHost::health() const {
   Health health;
   for (const auto& [number, seat] : room_->state().seats) health.seats += seat.is_removed ? 0 : 1;
   health.guests = visitors_.size();
+  health.followers = followers_->count();
   const auto moment = session_->moment();
   health.tick = moment->state->tick;
   health.seq = stored_seq_;

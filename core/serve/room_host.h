@@ -13,6 +13,7 @@
 #include "core/host/live_session.h"
 #include "core/journal/writer.h"
 #include "core/room/room.h"
+#include "core/serve/followers.h"
 #include "core/serve/guest.h"
 #include "core/wire/messages.h"
 #include "core/wire/views.h"
@@ -25,6 +26,7 @@ struct RoomHostOptions {
   host::Clock* clock = &host::real_clock();
   std::function<std::int64_t()> wall_time;                   ///< [ms since 1970]
   std::function<void(std::function<void()>)> on_own_thread;  ///< runs a task on the thread that uses the host; from any thread
+  bool takes_over = false;  ///< another laptop had the room, and may have had more of it: its windows begin anew
 };
 
 /// All of it belongs to one thread, but for the ticks and the disk, which have threads of their own.
@@ -41,6 +43,8 @@ class RoomHost {
   const std::string& title() const { return title_; }
   /// By role: keys that give a seat of that role; the same ones for as long as the session file exists.
   const std::map<std::string, std::string>& invites() const { return invites_; }
+  /// The key by which a second laptop follows the room. A facilitator's token does so, too.
+  const std::string& follow_key() const { return follow_key_; }
 
   // Connections.
   /// The first message of a guest. False where the guest is sent away.
@@ -65,7 +69,7 @@ class RoomHost {
   wire::View view(std::string_view name, std::int64_t seat);
 
   struct Health {
-    std::size_t seats = 0, guests = 0;
+    std::size_t seats = 0, guests = 0, followers = 0;
     std::int64_t tick = 0, seq = 0;
     std::string hash, problem;
     double disk_seconds = 0;
@@ -79,7 +83,8 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted;
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
-    bool is_welcome = false;  // nothing is shown before: pages take the first of each view after it for the whole
+    bool is_welcome = false;        // nothing is shown before: pages take the first of each view after it for the whole
+    std::size_t welcomed_with = 0;  // the scene or the entries that it missed may be more than what else may wait [bytes]
   };
   /// Something to be told once the record that it stands in is stored.
   using Telling = std::function<void()>;
@@ -93,12 +98,15 @@ class RoomHost {
   Result<void> begin(const journal::Loaded& loaded);
   Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning) const;
   void make_invites(const std::vector<room::TokenRecord>& tokens);
+  bool greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello);
   void submit(Visitor& visitor, const room::Operation& operation);
   void say(const std::function<void(room::Now now)>& words);
   /// Hands to the disk what has been said, and what is to be told after it.
   void flush();
   void stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
               const Result<void>& result);
+  void tell(std::int64_t seq, const std::vector<Telling>& tellings,
+            const std::vector<std::shared_ptr<const std::string>>& entries);
   void recover();
   void follow_pace();
   void publish();
@@ -114,9 +122,11 @@ class RoomHost {
   std::unique_ptr<host::LiveSession> session_;
   std::unique_ptr<room::Room> room_;
   std::unique_ptr<journal::Writer> writer_;
+  std::unique_ptr<Followers> followers_;
   std::string beginning_;  // the scene file before the first entry
-  std::int64_t base_ = 0;
+  std::int64_t base_ = 0, epoch_ = 1;
   std::map<std::string, std::string> invites_;  // by role
+  std::string follow_key_;
   std::map<Guest*, Visitor> visitors_;
   std::vector<Telling> tellings_;  // of what has been said since the last flush
   std::int64_t stored_seq_ = 0;

@@ -48,11 +48,18 @@ Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path
   if (!loaded) return loaded.error();
   host->code_ = (*journal)->room().code;
   host->title_ = (*journal)->room().title;
+  if (host->options_.takes_over) {
+    journal::RoomRow row = (*journal)->room();
+    ++row.epoch;
+    if (auto changed = (*journal)->change_room(row); !changed) return changed.error();
+  }
+  host->epoch_ = (*journal)->room().epoch;
   host::Clock* clock = host->options_.clock;
   host->writer_ = std::make_unique<journal::Writer>(
       std::move(*journal), journal::Writer::Clock{[clock] { return clock->now(); },
                                                   [clock](std::condition_variable& wake, std::unique_lock<std::mutex>& lock,
                                                           double until) { clock->wait(wake, lock, until); }});
+  host->followers_ = std::make_unique<Followers>(*host->writer_, host->options_.on_own_thread, *clock);
   if (auto begun = host->begin(*loaded); !begun) return begun.error();
   host->flush();
   return host;
@@ -139,6 +146,18 @@ void RoomHost::make_invites(const std::vector<room::TokenRecord>& tokens) {
     const std::string name(kRoleNames[static_cast<std::size_t>(role)]);
     invites_[name] = room::keyed_digest_of(key, name, 16);
   }
+  follow_key_ = room::keyed_digest_of(key, "follow", 32);
+}
+
+// A laptop gets all that this one has, so it comes in by a facilitator's key only.
+bool RoomHost::greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello) {
+  const room::Seat* seat = room_->state().seat(room_->seat_of_token(hello.token));
+  if ((seat == nullptr || seat->role != Role::facilitator) && !room::is_same_secret(follow_key_, hello.token)) {
+    guest->close(CloseCode::no_seat, "a room is followed by the token that its server has printed, or by a facilitator's");
+    return false;
+  }
+  followers_->add(guest);
+  return true;
 }
 
 RoomHost::~RoomHost() { close(); }
@@ -147,9 +166,11 @@ void RoomHost::close() {
   if (!is_alive_) return;
   for (auto& [key, visitor] : visitors_) visitor.guest->close(CloseCode::draining, "the room is being closed");
   visitors_.clear();
+  if (followers_) followers_->close();
   if (session_ && writer_ && problem_.empty()) store_hash();
   is_alive_.reset();
   session_.reset();
+  followers_.reset();
   writer_.reset();  // stores what waits
 }
 

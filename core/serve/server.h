@@ -16,6 +16,7 @@ struct ServerOptions {
   std::uint16_t port = 8080;     ///< 0: any free one
   std::string page_folder;       ///< of the built page; may be empty
   std::string certificate, key;  ///< PEM files; both for TLS, or neither
+  std::string proxy;             ///< the address of a proxy in front of the server; what it says of those it asks for is believed
 };
 
 class Server {

@@ -299,7 +299,10 @@ class BadRequests(RoomCase):
             connection.sendall(b"GET / HT")
         for connection in slow:
             connection.settimeout(20)
-            self.assertIn(connection.recv(10), (b"", b"HTTP/1.1 4"))
+            try:
+                self.assertIn(connection.recv(10), (b"", b"HTTP/1.1 4"))
+            except ConnectionResetError:
+                pass  # who had to wait for its turn is not even read
             connection.close()
         self.assertLess(time.monotonic() - began, 20)
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,10 +64,15 @@ int minutes_command(const MinutesOptions& options);
 struct ServeOptions {
   std::vector<std::string> sources;  ///< scenes and session files
   int port = 8080;
-  std::string bind = "0.0.0.0", journal, invites, page, certificate, key;
+  std::string bind = "0.0.0.0", journal, invites, page, certificate, key, proxy;
   bool is_live = false, scripts = false;
+  std::string follow, token, trust;  ///< of a second laptop: the room of the first, its key, and whose certificates are believed
+  bool is_safe = false;
+  double take_over = 0;  ///< [s]; 0: only when somebody says so
 };
-int serve_command(const ServeOptions& options);
+int serve_command(ServeOptions options);
+/// Follows a room until it is to be taken over: then there is no exit code, and the options name the copy as what to serve.
+std::optional<int> follow_room(ServeOptions& options);
 
 struct CompareOptions {
   std::string first, second;

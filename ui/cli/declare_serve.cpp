@@ -4,12 +4,37 @@
 
 namespace bl::cli {
 
+namespace {
+
+void declare_follow(CLI::App& c, CLI::Option& sources, ServeOptions& o) {
+  auto* follow =
+      c.add_option("--follow", o.follow,
+                   "Serves nothing yet, but keeps a copy of the room at this address (room://HOST:PORT/CODE) in the file of "
+                   "--journal, and takes the room over when it is told to.")
+          ->type_name("URL")
+          ->excludes(&sources);
+  c.add_option("--token", o.token, "With --follow: the key that the first laptop has printed, or a facilitator's token.")
+      ->type_name("KEY")
+      ->needs(follow);
+  c.add_option("--trust", o.trust, "With --follow: whose certificates are believed, as PEM. Default: the system's authorities.")
+      ->type_name("FILE")
+      ->needs(follow);
+  c.add_flag("--safe", o.is_safe, "With --follow: people get an answer only once this laptop has stored it, too.")->needs(follow);
+  c.add_option("--take-over", o.take_over,
+               "With --follow: takes the room over by itself when the first laptop has been gone for so many seconds.")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(5.0, 3600.0))
+      ->needs(follow);
+}
+
+}  // namespace
+
 void declare_serve(CLI::App& app, ServeOptions& o) {
   CLI::App& c =
       *app.add_subcommand("serve", "Opens a room for a scene: people join by a code, and everything they say is stored.");
-  c.add_option("sources", o.sources, "Scene files, each for a room of its own; or session files, which are continued.")
-      ->type_name("SCENE|FILE.blsession")
-      ->required();
+  auto* sources =
+      c.add_option("sources", o.sources, "Scene files, each for a room of its own; or session files, which are continued.")
+          ->type_name("SCENE|FILE.blsession");
   c.add_option("--port", o.port, "The port for pages and connections; 0 for any free one. Default: 8080.")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
@@ -30,13 +55,23 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
   certificate->needs(key);
   c.add_flag("--live", o.is_live, "Lets facilitators set addresses of sensors and actuators, and names of files.");
   c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
-  files_of(c).reads({"sources", "--journal", "--page", "--certificate", "--key"}).writes("--invites", FileKind::figures);
+  c.add_option("--behind-proxy", o.proxy,
+               "The address of a proxy in front of the server. What it says in X-Forwarded-For, -Host and -Proto is believed.")
+      ->type_name("ADDRESS");
+  declare_follow(c, *sources, o);
+  files_of(c)
+      .reads({"sources", "--journal", "--page", "--certificate", "--key", "--trust"})
+      .writes("--invites", FileKind::figures);
   c.footer(
       "One line for each room says its code and its address; another one the address of the facilitator. Whoever opens the "
       "first\n"
       "address takes part under the name of an animal. What is acknowledged is on the disk. Ctrl-C closes the rooms in order.\n"
       "GET /health says how the rooms are.\n\n"
-      "Example:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n\n"
+      "What a second laptop needs to follow is printed, too. When the first is gone, the second takes over at Enter, at SIGUSR1, "
+      "or\n"
+      "after --take-over seconds; then it serves the room as the first did.\n\n"
+      "Examples:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n"
+      "  behaviourlinks serve --follow room://192.168.1.5:8080/BKRT --token KEY --journal copy.blsession\n\n"
       "Exit codes: 0 closed in order; 2 bad input, or the port or the file is in use.");
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <thread>
@@ -71,18 +72,43 @@ std::string journal_of(const ServeOptions& options, const std::string& source) {
 
 Result<void> write_invites(const std::string& path, const serve::Rooms& rooms) {
   Json all = Json::object();
-  for (const auto& [code, room] : rooms) all[code] = room->invites();
+  for (const auto& [code, room] : rooms) {
+    all[code] = room->invites();
+    all[code]["follow"] = room->follow_key();
+  }
   return write_file(path, write_json(all) + "\n");
+}
+
+// One line for scripts, the code for phones, and what only the facilitator should see.
+void tell_addresses(const ServeOptions& options, const serve::Rooms& rooms, int port) {
+  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
+  const std::string scheme = options.certificate.empty() ? "http" : "https";
+  for (const auto& [code, room] : rooms) {
+    const std::string address =
+        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string(port) + "/" + code;
+    print_line("room " + code + " at " + address);
+    if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
+    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
+    complain(room->title() + ": a second laptop follows by --follow " + address + " --token " + room->follow_key());
+  }
 }
 
 }  // namespace
 
-int serve_command(const ServeOptions& options) {
+int serve_command(ServeOptions options) {
+  const bool has_followed = !options.follow.empty();
+  if (!has_followed && options.sources.empty()) {
+    print_error("serve", {ErrorCode::missing, "", "expects a scene, a session file, or --follow"});
+    return kBadInput;
+  }
+  if (has_followed)
+    if (const auto code = follow_room(options)) return *code;
   serve::ServerOptions how{.address = options.bind,
                            .port = static_cast<std::uint16_t>(options.port),
                            .page_folder = options.page,
                            .certificate = options.certificate,
-                           .key = options.key};
+                           .key = options.key,
+                           .proxy = options.proxy};
   if (how.page_folder.empty())
     if (const char* page = std::getenv("BEHAVIOURLINKS_PAGE")) how.page_folder = page;
   auto server = serve::Server::open(how);
@@ -94,6 +120,7 @@ int serve_command(const ServeOptions& options) {
   serve::RoomHostOptions room_options;
   room_options.allowances = {.scripts = options.scripts, .live = options.is_live};
   room_options.wall_time = wall_time;
+  room_options.takes_over = has_followed;
   room_options.on_own_thread = [&server](std::function<void()> task) { (*server)->post(std::move(task)); };
   for (const std::string& source : options.sources) {
     std::string code = new_code();
@@ -114,17 +141,10 @@ int serve_command(const ServeOptions& options) {
       print_error(options.invites, written.error());
       return kBadInput;
     }
-  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
-  const std::string scheme = options.certificate.empty() ? "http" : "https";
-  for (const auto& [code, room] : rooms) {
-    const std::string address =
-        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string((*server)->port()) + "/" + code;
-    print_line("room " + code + " at " + address);
-    if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
-    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
-  }
+  tell_addresses(options, rooms, (*server)->port());
   if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");
   catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a disk that is full, and no reason to end
   // Signals set a flag; this thread looks at it, because a handler may not do more.
   std::thread watch([&server] {
     while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -1,0 +1,72 @@
+// Boost.Beast as both ends of the server see it, and what all of its connections share. Only server.cpp and sockets.cpp include
+// it.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "core/serve/gate.h"
+#include "core/serve/pages.h"
+
+namespace bl::serve {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Tcp = asio::ip::tcp;
+using PlainStream = beast::tcp_stream;
+using SecureStream = beast::ssl_stream<beast::tcp_stream>;
+
+inline constexpr std::chrono::seconds kHandshake{5};
+
+/// Seconds since a fixed moment.
+inline double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+inline std::string_view text_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// A connection that is looked after some times a second.
+class Watched {
+ public:
+  virtual ~Watched() = default;
+  virtual void watch(double now) = 0;
+};
+
+/// What the connections of one server share. All of it belongs to the server's thread.
+struct Shared {
+  explicit Shared(asio::io_context& the_context) : context(the_context) {}
+  asio::io_context& context;
+  Rooms rooms;
+  std::optional<Pages> pages;
+  std::optional<asio::ssl::context> tls;
+  std::string proxy;
+  Gate gate;
+  /// Outlives the connections, which leave it.
+  std::shared_ptr<std::set<Watched*>> watched = std::make_shared<std::set<Watched*>>();
+  bool is_stopping = false;
+};
+
+/// What every answer has (OWASP ASVS 5.0, V3.4): nothing from elsewhere, nothing inline, nobody's frame.
+void add_security(http::fields& fields, const std::string& host);
+
+/// A connection that wants to be a WebSocket.
+struct Visit {
+  std::unique_ptr<Gate::Pass> pass;
+  std::string address;
+  bool has_origin = false;
+};
+/// Makes it one, and lives as long as it does.
+template <class Stream>
+void begin_visit(Stream stream, Shared& shared, Visit visit, const http::request<http::string_body>& request);
+extern template void begin_visit(PlainStream, Shared&, Visit, const http::request<http::string_body>&);
+extern template void begin_visit(SecureStream, Shared&, Visit, const http::request<http::string_body>&);
+
+}  // namespace bl::serve
