@@ -135,6 +135,7 @@ void Room::follow(const LogEntry& entry) {
   // A rewind takes back what was done to the scene, not what people have voted.
   if (entry.command.id != "cast_vote") inverses_.emplace_back(entry.seq, std::move(inverse_));
   inverse_.clear();
+  scene_seq_ = entry.seq;
   if (inverses_.size() > kKeptInverses) inverses_.pop_front();
   touches_.clear();
 }

@@ -84,8 +84,12 @@ class Room {
   // What there is.
   const RoomState& state() const { return state_; }
   const Scene& scene() const { return ledger_->scene(); }
+  /// The number of the last entry that has changed the scene; 0 where none has.
+  std::int64_t scene_seq() const { return scene_seq_; }
   const std::map<std::string, Draft>& drafts() const { return drafts_; }
-  /// The scene of a draft; the draft must be there.
+  /// A draft whose scene follows the head of the log, with what of it fits; it must be there.
+  const Draft& follow_draft(const std::string& draft);
+  /// Its scene.
   const Scene& scene_of(const std::string& draft);
   /// What a draft changes, and with whom it meets; the draft must be there.
   DraftSummary summary_of(const std::string& draft);
@@ -162,7 +166,7 @@ class Room {
   // Of the entry that is being made.
   std::vector<Touch> touches_;
   std::vector<Command> inverse_;
-  std::int64_t text_count_ = 0;
+  std::int64_t text_count_ = 0, scene_seq_ = 0;
 };
 
 }  // namespace bl::room

@@ -165,6 +165,8 @@ void RoomHost::hear(Guest& guest, std::string_view text) {
     const auto want = wire::read_message<wire::Want>(*frame);
     if (!want) return guest.close(CloseCode::bad_frame, want.error().text());
     visitor.wanted = known_views(want->views);
+    const auto most = std::min(want->drafts.size(), wire::Want::kMostDrafts);
+    visitor.looks_at = {want->drafts.begin(), want->drafts.begin() + static_cast<std::ptrdiff_t>(most)};
     std::erase_if(visitor.shown, [&](const auto& one) { return !visitor.wanted.contains(one.first); });
     is_changed_ = true;
     show(visitor);
@@ -285,6 +287,7 @@ void RoomHost::recover() {
       [this, loaded, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
         options_.on_own_thread([this, loaded, result, is_alive] {
           if (is_alive.expired() || !result || !*loaded) return;
+          trials_.clear();
           session_.reset();
           room_.reset();
           tellings_.clear();
@@ -371,7 +374,15 @@ void RoomHost::turn() {
   if (now - last_views_ < kBetweenViews) return;
   last_views_ = now;
   keep_records();
+  try_drafts();
   publish();
+}
+
+void RoomHost::try_drafts() {
+  std::map<std::int64_t, std::set<std::string>> looked_at;
+  for (const auto& [key, visitor] : visitors_) looked_at[visitor.seat].insert(visitor.looks_at.begin(), visitor.looks_at.end());
+  trials_.follow(*room_, looked_at, [this] { return session_->coming_state(); });
+  is_changed_ = trials_.has_news() || is_changed_;
 }
 
 // Views of a moment that has read unstored entries wait until these are stored.

@@ -14,6 +14,7 @@
 #include "core/journal/writer.h"
 #include "core/room/room.h"
 #include "core/serve/guest.h"
+#include "core/serve/trial_runner.h"
 #include "core/wire/messages.h"
 #include "core/wire/views.h"
 
@@ -77,7 +78,7 @@ class RoomHost {
     std::shared_ptr<Guest> guest;
     std::int64_t seat = 0;
     std::string run, kind;
-    std::set<std::string> wanted;
+    std::set<std::string> wanted, looks_at = {};                          // views and drafts
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
     bool is_welcome = false;  // nothing is shown before: pages take the first of each view after it for the whole
   };
@@ -101,13 +102,14 @@ class RoomHost {
               const Result<void>& result);
   void recover();
   void follow_pace();
+  void try_drafts();
   void publish();
   void show();
   void show(Visitor& visitor);
   void store_hash();
   void keep_records();
   void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
-  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_}; }
+  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown()}; }
 
   std::string code_, title_;
   RoomHostOptions options_;
@@ -128,6 +130,7 @@ class RoomHost {
   std::shared_ptr<const host::Moment> seen_;               // the moment of the last views
   std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
   std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
+  TrialRunner trials_;
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };
 

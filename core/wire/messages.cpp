@@ -75,7 +75,12 @@ void DraftOp::declare(MessageBuilder<DraftOp>& m) {
 }
 void Want::declare(MessageBuilder<Want>& m) {
   m.from_page().id("want").doc("The views that are to be followed from now on.");
-  m.field(&Want::views, "views").required().doc("`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`.");
+  m.field(&Want::views, "views")
+      .required()
+      .doc(
+          "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, "
+          "`draft_plans`.");
+  m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }
 void Seen::declare(MessageBuilder<Seen>& m) {
   m.from_page().id("seen").doc("How far a page has come.");

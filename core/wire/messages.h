@@ -49,7 +49,8 @@ struct DraftOp {
   static void declare(MessageBuilder<DraftOp>& m);
 };
 struct Want {
-  std::vector<std::string> views;
+  static constexpr std::size_t kMostDrafts = 4;
+  std::vector<std::string> views, drafts;
   static void declare(MessageBuilder<Want>& m);
 };
 struct Seen {
