@@ -30,6 +30,7 @@ class Draft {
 
   const std::string& id() const { return id_; }
   const std::string& title() const { return title_; }
+  void set_title(std::string title) { title_ = std::move(title); }
   std::int64_t seat() const { return seat_; }
   std::int64_t base() const { return base_; }
   DraftState state() const { return state_; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,9 +21,17 @@
 
 namespace bl::room {
 
+/// A running state that was kept with a scenario.
+struct KeptState {
+  std::int64_t tick = 0;
+  std::string hash;
+};
+
 struct RoomOptions {
   Allowances allowances = {};
   RandomBytes random = system_random_bytes;
+  /// The running state of a scenario, where whoever holds the room has kept one. Without it no scenario can be returned to.
+  std::function<std::optional<KeptState>(const std::string& scenario)> kept_state = {};
 };
 
 /// When something is said: the tick that will read it, and the host's clock, which decides about pens only and is stored for the
@@ -93,8 +102,12 @@ class Room {
   const Scene& scene_of(const std::string& draft);
   /// What a draft changes, and with whom it meets; the draft must be there.
   DraftSummary summary_of(const std::string& draft);
+  /// The scenario to whose running state the session has to go back, if what was said since the last call asks for that.
+  std::string take_restart() { return std::exchange(restart_, {}); }
   /// The words of a comment, a reason, a note; nothing where there are none of that name.
   const TextRecord* text(const std::string& id) const;
+  /// The same as words. Logs of earlier programs hold some titles themselves: of those it gives what it was asked.
+  std::string words(const std::string& id) const;
   /// What has to be stored since the last call, in the order in which it was said.
   Record take_record() { return std::exchange(record_, {}); }
 
@@ -121,6 +134,9 @@ class Room {
   Answer say_event(const Said& said);
   Answer take_back(const Said& said);
   Answer rewind(const Said& said);
+  Answer restart(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
+  /// What takes back everything since that entry, in the order to apply.
+  std::variant<std::vector<Command>, Refusal> way_back_to(std::int64_t seq) const;
   Answer change_draft(const Said& said);
   Answer add_to_draft(const Said& said, const Command& command);
   Answer accept(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
@@ -166,6 +182,7 @@ class Room {
   // Of the entry that is being made.
   std::vector<Touch> touches_;
   std::vector<Command> inverse_;
+  std::string restart_;
   std::int64_t text_count_ = 0, scene_seq_ = 0;
 };
 

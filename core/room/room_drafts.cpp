@@ -137,7 +137,7 @@ Answer Room::accept(const Said& said, const EventDefinition& kind, const std::ma
   judging.most_parts = kMostSteps;
   if (auto refusal = why_not(judging, whole, scene())) return *refusal;
   Submission submission{.command = whole, .author = RoomState::author_of_seat(draft.seat())};
-  submission.label = draft.title().empty() ? id : draft.title();
+  submission.label = "Draft " + id;  // not its title: those are words of a person, which can be erased
   if (auto put_in = put(std::move(submission), said.now, id, said.seat); !put_in) return refusal_of_scene(put_in.error());
   std::map<std::string, Value> told = arguments;
   told["kept"] = count;

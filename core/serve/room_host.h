@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "core/host/device_door.h"
 #include "core/host/live_session.h"
 #include "core/journal/writer.h"
 #include "core/room/room.h"
 #include "core/serve/guest.h"
 #include "core/serve/trial_runner.h"
+#include "core/session/session.h"
 #include "core/wire/messages.h"
 #include "core/wire/views.h"
 
@@ -24,6 +26,7 @@ struct RoomHostOptions {
   room::Allowances allowances = {};
   room::RandomBytes random = room::system_random_bytes;
   host::Clock* clock = &host::real_clock();
+  std::optional<live::LiveOptions> live = {};                ///< how sensors and actuators are connected; none: they are not
   std::function<std::int64_t()> wall_time;                   ///< [ms since 1970]
   std::function<void(std::function<void()>)> on_own_thread;  ///< runs a task on the thread that uses the host; from any thread
 };
@@ -92,10 +95,15 @@ class RoomHost {
 
   RoomHost(std::string code, RoomHostOptions options) : code_(std::move(code)), options_(std::move(options)) {}
   Result<void> begin(const journal::Loaded& loaded);
-  Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning) const;
+  Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning);
+  Result<void> follow_return(Session& session, const LogEntry& entry);
   void make_invites(const std::vector<room::TokenRecord>& tokens);
   void submit(Visitor& visitor, const room::Operation& operation);
   void say(const std::function<void(room::Now now)>& words);
+  room::Answer ask(std::int64_t seat, const room::Operation& operation);
+  static Result<std::shared_ptr<const State>> state_of(const journal::Snapshot& snapshot);
+  std::optional<room::KeptState> kept_state(const std::string& scenario);
+  void store_scenarios();
   /// Hands to the disk what has been said, and what is to be told after it.
   void flush();
   void stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
@@ -103,6 +111,8 @@ class RoomHost {
   void recover();
   void follow_pace();
   void try_drafts();
+  void serve_devices();
+  void bring_readings();
   void publish();
   void show();
   void show(Visitor& visitor);
@@ -131,6 +141,17 @@ class RoomHost {
   std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
   std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
   TrialRunner trials_;
+  std::unique_ptr<host::DeviceDoor> devices_;
+  std::int64_t brought_ = -1;   // the tick for which readings were brought last
+  std::string device_trouble_;  // the last reading that was refused
+  struct Unstored {
+    std::int64_t seq = 0;
+    Scene scene;
+    std::shared_ptr<const State> state;
+  };
+  std::map<std::string, std::shared_ptr<const State>> kept_;  // by scenario: its running state
+  std::map<std::string, Unstored> unstored_;                  // by scenario: those that the file does not have yet
+  std::map<std::string, journal::Snapshot> stored_;           // by scenario: those of the file, when it was opened
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };
 

@@ -118,8 +118,13 @@ void SceneOut::declare(MessageBuilder<SceneOut>& m) {
 }
 void Ops::declare(MessageBuilder<Ops>& m) {
   m.id("ops").doc("Entries of the log, after they are stored.");
-  m.field(&Ops::e, "e").required().doc("[{s, k, a, g, c or v, by, d}].");
+  m.field(&Ops::e, "e")
+      .required()
+      .doc(
+          "[{s, k, a, g, c or v, by, d}]; a restart has `back`, the entry to whose running state it goes, and `state`, its "
+          "hash.");
   m.field(&Ops::d, "d").required().doc("Number of the last stored entry.");
+  m.field(&Ops::epoch, "epoch").min(0).doc("Grows with each return to a scenario: ticks go back.");
 }
 void Ack::declare(MessageBuilder<Ack>& m) {
   m.id("ack").doc("The operation is stored.");

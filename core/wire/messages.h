@@ -85,7 +85,7 @@ struct SceneOut {
 };
 struct Ops {
   JsonValue e = JsonValue::null();
-  std::int64_t d = 0;
+  std::int64_t d = 0, epoch = 0;
   static void declare(MessageBuilder<Ops>& m);
 };
 struct Ack {

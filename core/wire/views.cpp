@@ -37,8 +37,10 @@ std::string seat_name(const room::RoomState& state, const std::string& author) {
 View room_view(const ViewSources& sources) {
   const room::RoomState& state = sources.room.state();
   View view;
-  Json phase = {
-      {"name", state.phase.name}, {"activities", Json::array()}, {"ends_at", state.phase.ends_at}, {"forms", state.phase.forms}};
+  Json phase = {{"name", sources.room.words(state.phase.name)},
+                {"activities", Json::array()},
+                {"ends_at", state.phase.ends_at},
+                {"forms", state.phase.forms}};
   for (const Activity activity : state.phase.activities)
     phase["activities"].push_back(kActivityNames[static_cast<std::size_t>(activity)]);
   Json seats = Json::object();
@@ -58,6 +60,17 @@ View room_view(const ViewSources& sources) {
     for (const auto& [name, area] : state.areas) areas[name] = {{"pen", area.pen}, {"asking", area.asking}};
     return areas;
   }());
+  put(view, "scenarios", [&] {
+    Json scenarios = Json::object();
+    for (const auto& [id, scenario] : state.scenarios)
+      scenarios[id] = {{"name", sources.room.words(scenario.name)},
+                       {"note", sources.room.words(scenario.note)},
+                       {"seat", scenario.seat},
+                       {"seq", scenario.seq},
+                       {"tick", scenario.tick}};
+    return scenarios;
+  }());
+  put(view, "epoch", state.epoch);
   put(view, "door", room::kDoorNames[static_cast<std::size_t>(state.door)]);
   put(view, "layout", state.layout);
   put(view, "paused", state.is_paused);
@@ -249,7 +262,7 @@ View proposals_view(const ViewSources& sources) {
   const room::RoomState& state = sources.room.state();
   for (const auto& [id, proposal] : state.proposals) {
     Json json = {{"seat", proposal.seat},
-                 {"title", proposal.title},
+                 {"title", sources.room.words(proposal.title)},
                  {"why", words_of(sources.room, proposal.why)},
                  {"state", room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]},
                  {"steps", proposal.steps},

@@ -156,14 +156,14 @@ TEST(MinutesOfVotes, AVoteThatBecameSecretHasNoSeatsBefore) {
 
 TEST_F(Minutes, PhasesAndProposalsAreToldInOrder) {
   ASSERT_EQ(account.phases.size(), 2u) << "another timer is no other phase";
-  EXPECT_EQ(account.phases[0].phase.name, "Look around");
+  EXPECT_EQ(account.title_words(account.phases[0].phase.name), "Look around");
   EXPECT_EQ(account.phases[0].end->seq, account.phases[1].begin.seq);
   EXPECT_EQ(account.phases[1].phase, state().phase);
   EXPECT_FALSE(account.phases[1].end);
   ASSERT_EQ(account.proposals.size(), 3u);
   EXPECT_EQ(account.proposals[0].proposal.kept, 1);
   EXPECT_EQ(account.proposals[0].proposal.steps, 2);
-  EXPECT_EQ(account.proposals[1].proposal.title, "Lower south");
+  EXPECT_EQ(account.title_words(account.proposals[1].proposal.title), "Lower south");
   EXPECT_EQ(account.proposals[1].proposal.state, room::ProposalState::rejected);
   EXPECT_EQ(account.words(account.proposals[1].proposal.answer), "Too low");
   EXPECT_EQ(account.proposals[2].proposal, state().proposals.at("e"));
