@@ -159,6 +159,7 @@ Result<void> RoomHost::follow_return(Session& session, const LogEntry& entry) {
   LogEntry back = entry;
   back.seq = 0;  // entries are numbered anew here
   back.source = {};
+  back.state_hash.clear();  // a room goes on also where another version of the program gives other hashes
   return session.replay(back);
 }
 

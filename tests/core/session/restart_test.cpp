@@ -27,7 +27,7 @@ class Return {
     if (done) back_.insert(back_.begin(), inverse.begin(), inverse.end());
   }
   std::string go(std::int64_t from, const std::string& hash) {
-    if (!back_.empty()) EXPECT_EQ(world_.submit(command<Batch>({std::exchange(back_, {})}), "lead"), "");
+    if (!back_.empty()) { EXPECT_EQ(world_.submit(command<Batch>({std::exchange(back_, {})}), "lead"), ""); }
     LogEntry entry{.tick = world_.state().tick, .gesture = world_.session().new_gesture()};
     entry.author = "lead";
     entry.restarts_from = from;
