@@ -127,7 +127,7 @@ class Restarting : public ::testing::Test {
 };
 
 TEST_F(Restarting, GoesBackAndTellsEverybodyAndTheFileAgrees) {
-  ASSERT_EQ(event("set_pace", {{"rate", 50}})["t"], "ack");
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
   run_for(300);
   const Json saved = event("save_scenario", {{"id", "before"}, {"name", "Before"}});
   ASSERT_EQ(saved["t"], "ack");
@@ -153,7 +153,7 @@ TEST_F(Restarting, GoesBackAndTellsEverybodyAndTheFileAgrees) {
 }
 
 TEST_F(Restarting, TheWayBackIsInTheFile) {
-  ASSERT_EQ(event("set_pace", {{"rate", 50}})["t"], "ack");
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
   run_for(200);
   const std::int64_t tick = event("save_scenario", {{"id", "early"}})["k"];
   ASSERT_EQ(demand(9000)["t"], "ack");
