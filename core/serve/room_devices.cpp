@@ -5,12 +5,17 @@
 
 namespace bl::serve {
 
-void RoomHost::serve_devices() {
+// Before the first tick as well, or recordings would begin in the middle.
+void RoomHost::follow_devices() {
   if (!options_.live) return;
   if (!devices_) devices_ = std::make_unique<host::DeviceDoor>(*options_.live);
   if (devices_->follow(session_->said(), session_->last_seq()) && devices_->has_recordings() != session_->do_ticks_wait())
     session_->make_ticks_wait(devices_->has_recordings());
-  if (devices_->is_empty()) return;
+}
+
+void RoomHost::serve_devices() {
+  follow_devices();
+  if (!devices_ || devices_->is_empty()) return;
   bring_readings();
   flush();
   // A machine does not act on what could still be lost.

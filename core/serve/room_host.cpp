@@ -288,7 +288,6 @@ void RoomHost::recover() {
         options_.on_own_thread([this, loaded, result, is_alive] {
           if (is_alive.expired() || !result || !*loaded) return;
           trials_.clear();
-          brought_ = -1;
           session_.reset();
           room_.reset();
           tellings_.clear();

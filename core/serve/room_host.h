@@ -111,6 +111,7 @@ class RoomHost {
   void recover();
   void follow_pace();
   void try_drafts();
+  void follow_devices();
   void serve_devices();
   void bring_readings();
   void publish();

@@ -90,6 +90,9 @@ Result<void> RoomHost::begin(const journal::Loaded& loaded) {
     for (const auto& [number, seat] : std::map(room_->state().seats))
       if (seat.is_here) room_->note_presence(number, false, now);
   });
+  devices_.reset();
+  brought_ = -1;
+  follow_devices();
   follow_pace();
   return {};
 }
