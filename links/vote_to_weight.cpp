@@ -23,9 +23,9 @@ struct VoteToWeight {
   };
   struct Ends {
     std::string vote;
-    Table results;
-    std::int64_t ballots = 0, electorate = 0;
-    double turnout = 0;
+    Table results, decided;
+    std::int64_t ballots = 0, decided_ballots = 0, electorate = 0;
+    double turnout = 0, decided_turnout = 0;
     bool is_open = false, is_shown = false;
   };
   struct Out {
@@ -38,7 +38,7 @@ struct VoteToWeight {
     l.doc(
         "Lets the result of a vote act on the scene. The share of an option becomes a number between two others, and the numbers "
         "of all rows are added. The link proposes nothing before the result counts, and says why; the target is then what people "
-        "have set.");
+        "have set. While a vote is open again, the result of its last close stays in force.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::mapping, "mapping")
         .column({.id = "option",
@@ -57,11 +57,14 @@ struct VoteToWeight {
         .range(0, 1)
         .doc("The link acts only from this turnout on. Above 0 the vote has to know how many may vote.");
     l.param(&In::when, "when",
-            {{When::closed, "closed", "The link acts once the vote is closed."},
+            {{When::closed, "closed", "The link acts once the vote has been closed."},
              {When::shown, "shown", "The link acts as soon as the result may be shown, also while people vote."}})
         .doc("When the result counts.");
     l.reads(&Ends::vote, End::from, "node.id");
     l.reads(&Ends::results, End::from, "vote.results");
+    l.reads(&Ends::decided, End::from, "vote.decided");
+    l.reads(&Ends::decided_ballots, End::from, "vote.decided_ballots", Unit::count);
+    l.reads(&Ends::decided_turnout, End::from, "vote.decided_turnout", Unit::ratio);
     l.reads(&Ends::ballots, End::from, "vote.ballot_count", Unit::count);
     l.reads(&Ends::turnout, End::from, "vote.turnout", Unit::ratio);
     l.reads(&Ends::electorate, End::from, "vote.electorate", Unit::count);
@@ -77,14 +80,15 @@ struct VoteToWeight {
       remark(tick, LinkRemark::short_of, *waits);
       return Out{};
     }
+    const Table& counted = in.when == When::closed ? ends.decided : ends.results;
     double value = 0;
     for (std::size_t row = 0; row < in.mapping.rows.size(); ++row) {
       const std::string& option = in.mapping.text(row, "option");
-      const std::size_t result = ends.results.row_of("option", option);
-      if (result == ends.results.rows.size())
+      const std::size_t result = counted.row_of("option", option);
+      if (result == counted.rows.size())
         return Error{ErrorCode::not_found, "mapping/" + std::to_string(row) + "/option",
-                     "the vote `" + ends.vote + "` has no option `" + option + "`" + did_you_mean(option, options_of(ends))};
-      const double share = ends.results.number(result, "share");
+                     "the vote `" + ends.vote + "` has no option `" + option + "`" + did_you_mean(option, options_of(counted))};
+      const double share = counted.number(result, "share");
       value += in.mapping.number(row, "least") * (1 - share) + in.mapping.number(row, "most") * share;
     }
     if (!std::isfinite(value))
@@ -98,20 +102,23 @@ struct VoteToWeight {
     const auto waits = [&](const char* place, const std::string& why) {
       return Error{ErrorCode::infeasible, place, vote + why + ", so that it does not act yet"};
     };
-    if (in.when == When::closed && ends.is_open) return waits("when", "is still open");
-    if (!ends.is_shown) return waits("when", "does not show its result before it is closed");
-    if (ends.ballots == 0) return waits("from", "has no ballot");
+    const bool is_of_close = in.when == When::closed;
+    const std::int64_t ballots = is_of_close ? ends.decided_ballots : ends.ballots;
+    const double turnout = is_of_close ? ends.decided_turnout : ends.turnout;
+    if (is_of_close && ends.is_open && ballots == 0) return waits("when", "is still open");
+    if (!is_of_close && !ends.is_shown) return waits("when", "does not show its result before it is closed");
+    if (ballots == 0) return waits("from", "has no ballot");
     if (!(in.minimum_turnout > 0)) return std::nullopt;
     if (ends.electorate == 0)
       return waits("minimum_turnout", "does not know how many may vote: set its `electorate`, or ask for no turnout");
-    if (ends.turnout >= in.minimum_turnout) return std::nullopt;
+    if (turnout >= in.minimum_turnout) return std::nullopt;
     return waits("minimum_turnout",
-                 "has a turnout of " + rough(100 * ends.turnout) + " % and needs " + rough(100 * in.minimum_turnout) + " %");
+                 "has a turnout of " + rough(100 * turnout) + " % and needs " + rough(100 * in.minimum_turnout) + " %");
   }
 
-  static std::vector<std::string> options_of(const Ends& ends) {
+  static std::vector<std::string> options_of(const Table& counted) {
     std::vector<std::string> options;
-    for (std::size_t row = 0; row < ends.results.rows.size(); ++row) options.push_back(ends.results.text(row, "option"));
+    for (std::size_t row = 0; row < counted.rows.size(); ++row) options.push_back(counted.text(row, "option"));
     return options;
   }
 };

@@ -13,6 +13,12 @@ namespace {
 
 struct Vote {
   enum class Shows { at_once, when_closed };
+  // A decision stays in force until another one takes its place.
+  struct Decided {
+    Table shares{{"option", "share"}, {}};
+    std::int64_t ballots = 0;
+    double turnout = 0;
+  };
   struct In {
     std::string question, unit;
     vote::Kind kind = vote::Kind::yes_no;
@@ -22,8 +28,10 @@ struct Vote {
     double least = 0, most = 100;
     Shows shows = Shows::when_closed;
     Shared<Table> ballots;
+    Decided last;
   };
   struct Out {
+    Decided decided;
     std::int64_t ballots = 0, unreadable = 0;
     double turnout = 0, mean = 0, median = 0;
     std::string leading;
@@ -40,6 +48,7 @@ struct Vote {
     declare_question(t);
     declare_rules(t);
     declare_count(t);
+    declare_decided(t);
   }
 
   static void declare_question(TypificationBuilder<Vote>& t) {
@@ -122,6 +131,19 @@ struct Vote {
         .doc("The ballots that are not counted.");
   }
 
+  static void declare_decided(TypificationBuilder<Vote>& t) {
+    t.memory(&Out::decided, &In::last, &Decided::shares, "decided")
+        .column({.id = "option", .is_text = true, .default_value = std::string(), .doc = "The option; `mean` for a slider."})
+        .column({.id = "share", .unit = Unit::ratio, .doc = "Its share of all points when the vote was closed last."})
+        .doc("The result of the last close. It stays in force while the vote is open again.");
+    t.memory(&Out::decided, &In::last, &Decided::ballots, "decided_ballots")
+        .unit(Unit::count)
+        .doc("Number of ballots that were counted at the last close; 0 before the first one.");
+    t.memory(&Out::decided, &In::last, &Decided::turnout, "decided_turnout")
+        .unit(Unit::ratio)
+        .doc("The turnout at the last close.");
+  }
+
   static Result<Out> evaluate(const In& in, const Tick&) {
     if (const auto unit = stored_unit(in.unit); !unit) return unit.error().within("unit");
     const auto question = vote::question_of({in.kind, {}, in.points, in.is_whole_ranking, in.least, in.most}, in.options);
@@ -138,6 +160,10 @@ struct Vote {
     out.mean = counted.mean;
     out.median = counted.median;
     out.is_shown = in.shows == Shows::at_once || !in.is_open;
+    out.decided = in.last;
+    if (in.is_open) return out;
+    out.decided = {Table{{"option", "share"}, {}}, out.ballots, out.turnout};
+    for (const vote::Tally& tally : counted.tallies) out.decided.shares.rows.push_back({tally.option, tally.share});
     return out;
   }
 };

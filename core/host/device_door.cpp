@@ -17,15 +17,17 @@ constexpr double kUsualTick = 0.05;  // [s] where there is no sensor
 double tick_length(const Scene& scene, const Registry& registry) {
   std::optional<double> shortest;
   for (const auto& [id, node] : scene.nodes)
-    if (const auto seconds = reading::setting<&reading::SensorFigures::tick_length>(scene, registry, node))
-      shortest = std::min(shortest.value_or(*seconds), *seconds);
+    for (const auto& seconds : {reading::setting<&reading::SensorFigures::tick_length>(scene, registry, node),
+                                reading::setting<&reading::PeopleFigures::tick_length>(scene, registry, node)})
+      if (seconds) shortest = std::min(shortest.value_or(*seconds), *seconds);
   return shortest && *shortest > 0 ? *shortest : kUsualTick;
 }
 
 bool has_recordings(const Scene& scene, const Registry& registry) {
   return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const auto& entry) {
-    const auto address = reading::setting<&reading::SensorFigures::address>(scene, registry, entry.second);
-    return address && address->starts_with("replay:");
+    const auto plays = [](const std::optional<std::string>& address) { return address && address->starts_with("replay:"); };
+    return plays(reading::setting<&reading::SensorFigures::address>(scene, registry, entry.second)) ||
+           plays(reading::setting<&reading::PeopleFigures::address>(scene, registry, entry.second));
   });
 }
 

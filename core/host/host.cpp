@@ -44,7 +44,7 @@ void Host::begin_journal(const std::string& scene_path, const std::string& scene
 std::vector<Error> Host::recover(const std::vector<LogEntry>& entries) {
   std::vector<Error> misfits;
   for (const LogEntry& entry : entries) {
-    if (entry.rewinds_to) continue;
+    if (entry.is_return()) continue;
     if (auto done = session_->recover(entry); !done)
       misfits.push_back(done.error().within("journal entry " + std::to_string(entry.seq)));
   }

@@ -112,7 +112,7 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
 
 void Journal::add(const LogEntry& entry, const Registry& registry) {
   // A recovery wants what was said, whatever the ticks; but it wants them in order, and after a rewind they are not.
-  if (!writer_ || entry.rewinds_to) return;
+  if (!writer_ || entry.is_return()) return;
   LogEntry ordered = gestures_.fitted(entry);
   gestures_.take(ordered);
   last_tick_ = ordered.tick = std::max(entry.tick, last_tick_);

@@ -76,6 +76,27 @@ void LiveSession::say(const std::function<void(Ledger& ledger, std::int64_t tick
   words(ledger_, shared_->next_tick);
 }
 
+void LiveSession::say_between_ticks(
+    const std::function<std::shared_ptr<const State>(Ledger& ledger, const std::shared_ptr<const State>& coming)>& words) {
+  std::unique_lock lock(shared_->mutex);
+  Shared& shared = *shared_;
+  shared.end_rest();
+  shared.wait_between_ticks(lock);
+  shared.call_off_failed_rewind();
+  (void)gestures_.say_due(shared.next_tick, kFarAhead);
+  shared.gather_changes();
+  const auto coming =
+      shared.pending ? shared.simulation.with_scene(*shared.pending, shared.pending_placed) : shared.simulation.state();
+  auto earlier = words(ledger_, coming);
+  if (!earlier) return;
+  shared.gather_changes();
+  if (shared.pending) shared.simulation.set_scene(*shared.pending, shared.pending_placed);
+  shared.pending.reset();
+  shared.pending_placed.clear();
+  shared.go_on_from(std::move(earlier));
+  shared.publish();
+}
+
 Result<void> LiveSession::show(const Command& command, std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
   shared_->begin_to_hear();

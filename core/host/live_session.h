@@ -74,6 +74,10 @@ class LiveSession {
   /// Runs words that change the ledger between two ticks, told the tick that will read them: for whoever checks what people say
   /// before it is applied. Of the holder's thread, as all of this.
   void say(const std::function<void(Ledger& ledger, std::int64_t tick)>& words);
+  /// The same while no tick runs: told the state with which the coming tick will begin. Where the words give a state, such as one
+  /// that was told before, the session goes back to it under the scene that they have left; they have logged that as a restart.
+  void say_between_ticks(
+      const std::function<std::shared_ptr<const State>(Ledger& ledger, const std::shared_ptr<const State>& coming)>& words);
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
   /// One frame of a gesture of the holder: it is shown at once, and logged at most ten times a second (`OpenGestures`).
   Result<void> show(const Command& command, std::int64_t gesture);

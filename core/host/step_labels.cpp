@@ -180,4 +180,15 @@ std::string label_of_step(const Registry& registry, const Command& command, cons
   return label + (subject.empty() ? "" : " · " + subject) + what;
 }
 
+std::string label_of_place(const Touch& place, const Scene& scene) {
+  std::string what = place.path;
+  for (const char* prefix : {"types/", "parameters/"})
+    if (what.starts_with(prefix)) what = what.substr(std::string(prefix).size());
+  // Of `smart_volume/demand` the port is enough.
+  if (place.part == ScenePart::node && place.path.starts_with("types/") && what.find('/') != std::string::npos)
+    what = what.substr(what.find('/') + 1);
+  const std::string subject = place.part == ScenePart::node ? name_of(scene, place.id) : place.id;
+  return subject + (subject.empty() || what.empty() ? "" : ", ") + what;
+}
+
 }  // namespace bl::host

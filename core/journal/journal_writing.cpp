@@ -130,6 +130,7 @@ Result<void> Journal::store_people(const room::Record& record) {
 
 Result<void> Journal::store_drafts(const room::Record& record) {
   for (const room::DraftRecord& draft : record.drafts) {
+    is_cleaning_due_ = is_cleaning_due_ || draft.title == kErased;
     auto done = database_.change("INSERT OR REPLACE INTO draft VALUES (?, ?, ?, ?, ?)",
                                  {draft.id, draft.seat, draft.base, draft.title, draft.state});
     if (!done) return done;
@@ -223,6 +224,9 @@ Result<Erased> Journal::erase(std::int64_t seat) {
     if (read) read = counted(erased.persons, "DELETE FROM person WHERE seat = ?", {seat});
     if (read)
       read = counted(erased.texts, "UPDATE text SET body = ?, is_erased = 1 WHERE seat = ? AND NOT is_erased", {kErased, seat});
+    if (read)
+      read =
+          counted(erased.texts, "UPDATE draft SET title = ?1 WHERE seat = ?2 AND title <> '' AND title <> ?1", {kErased, seat});
     if (read) read = counted(erased.tokens, "UPDATE token SET hash = '' WHERE seat = ? AND hash <> ''", {seat});
     return read;
   });

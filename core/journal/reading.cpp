@@ -96,9 +96,10 @@ class Reading {
     return rows(
         "SELECT seq, tick, epoch, hash, name, scene, scene_size, scene_digest FROM snapshot ORDER BY seq DESC, tick DESC, name",
         [&](const Row& row) {
-          if (loaded_->snapshot) return;
           Snapshot found{row.number(0), row.number(1), row.number(2),
                          row.text(3),   row.text(4),   {row.text(5), row.number(6), row.text(7)}};
+          if (!found.name.empty()) loaded_->scenarios.emplace(found.name, found);
+          if (loaded_->snapshot) return;
           const std::string place = "snapshot/" + std::to_string(found.seq);
           const std::int64_t last = record_->entries.empty() ? loaded_->room.base : record_->entries.back().entry.seq;
           if (const auto text = unpack(found.scene); !text) loaded_->unusable_snapshots.push_back(text.error().within(place));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,9 +44,10 @@ struct Snapshot {
 /// Everything of a file.
 struct Loaded {
   room::Stored room;
-  std::optional<Snapshot> snapshot;  ///< the newest one that is whole
-  std::vector<HashRow> hashes;       ///< in the order of entries, then of ticks
-  std::string chain;                 ///< a hash of all entries; equal where the same things were said in the same order
+  std::optional<Snapshot> snapshot;           ///< the newest one that is whole
+  std::map<std::string, Snapshot> scenarios;  ///< by scenario: its scene with its running state
+  std::vector<HashRow> hashes;                ///< in the order of entries, then of ticks
+  std::string chain;                          ///< a hash of all entries; equal where the same things were said in the same order
   /// Of a file that is open for reading only: what is damaged, with its place. It is left out, and of the entries all after the
   /// first damaged one. Of a file that is open for more there is none.
   std::vector<Error> damage;

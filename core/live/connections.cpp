@@ -36,15 +36,18 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
   return end == top.end() || (end->empty() && std::next(end) == top.end());
 }
 
-Result<Recording> read_table(const LiveOptions& options, const address::LiveAddress& address) {
+Result<std::string> text_of_table(const LiveOptions& options, const address::LiveAddress& address) {
   const std::filesystem::path path = std::filesystem::path(options.folder) / address.path;
   if (!options.reads_anywhere && !is_below(options.folder, path))
     return Error{
         ErrorCode::io, "",
         "it does not lie in the folder of the scene: put it there, or run with --recordings-anywhere if you trust the scene"};
-  const auto text = read_plain_file(path.string(), kLongestRecording);
-  if (!text) return text.error();
-  return read_recording(*text, address);
+  return read_plain_file(path.string(), kLongestRecording);
+}
+
+Result<Recording> read_table(const LiveOptions& options, const address::LiveAddress& address) {
+  const auto text = text_of_table(options, address);
+  return text ? read_recording(*text, address) : Result<Recording>(text.error());
 }
 
 // Outputs of one address are one endpoint's, and so are inputs; MQTT has both on one connection.
@@ -168,7 +171,25 @@ void Connections::follow(const Scene& scene) {
   }
   is_changed |= std::erase_if(sensors_, [&](const auto& entry) { return !sensors.contains(entry.first); }) > 0;
   is_changed |= std::erase_if(actuators_, [&](const auto& entry) { return !actuators.contains(entry.first); }) > 0;
+  follow_crowds(scene);
   if (is_changed) follow_endpoints();
+}
+
+void Connections::follow_crowds(const Scene& scene) {
+  std::set<std::string> there;
+  for (const auto& [id, node] : scene.nodes) {
+    const auto wanted = reading::settings_of<reading::PeopleFigures>(scene, full_registry(), node);
+    const auto parsed = wanted ? address::parse_live_address(wanted->address) : Result<address::LiveAddress>(Error{});
+    if (!parsed || parsed->scheme != address::LiveAddress::Scheme::replay) continue;
+    there.insert(id);
+    Crowd& crowd = crowds_[id];
+    const bool is_new = crowd.address != wanted->address;
+    crowd.follow(id, *wanted, scene);
+    if (!is_new) continue;
+    const auto text = text_of_table(options_, *parsed);
+    crowd.set_walk(text ? read_walk(*text, *parsed) : Result<std::vector<WalkStep>>(text.error()));
+  }
+  std::erase_if(crowds_, [&](const auto& one) { return !there.contains(one.first); });
 }
 
 void Connections::follow_endpoints() {
@@ -221,8 +242,9 @@ void Connections::follow_endpoints() {
 }
 
 bool Connections::has_recordings() const {
-  return std::any_of(sensors_.begin(), sensors_.end(),
-                     [](const auto& entry) { return !entry.second->recording.readings.empty(); });
+  const bool has_walks = std::any_of(crowds_.begin(), crowds_.end(), [](const auto& one) { return one.second.rows() > 0; });
+  return has_walks || std::any_of(sensors_.begin(), sensors_.end(),
+                                  [](const auto& entry) { return !entry.second->recording.readings.empty(); });
 }
 
 // The newest row up to the tick after `tick`. After the clock was set back, that is the row which holds there, once more.
@@ -269,6 +291,9 @@ std::vector<Report> Connections::collect(std::int64_t tick) {
       reports.push_back({{sensor->address, AuthorKind::device},
                          command<Receive>({id, newest->value, newest->time, newest->problem, measured})});
   }
+  crowd_tick_ = tick;
+  for (const auto& [id, crowd] : crowds_)
+    if (auto step = crowd.step(tick)) reports.push_back({{crowd.address, AuthorKind::device}, std::move(*step)});
   return reports;
 }
 
@@ -316,6 +341,8 @@ std::vector<ConnectionStatus> Connections::status() const {
     all.push_back({id, sensor->address, true, sensor->station->line(), sensor->station->traffic(),
                    sensor->parsed.scheme == address::LiveAddress::Scheme::replay, sensor->recording.readings.size(), sensor->next,
                    sensor->recording.empty, sensor->recording.filtered});
+  for (const auto& [id, crowd] : crowds_)
+    all.push_back({id, crowd.address, true, crowd.line, {}, true, crowd.rows(), crowd.played(crowd_tick_ + 1), 0, 0});
   for (const auto& [id, actuator] : actuators_)
     all.push_back({id, actuator->address, false, actuator->station->line(), actuator->station->traffic(), false, 0, 0, 0, 0});
   return all;

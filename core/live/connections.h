@@ -9,6 +9,7 @@
 
 #include "core/graph/scene.h"
 #include "core/graph/state.h"
+#include "core/live/crowd.h"
 #include "core/live/endpoint.h"
 #include "core/reading/views/stream.h"
 #include "core/session/author.h"
@@ -62,7 +63,7 @@ class Connections {
   void send(const State& state);
   /// In ascending node id, sensors before actuators.
   std::vector<ConnectionStatus> status() const;
-  bool is_empty() const { return sensors_.empty() && actuators_.empty(); }
+  bool is_empty() const { return sensors_.empty() && actuators_.empty() && crowds_.empty(); }
   bool has_recordings() const;
 
  private:
@@ -72,12 +73,15 @@ class Connections {
   bool follow_sensor(const std::string& id, const reading::SensorFigures& wanted);
   bool follow_actuator(const std::string& id, const reading::ActuatorFigures& wanted);
   void follow_endpoints();
+  void follow_crowds(const Scene& scene);
   void begin_recording(Sensor& sensor);
   static std::optional<RecordedArrival> play(Sensor& sensor, std::int64_t tick);
 
   const LiveOptions options_;
   std::map<std::string, std::unique_ptr<Sensor>> sensors_;      // by node
   std::map<std::string, std::unique_ptr<Actuator>> actuators_;  // by node
+  std::int64_t crowd_tick_ = -1;                                // the last one that was asked for
+  std::map<std::string, Crowd> crowds_;                         // by node
   std::map<std::string, std::string> forgotten_;                // by node: addresses of sensors whose last line is out of date
   std::map<std::string, Access> accesses_;                      // of brokers, by host and port
   std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to

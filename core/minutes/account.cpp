@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
+#include "core/graph/simulation.h"
 #include "core/journal/export.h"
 #include "core/minutes/vote_count.h"
+#include "core/reading/views/people.h"
 #include "core/room/room.h"
 
 namespace bl::minutes {
@@ -53,7 +55,7 @@ class Telling {
     else if (event == "comment") account_->comments.push_back({.id = name_in(arguments, "id"), .moment = moment});
     else if (event == "answer_comment") note_answer(name_in(arguments, "comment"), entry);
     else if (event == "save_scenario")
-      account_->scenarios.push_back({name_in(arguments, "id"), moment, write_scene(room_.scene(), *registry_)});
+      account_->scenarios.push_back({name_in(arguments, "id"), moment, write_scene(room_.scene(), *registry_), {}});
     else if (event == "propose" || event == "decide_proposal")
       note_proposal(event == "propose", name_in(arguments, "draft"), moment);
     else if (event == "open_vote") {
@@ -133,6 +135,23 @@ void hide_secrets(std::vector<Round>& rounds) {
     if (secret.contains(round.vote)) round.ballots.clear();
 }
 
+// A scenario of a program that kept no running states, or whose snapshot is damaged, has no figures.
+std::vector<SavedFigure> figures_of(const journal::Snapshot& snapshot, const Registry& registry) {
+  const auto text = journal::unpack(snapshot.scene);
+  if (!text) return {};
+  const SceneReading reading = read_scene(*text, registry);
+  Simulation simulation(registry, 1);
+  if (!reading.is_usable() || !reading.state) return {};
+  simulation.set_scene(reading.scene);
+  if (!simulation.restore_state(*reading.state)) return {};
+  std::vector<SavedFigure> figures;
+  for (const auto& [node, row] : reading::rows<reading::IndicatorFigures>(*simulation.state())) {
+    const NodePlan& plan = simulation.state()->plan->nodes[node];
+    figures.push_back({plan.name.empty() ? plan.id : plan.name, row.unit, row.status, row.value});
+  }
+  return figures;
+}
+
 }  // namespace
 
 // No id of a scenario begins with an underscore.
@@ -169,6 +188,9 @@ Result<Account> account_of(const journal::RoomRow& room, const journal::Loaded& 
   for (const room::EntryRecord& record : stored.entries)
     if (auto done = telling.tell(record); !done) return done.error();
   telling.end();
+  for (Saved& saved : account.scenarios)
+    if (const auto kept = loaded.scenarios.find(saved.id); kept != loaded.scenarios.end())
+      saved.figures = figures_of(kept->second, registry);
   for (const room::SecretBallotRecord& ballot : stored.secret_ballots)
     for (Round& round : account.rounds)
       if (round.vote == ballot.vote && !round.closed) ++round.waiting;

@@ -67,10 +67,17 @@ struct Commented {
   std::int64_t answered_by = 0;  ///< the seat of the last answer; 0: nobody
 };
 
+/// An indicator at the moment of a scenario.
+struct SavedFigure {
+  std::string name, unit, status;
+  double value = 0;
+};
+
 struct Saved {
   std::string id;
   Moment moment = {};
-  std::string scene = {};  ///< the scene file after the entries up to this one
+  std::string scene = {};                 ///< the scene file after the entries up to this one
+  std::vector<SavedFigure> figures = {};  ///< of the running state that was kept with it
   std::string file() const;
 };
 
@@ -96,6 +103,8 @@ struct Account {
 
   /// The words of a comment, a reason or a note: "[erased]" where they were erased, nothing where nothing was said.
   std::string words(const std::string& text) const;
+  /// Of a title; logs of earlier programs hold some themselves.
+  std::string title_words(const std::string& text) const { return texts.contains(text) ? words(text) : text; }
   /// "Heron (seat 1)"; seat 0 is the room itself.
   std::string who(std::int64_t seat) const;
   std::string pseudonym(std::int64_t seat) const;

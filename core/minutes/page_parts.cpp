@@ -86,7 +86,7 @@ void write_phases(drawing::Markup& page, const Account& account) {
   page.element("h2", "Phases");
   Rows rows;
   for (const PhaseSpan& span : account.phases)
-    rows.push_back({span.phase.name.empty() ? "without a name" : span.phase.name, when(span.begin),
+    rows.push_back({span.phase.name.empty() ? "without a name" : account.title_words(span.phase.name), when(span.begin),
                     span.end ? when(*span.end) : "the end of the session", activities_of(span.phase)});
   write_table(page, {"Phase", "From", "To", "What people could do"}, rows, "The session was not divided into phases.");
 }
@@ -107,8 +107,9 @@ void write_proposals(drawing::Markup& page, const Account& account) {
   for (const Proposed& one : account.proposals) {
     const room::Proposal& proposal = one.proposal;
     const std::string steps = std::to_string(proposal.steps);
-    rows.push_back({proposal.title.empty() ? one.draft : proposal.title, account.words(proposal.why), account.who(proposal.seat),
-                    when(one.moment), std::string(room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]),
+    rows.push_back({proposal.title.empty() ? one.draft : account.title_words(proposal.title), account.words(proposal.why),
+                    account.who(proposal.seat), when(one.moment),
+                    std::string(room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]),
                     one.decided ? account.who(proposal.by) : "", account.words(proposal.answer),
                     one.decided ? when(*one.decided) : "",
                     one.decided ? std::to_string(proposal.kept) + " of " + steps : steps + " proposed"});
@@ -127,15 +128,28 @@ void write_comments(drawing::Markup& page, const Account& account) {
   write_table(page, columns, comment_rows(account, false), "No comment was decided on.");
 }
 
+namespace {
+
+std::string figures_in_words(const Saved& saved) {
+  std::string text;
+  for (const SavedFigure& figure : saved.figures)
+    text += (text.empty() ? "" : "; ") + figure.name + " " + shortest(figure.value) +
+            (figure.unit.empty() ? "" : " " + figure.unit) + " (" + figure.status + ")";
+  return text;
+}
+
+}  // namespace
+
 void write_scenarios(drawing::Markup& page, const Account& account) {
   page.element("h2", "Scenarios");
   Rows rows;
   for (const Saved& saved : account.scenarios) {
     const room::Scenario& scenario = account.state.scenarios.at(saved.id);
-    rows.push_back({scenario.name.empty() ? saved.id : scenario.name, account.words(scenario.note), account.who(scenario.seat),
-                    std::to_string(scenario.seq), when(saved.moment), saved.file()});
+    rows.push_back({scenario.name.empty() ? saved.id : account.title_words(scenario.name), account.words(scenario.note),
+                    account.who(scenario.seat), std::to_string(scenario.seq), when(saved.moment), figures_in_words(saved),
+                    saved.file()});
   }
-  write_table(page, {"Scenario", "Note", "Saved by", "#Entry", "When", "File"}, rows, "No scenario was saved.");
+  write_table(page, {"Scenario", "Note", "Saved by", "#Entry", "When", "Figures", "File"}, rows, "No scenario was saved.");
   page.element("p", "The scene as it was after the last entry is in scenes/end.json.");
 }
 

@@ -18,6 +18,7 @@ const Scene& Draft::scene_on(const Scene& head, std::int64_t seq) {
     if (steps_[k].id.empty()) continue;
     if (auto done = bl::apply(edit, steps_[k]); !done) misfits_.push_back({static_cast<std::int64_t>(k), done.error()});
   }
+  placed_ = edit.placed();
   follows_ = seq;
   return scene_;
 }
@@ -26,7 +27,9 @@ Result<void> Draft::add(const Command& command, const Scene& head, std::int64_t 
   (void)scene_on(head, seq);
   SceneEdit edit(scene_, *registry_);
   if (auto done = bl::apply(edit, command); !done) return done.error();
+  placed_.insert(edit.placed().begin(), edit.placed().end());
   steps_.push_back(command);
+  ++revision_;
   return {};
 }
 
@@ -35,6 +38,7 @@ std::int64_t Draft::take_back() {
   if (last == steps_.rend()) return -1;
   *last = {};
   follows_ = -1;
+  ++revision_;
   return steps_.rend() - last - 1;
 }
 

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/room/record.h"
@@ -27,6 +30,7 @@ class Draft {
 
   const std::string& id() const { return id_; }
   const std::string& title() const { return title_; }
+  void set_title(std::string title) { title_ = std::move(title); }
   std::int64_t seat() const { return seat_; }
   std::int64_t base() const { return base_; }
   DraftState state() const { return state_; }
@@ -39,6 +43,10 @@ class Draft {
   const Scene& scene_on(const Scene& head, std::int64_t seq);
   /// Of the last scene_on().
   const std::vector<Misfit>& misfits() const { return misfits_; }
+  /// The ports that its steps set to a place, by node and path.
+  const std::set<std::pair<std::string, std::string>>& placed() const { return placed_; }
+  /// Another number after each change of its steps.
+  std::int64_t revision() const { return revision_; }
   /// Adds a step; on an error nothing changes.
   Result<void> add(const Command& command, const Scene& head, std::int64_t seq);
   /// Takes the last step back; its number, or -1 where there is none.
@@ -51,17 +59,20 @@ class Draft {
  private:
   const Registry* registry_;
   std::string id_, title_;
-  std::int64_t seat_ = 0, base_ = 0, follows_ = -1;
+  std::int64_t seat_ = 0, base_ = 0, follows_ = -1, revision_ = 0;
   DraftState state_ = DraftState::open;
   std::vector<Command> steps_;
   Scene scene_;
   std::vector<Misfit> misfits_;
+  std::set<std::pair<std::string, std::string>> placed_;
 };
 
 /// A place that a draft changes and somebody has changed since the draft was begun.
 struct DraftConflict {
   Touch place;
-  std::string author;  ///< who
+  std::string author;                ///< who
+  std::optional<JsonValue> live;     ///< the value that it has now; nothing where the place is gone, or holds no single value
+  std::optional<JsonValue> drafted;  ///< and the one that it has with the draft
 };
 /// What a proposal holds, for whoever decides: the places that it changes, and those of them that others have changed meanwhile.
 struct DraftSummary {

@@ -24,7 +24,8 @@ struct EventPlace {
 /// A kind of event. `apply` leaves the state unchanged when it returns an error.
 struct EventDefinition : TypeDefinition {
   Rights rights = {};
-  std::vector<std::string> words = {};  ///< arguments that hold people's words: the log has the names of texts instead
+  std::vector<std::string> words = {};   ///< arguments that hold people's words: the log has the names of texts instead
+  std::vector<std::string> titles = {};  ///< those of them that are short, and may be said again
   std::function<Result<void>(RoomState&, std::span<const Value>, const EventPlace&)> apply;
 };
 
@@ -50,6 +51,12 @@ class EventBuilder : public TypeBuilder<EventDefinition> {
   PortBuilder<std::string> words(std::string In::*member, std::string id) {
     definition_->words.push_back(id);
     return add_port(definition_->ports, member, std::move(id));
+  }
+  /// The same for something short that may be said again, such as the name of a phase: the same words have the same name in the
+  /// log.
+  PortBuilder<std::string> title(std::string In::*member, std::string id) {
+    definition_->titles.push_back(id);
+    return words(member, std::move(id));
   }
   static EventDefinition build() {
     EventDefinition definition;

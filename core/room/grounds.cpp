@@ -123,7 +123,20 @@ class Judge {
     return maker != asking_.state.makers.end() && maker->second == asking_.seat;
   }
 
+  // As many as the node on its card allows, where that is a sensor of people.
   bool is_of_device(const std::string& node) const {
+    const std::string of_card = seat_.card + "#";
+    if (!seat_.card.empty() && node.starts_with(of_card)) {
+      const NodeRecord* card = node_in(change_.before, seat_.card);
+      const TypificationDefinition* type = asking_.registry.typification("people_sensor");
+      if (card == nullptr || type == nullptr || !card->types.contains(type->id)) return false;
+      if (node_in(change_.before, node) != nullptr) return true;
+      const auto count = std::count_if(change_.after.nodes.begin(), change_.after.nodes.end(),
+                                       [&](const auto& one) { return one.first.starts_with(of_card); });
+      const PortValues& values = card->types.at(type->id);
+      const auto most = values.find("most");
+      return count <= std::get<std::int64_t>(most == values.end() ? type->find_port("most")->default_value : most->second);
+    }
     return node == seat_.card || node.starts_with("device_" + std::to_string(asking_.seat) + "_");
   }
 

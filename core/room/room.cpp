@@ -132,9 +132,11 @@ void Room::follow(const LogEntry& entry) {
     if (!is_there) state_.makers.erase(place);
     else if (seat != 0) state_.makers[place] = seat;
   }
-  // A rewind takes back what was done to the scene, not what people have voted.
-  if (entry.command.id != "cast_vote") inverses_.emplace_back(entry.seq, std::move(inverse_));
+  // A rewind takes back what was done to the scene, not what people have voted, nor that a vote was opened or closed.
+  if (entry.is_command() && entry.command.id != "cast_vote" && entry.author.id != "room")
+    inverses_.emplace_back(entry.seq, std::move(inverse_));
   inverse_.clear();
+  scene_seq_ = entry.seq;
   if (inverses_.size() > kKeptInverses) inverses_.pop_front();
   touches_.clear();
 }
@@ -207,21 +209,54 @@ Answer Room::rewind(const Said& said) {
   const auto to = whole_number(**content, "to", -1);
   if (!to || *to < 0 || *to >= ledger_->last_seq())
     return refuse(Reason::bad, "to", "expects the number of an entry before the last one");
-  std::vector<Command> back;
-  std::int64_t reached = ledger_->last_seq();
-  for (auto entry = inverses_.rbegin(); entry != inverses_.rend() && entry->first > *to; ++entry) {
-    back.insert(back.end(), entry->second.begin(), entry->second.end());
-    reached = entry->first;
-  }
-  const bool is_far = inverses_.size() == kKeptInverses && reached > *to + 1 && inverses_.front().first > *to + 1;
-  if (is_far)
-    return refuse(Reason::gone, "to",
-                  "the entries before " + std::to_string(inverses_.front().first) + " can no longer be taken back");
+  auto way = way_back_to(*to);
+  if (const auto* refusal = std::get_if<Refusal>(&way)) return *refusal;
+  std::vector<Command>& back = std::get<std::vector<Command>>(way);
   if (back.empty()) return refuse(Reason::gone, "to", "nothing of the scene has changed since that entry");
   Submission submission{.command = command<Batch>({std::move(back)}), .author = said.author(), .source = said.source()};
   submission.label = "Back to entry " + std::to_string(*to);
   const auto put_in = put(std::move(submission), said.now);
   return put_in ? Answer(done(said.now)) : Answer(refusal_of_scene(put_in.error()));
+}
+
+std::variant<std::vector<Command>, Refusal> Room::way_back_to(std::int64_t seq) const {
+  std::vector<Command> back;
+  std::int64_t reached = ledger_->last_seq();
+  for (auto entry = inverses_.rbegin(); entry != inverses_.rend() && entry->first > seq; ++entry) {
+    back.insert(back.end(), entry->second.begin(), entry->second.end());
+    reached = entry->first;
+  }
+  const bool is_far = inverses_.size() == kKeptInverses && reached > seq + 1 && inverses_.front().first > seq + 1;
+  if (is_far)
+    return refuse(Reason::gone, "to",
+                  "the entries before " + std::to_string(inverses_.front().first) + " can no longer be taken back");
+  return back;
+}
+
+// The scene first, by a command that can be undone; then the running state, which cannot; then what the minutes say of it. From
+// there on the ticks count from that of the scenario.
+Answer Room::restart(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments) {
+  const std::string id = std::get<std::string>(arguments.at("scenario"));
+  const auto scenario = state_.scenarios.find(id);
+  if (scenario == state_.scenarios.end()) return refuse(Reason::gone, "arguments/scenario", "there is no scenario `" + id + "`");
+  const auto kept = options_.kept_state ? options_.kept_state(id) : std::nullopt;
+  if (!kept) return refuse(Reason::gone, "arguments/scenario", "the running state of `" + id + "` was not kept");
+  const std::int64_t from = scenario->second.seq;
+  auto way = way_back_to(from);
+  if (const auto* refusal = std::get_if<Refusal>(&way)) return *refusal;
+  if (std::vector<Command>& back = std::get<std::vector<Command>>(way); !back.empty()) {
+    Submission submission{.command = command<Batch>({std::move(back)}), .author = said.author()};
+    submission.label = "Back to " + id;
+    if (auto put_in = put(std::move(submission), said.now); !put_in) return refusal_of_scene(put_in.error());
+  }
+  // It goes back to an entry that is there.
+  (void)ledger_->restart(said.author(), said.now.tick, from, kept->hash);
+  record_.entries.push_back({ledger_->log().back(), said.now.at});
+  scene_seq_ = ledger_->last_seq();
+  restart_ = id;
+  std::map<std::string, Value> told = arguments;
+  told["state"] = kept->hash;
+  return enter_event({said.seat, said.operation, {kept->tick, said.now.at}}, kind, std::move(told));
 }
 
 // --- Coming back ----------------------------------------------------------------------------------------------------
@@ -283,6 +318,11 @@ void Room::restore(const Record& rows) {
 const TextRecord* Room::text(const std::string& id) const {
   const auto found = texts_.find(id);
   return found == texts_.end() ? nullptr : &found->second;
+}
+
+std::string Room::words(const std::string& id) const {
+  const TextRecord* known = text(id);
+  return known == nullptr ? id : known->body;
 }
 
 }  // namespace bl::room

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,9 +21,17 @@
 
 namespace bl::room {
 
+/// A running state that was kept with a scenario.
+struct KeptState {
+  std::int64_t tick = 0;
+  std::string hash;
+};
+
 struct RoomOptions {
   Allowances allowances = {};
   RandomBytes random = system_random_bytes;
+  /// The running state of a scenario, where whoever holds the room has kept one. Without it no scenario can be returned to.
+  std::function<std::optional<KeptState>(const std::string& scenario)> kept_state = {};
 };
 
 /// When something is said: the tick that will read it, and the host's clock, which decides about pens only and is stored for the
@@ -84,15 +93,23 @@ class Room {
   // What there is.
   const RoomState& state() const { return state_; }
   const Scene& scene() const { return ledger_->scene(); }
+  /// The number of the last entry that has changed the scene; 0 where none has.
+  std::int64_t scene_seq() const { return scene_seq_; }
   const std::map<std::string, Draft>& drafts() const { return drafts_; }
-  /// The scene of a draft; the draft must be there.
+  /// A draft whose scene follows the head of the log, with what of it fits; it must be there.
+  const Draft& follow_draft(const std::string& draft);
+  /// Its scene.
   const Scene& scene_of(const std::string& draft);
   /// What a draft changes, and with whom it meets; the draft must be there.
   DraftSummary summary_of(const std::string& draft);
   /// The author of the last change of the place, or of the nearest place around it; empty where nobody has changed it.
   std::string last_writer(Touch place) const;
+  /// The scenario to whose running state the session has to go back, if what was said since the last call asks for that.
+  std::string take_restart() { return std::exchange(restart_, {}); }
   /// The words of a comment, a reason, a note; nothing where there are none of that name.
   const TextRecord* text(const std::string& id) const;
+  /// The same as words. Logs of earlier programs hold some titles themselves: of those it gives what it was asked.
+  std::string words(const std::string& id) const;
   /// What has to be stored since the last call, in the order in which it was said.
   Record take_record() { return std::exchange(record_, {}); }
 
@@ -119,6 +136,9 @@ class Room {
   Answer say_event(const Said& said);
   Answer take_back(const Said& said);
   Answer rewind(const Said& said);
+  Answer restart(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
+  /// What takes back everything since that entry, in the order to apply.
+  std::variant<std::vector<Command>, Refusal> way_back_to(std::int64_t seq) const;
   Answer change_draft(const Said& said);
   Answer add_to_draft(const Said& said, const Command& command);
   Answer accept(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
@@ -164,7 +184,8 @@ class Room {
   // Of the entry that is being made.
   std::vector<Touch> touches_;
   std::vector<Command> inverse_;
-  std::int64_t text_count_ = 0;
+  std::string restart_;
+  std::int64_t text_count_ = 0, scene_seq_ = 0;
 };
 
 }  // namespace bl::room

@@ -76,10 +76,16 @@ Answer Room::add_to_draft(const Said& said, const Command& command) {
 
 const Scene& Room::scene_of(const std::string& draft) { return drafts_.at(draft).scene_on(scene(), ledger_->last_seq()); }
 
+const Draft& Room::follow_draft(const std::string& id) {
+  Draft& draft = drafts_.at(id);
+  (void)draft.scene_on(scene(), ledger_->last_seq());
+  return draft;
+}
+
 DraftSummary Room::summary_of(const std::string& id) {
   Draft& draft = drafts_.at(id);
   DraftSummary summary;
-  (void)draft.scene_on(scene(), ledger_->last_seq());
+  const Scene& drafted = draft.scene_on(scene(), ledger_->last_seq());
   summary.misfits = draft.misfits();
   Scene trial = scene();
   SceneEdit edit(trial, ledger_->registry());
@@ -88,12 +94,14 @@ DraftSummary Room::summary_of(const std::string& id) {
   const std::set<Touch> touches(edit.touches().begin(), edit.touches().end());
   summary.touches.assign(touches.begin(), touches.end());
   const std::string own = RoomState::author_of_seat(draft.seat());
-  for (const Touch& touch : touches) {
-    // A place that was written itself, or one around it or inside it.
-    for (const auto& [place, write] : writes_)
-      if (write.seq > draft.base() && write.author != own &&
-          (place == touch || lies_inside(place, touch) || lies_inside(touch, place)))
-        summary.conflicts.push_back({place, write.author});
+  // A place that was written itself, or one around it or inside it.
+  for (const auto& [place, write] : writes_) {
+    const bool is_others = write.seq > draft.base() && write.author != own;
+    if (is_others && std::any_of(touches.begin(), touches.end(), [&place = place](const Touch& touch) {
+          return place == touch || lies_inside(place, touch) || lies_inside(touch, place);
+        }))
+      summary.conflicts.push_back(
+          {place, write.author, value_at(scene(), ledger_->registry(), place), value_at(drafted, ledger_->registry(), place)});
   }
   return summary;
 }
@@ -129,7 +137,7 @@ Answer Room::accept(const Said& said, const EventDefinition& kind, const std::ma
   judging.most_parts = kMostSteps;
   if (auto refusal = why_not(judging, whole, scene())) return *refusal;
   Submission submission{.command = whole, .author = RoomState::author_of_seat(draft.seat())};
-  submission.label = draft.title().empty() ? id : draft.title();
+  submission.label = "Draft " + id;  // not its title: those are words of a person, which can be erased
   if (auto put_in = put(std::move(submission), said.now, id, said.seat); !put_in) return refusal_of_scene(put_in.error());
   std::map<std::string, Value> told = arguments;
   told["kept"] = count;

@@ -25,11 +25,15 @@ T value_of(const std::map<std::string, Value>& arguments, const char* name, T ot
   return found == arguments.end() ? otherwise : std::get<T>(found->second);
 }
 
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::optional<Refusal> why_bad_words(const EventDefinition& kind, const std::map<std::string, Value>& arguments) {
   for (const auto& [name, value] : arguments) {
     const auto* text = std::get_if<std::string>(&value);
     if (text == nullptr) continue;
-    const bool is_words = std::find(kind.words.begin(), kind.words.end(), name) != kind.words.end();
+    const bool is_words = holds(kind.words, name) && !holds(kind.titles, name);
     const std::size_t most = is_words ? kLongestText : 200;
     if (text->size() > most)
       return refuse(Reason::size, "arguments/" + name, "has " + std::to_string(most) + " characters at most", {{"most", most}});
@@ -57,6 +61,7 @@ Answer Room::say_event(const Said& said) {
   if (auto refusal = why_bad_words(kind->second, *arguments)) return *refusal;
   if (kind->first == "decide_proposal" && value_of(*arguments, "is_accepted", false))
     return accept(said, kind->second, *arguments);
+  if (kind->first == "restart") return restart(said, kind->second, *arguments);
   if (kind->first == "propose") {
     Draft* draft = draft_of(said, value_of<std::string>(*arguments, "draft", ""));
     if (draft == nullptr) return refuse(Reason::gone, "arguments/draft", "there is no such draft of yours");
@@ -83,7 +88,18 @@ Answer Room::enter_event(const Said& said, const EventDefinition& kind, std::map
 void Room::store_texts(const EventDefinition& kind, std::map<std::string, Value>& arguments, std::int64_t seat) {
   for (const std::string& name : kind.words) {
     const auto words = arguments.find(name);
-    if (words == arguments.end()) continue;
+    if (words == arguments.end() || std::get<std::string>(words->second).empty()) continue;
+    if (holds(kind.titles, name)) {
+      const auto same = std::find_if(texts_.begin(), texts_.end(), [&](const auto& one) {
+        const TextRecord& text = one.second;
+        return text.seat == seat && text.kind == kind.id + "." + name && !text.is_erased &&
+               text.body == std::get<std::string>(words->second);
+      });
+      if (same != texts_.end()) {
+        words->second = same->first;
+        continue;
+      }
+    }
     TextRecord text{.id = "text" + std::to_string(++text_count_),
                     .seat = seat,
                     .kind = kind.id + "." + name,
@@ -172,6 +188,11 @@ void Room::erase(std::int64_t seat) {
     text.body = "[erased]";
     text.is_erased = true;
     record_.texts.push_back(text);
+  }
+  for (auto& [id, draft] : drafts_) {
+    if (draft.seat() != seat || draft.title().empty()) continue;
+    draft.set_title("[erased]");
+    record_.drafts.push_back(draft.record());
   }
 }
 

@@ -132,6 +132,7 @@ Json to_json(const RoomState& state) {
   json["makers"] = map_to_json(state.makers, [](std::int64_t seat) { return Json(seat); });
   json["layout"] = state.layout;
   json["rate"] = state.rate;
+  if (state.epoch != 1) json["epoch"] = state.epoch;
   json["door"] = kDoorNames[static_cast<std::size_t>(state.door)];
   json["paused"] = state.is_paused;
   json["closed"] = state.is_closed;

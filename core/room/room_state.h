@@ -114,6 +114,7 @@ struct RoomState {
   std::map<std::string, std::int64_t> makers = {};  ///< the seat that has added a node or link, by `nodes/…` or `links/…`
   std::string layout = {};                          ///< of the beamer
   double rate = 10;                                 ///< ticks a second
+  std::int64_t epoch = 1;                           ///< grows with each return to a scenario: the ticks go back
   Door door = Door::open;
   bool is_paused = false, is_closed = false;
   bool operator==(const RoomState&) const = default;

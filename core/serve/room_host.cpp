@@ -30,17 +30,19 @@ Json entry_to_json(const LogEntry& entry, std::int64_t by, const std::string& dr
   if (entry.author.kind != AuthorKind::person) json["kind"] = entry.author.kind == AuthorKind::device ? "device" : "program";
   if (entry.undoes != 0) json["u"] = entry.undoes;
   if (entry.redoes != 0) json["r"] = entry.redoes;
-  if (entry.event) json["v"] = **entry.event->read();
+  if (entry.restarts_from) json["back"] = *entry.restarts_from, json["state"] = entry.state_hash;
+  else if (entry.event) json["v"] = **entry.event->read();
   else json["c"] = command_to_json(full_registry(), entry.command);
   if (by != 0) json["by"] = by;
   if (!draft.empty()) json["d"] = draft;
   return json;
 }
 
-std::shared_ptr<const std::string> ops_of(const std::vector<room::EntryRecord>& records, std::int64_t stored) {
+std::shared_ptr<const std::string> ops_of(const std::vector<room::EntryRecord>& records, std::int64_t stored,
+                                          std::int64_t epoch) {
   Json list = Json::array();
   for (const room::EntryRecord& record : records) list.push_back(entry_to_json(record.entry, record.by, record.draft));
-  return frame_of_message(wire::Ops{JsonValue::of(std::move(list)), stored});
+  return frame_of_message(wire::Ops{JsonValue::of(std::move(list)), stored, epoch});
 }
 
 std::set<std::string> known_views(const std::vector<std::string>& names) {
@@ -107,7 +109,7 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
   Visitor& visitor = visitors_[guest.get()];
   visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views)};
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
-  welcome(visitor, token, hello.epoch == 0 || hello.epoch == epoch_ ? hello.have : 0);
+  welcome(visitor, token, hello.epoch == 0 || hello.epoch == epoch() ? hello.have : 0);
   flush();
   return true;
 }
@@ -130,7 +132,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
                                  {"card", seat->card}});
     message.room = JsonValue::of({{"code", code_}, {"title", title_}});
     message.limits = JsonValue::of({{"text", room::kLongestText}, {"parts", room::kMostParts}});
-    message.epoch = epoch_;
+    message.epoch = epoch();
     message.seq = stored_seq_;
     message.tick = session_->moment()->state->tick;
     message.rate = room_->state().rate;
@@ -145,7 +147,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
       std::vector<room::EntryRecord> tail;
       for (const LogEntry& entry : log)
         if (entry.seq <= stored_seq_ && (!is_tail || entry.seq > have)) tail.push_back({entry, 0});
-      if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_));
+      if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_, message.epoch));
     }
     who.welcomed_with = who.guest->unsent();
     if (!problem_.empty()) who.guest->send(frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})}));
@@ -169,6 +171,8 @@ void RoomHost::hear(Guest& guest, std::string_view text) {
     const auto want = wire::read_message<wire::Want>(*frame);
     if (!want) return guest.close(CloseCode::bad_frame, want.error().text());
     visitor.wanted = known_views(want->views);
+    const auto most = std::min(want->drafts.size(), wire::Want::kMostDrafts);
+    visitor.looks_at = {want->drafts.begin(), want->drafts.begin() + static_cast<std::ptrdiff_t>(most)};
     std::erase_if(visitor.shown, [&](const auto& one) { return !visitor.wanted.contains(one.first); });
     is_changed_ = true;
     show(visitor);
@@ -181,8 +185,7 @@ void RoomHost::submit(Visitor& visitor, const room::Operation& operation) {
     const room::Answer no = room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_);
     return visitor.guest->send(frame_of(wire::write_answer(operation.id, no)));
   }
-  room::Answer answer;
-  say([&](room::Now now) { answer = room_->submit(visitor.seat, operation, now); });
+  const room::Answer answer = ask(visitor.seat, operation);
   tellings_.push_back([this, key, id = operation.id, answer] {
     const auto there = visitors_.find(key);
     if (there != visitors_.end()) there->second.guest->send(frame_of(wire::write_answer(id, answer)));
@@ -216,8 +219,7 @@ void RoomHost::say_for(std::int64_t seat, room::OperationKind kind, const JsonVa
   if (!problem_.empty()) return done(room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_));
   const std::string run = "plain " + std::to_string(seat);
   const std::int64_t last = std::max<std::int64_t>(0, room_->greet(seat, run, 0));
-  room::Answer answer;
-  say([&](room::Now now) { answer = room_->submit(seat, {.run = run, .id = last + 1, .kind = kind, .content = content}, now); });
+  const room::Answer answer = ask(seat, {.run = run, .id = last + 1, .kind = kind, .content = content});
   tellings_.push_back([done = std::move(done), answer] { done(answer); });
   flush();
 }
@@ -240,7 +242,7 @@ void RoomHost::flush() {
   ++commits_under_way_;
   std::vector<std::shared_ptr<const std::string>> entries;
   const std::int64_t seq = session_->last_seq();
-  if (!record.entries.empty()) entries.push_back(ops_of(record.entries, seq));
+  if (!record.entries.empty()) entries.push_back(ops_of(record.entries, seq, epoch()));
   auto done = [this, seq, tellings = std::exchange(tellings_, {}), entries = std::move(entries),
                is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
     options_.on_own_thread([this, seq, tellings, entries, result, is_alive] {
@@ -296,6 +298,7 @@ void RoomHost::recover() {
       [this, loaded, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
         options_.on_own_thread([this, loaded, result, is_alive] {
           if (is_alive.expired() || !result || !*loaded) return;
+          trials_.clear();
           session_.reset();
           room_.reset();
           tellings_.clear();
@@ -323,7 +326,7 @@ void RoomHost::store_hash() {
   std::int64_t seq = base_;
   const auto& log = session_->log();
   for (auto entry = log.rbegin(); entry != log.rend() && seq == base_; ++entry)
-    if (entry->tick < ticked.tick) seq = entry->seq;
+    if (entry->tick < ticked.tick || entry->is_return()) seq = entry->seq;
   if (ticked.tick == last_hash_tick_) return;
   last_hash_tick_ = ticked.tick;
   const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
@@ -335,6 +338,7 @@ void RoomHost::keep_records() {
   static constexpr std::int64_t kEntriesBetween = 500, kTicksBetweenHashes = 60;
   static constexpr double kSecondsBetween = 60;
   if (session_->moment()->ticked->tick / kTicksBetweenHashes > last_hash_tick_ / kTicksBetweenHashes) store_hash();
+  store_scenarios();
   const double now = options_.clock->now();
   const std::int64_t entries = stored_seq_ - snapshot_seq_;
   const bool is_due = entries >= kEntriesBetween || (entries > 0 && now - last_snapshot_ >= kSecondsBetween);
@@ -345,12 +349,12 @@ void RoomHost::keep_records() {
   auto state = session_->coming_state();
   const std::int64_t seq = session_->last_seq();
   writer_->perform(
-      [state, scene = session_->said(), seq](journal::Journal& journal) {
+      [state, scene = session_->said(), seq, epoch = room_->state().epoch](journal::Journal& journal) {
         const SavedState saved = save(*state);
         // Without a hash: the state has taken what was said in its tick already, which a replay compares before.
         const journal::Snapshot snapshot{.seq = seq,
                                          .tick = state->tick,
-                                         .epoch = journal.room().epoch,
+                                         .epoch = epoch,
                                          .hash = {},
                                          .scene = journal::pack(write_scene(scene, full_registry(), &saved))};
         return journal.add_snapshot(snapshot);
@@ -369,6 +373,7 @@ void RoomHost::follow_pace() {
 void RoomHost::turn() {
   followers_->turn();
   if (!problem_.empty()) return recover();
+  serve_devices();
   // Whoever says something wakes the ticks; a room where nothing happens lets them rest.
   if (room_->waits_for_time()) {
     session_->say([&](Ledger&, std::int64_t tick) { room_->pass({tick, options_.wall_time()}); });
@@ -383,6 +388,7 @@ void RoomHost::turn() {
   if (now - last_views_ < kBetweenViews) return;
   last_views_ = now;
   keep_records();
+  try_drafts();
   publish();
 }
 

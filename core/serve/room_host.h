@@ -10,11 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "core/host/device_door.h"
 #include "core/host/live_session.h"
 #include "core/journal/writer.h"
 #include "core/room/room.h"
 #include "core/serve/followers.h"
 #include "core/serve/guest.h"
+#include "core/serve/trial_runner.h"
+#include "core/session/session.h"
 #include "core/wire/messages.h"
 #include "core/wire/views.h"
 
@@ -24,6 +27,7 @@ struct RoomHostOptions {
   room::Allowances allowances = {};
   room::RandomBytes random = room::system_random_bytes;
   host::Clock* clock = &host::real_clock();
+  std::optional<live::LiveOptions> live = {};                ///< how sensors and actuators are connected; none: they are not
   std::function<std::int64_t()> wall_time;                   ///< [ms since 1970]
   std::function<void(std::function<void()>)> on_own_thread;  ///< runs a task on the thread that uses the host; from any thread
   bool takes_over = false;  ///< another laptop had the room, and may have had more of it: its windows begin anew
@@ -81,7 +85,7 @@ class RoomHost {
     std::shared_ptr<Guest> guest;
     std::int64_t seat = 0;
     std::string run, kind;
-    std::set<std::string> wanted;
+    std::set<std::string> wanted, looks_at = {};                          // views and drafts
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
     bool is_welcome = false;        // nothing is shown before: pages take the first of each view after it for the whole
     std::size_t welcomed_with = 0;  // the scene or the entries that it missed may be more than what else may wait [bytes]
@@ -96,11 +100,16 @@ class RoomHost {
 
   RoomHost(std::string code, RoomHostOptions options) : code_(std::move(code)), options_(std::move(options)) {}
   Result<void> begin(const journal::Loaded& loaded);
-  Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning) const;
+  Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning);
+  Result<void> follow_return(Session& session, const LogEntry& entry);
   void make_invites(const std::vector<room::TokenRecord>& tokens);
   bool greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello);
   void submit(Visitor& visitor, const room::Operation& operation);
   void say(const std::function<void(room::Now now)>& words);
+  room::Answer ask(std::int64_t seat, const room::Operation& operation);
+  static Result<std::shared_ptr<const State>> state_of(const journal::Snapshot& snapshot);
+  std::optional<room::KeptState> kept_state(const std::string& scenario);
+  void store_scenarios();
   /// Hands to the disk what has been said, and what is to be told after it.
   void flush();
   void stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
@@ -109,13 +118,17 @@ class RoomHost {
             const std::vector<std::shared_ptr<const std::string>>& entries);
   void recover();
   void follow_pace();
+  void try_drafts();
+  void follow_devices();
+  void serve_devices();
+  void bring_readings();
   void publish();
   void show();
   void show(Visitor& visitor);
   void store_hash();
   void keep_records();
   void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
-  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_}; }
+  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown()}; }
 
   std::string code_, title_;
   RoomHostOptions options_;
@@ -124,6 +137,10 @@ class RoomHost {
   std::unique_ptr<journal::Writer> writer_;
   std::unique_ptr<Followers> followers_;
   std::string beginning_;  // the scene file before the first entry
+  /// Grows where the room begins anew on another laptop, and with each return to a scenario: never the same one twice.
+  std::int64_t epoch() const { return (epoch_ - 1) * kMostReturns + room_->state().epoch; }
+  static constexpr std::int64_t kMostReturns = 1000000;
+
   std::int64_t base_ = 0, epoch_ = 1;
   std::map<std::string, std::string> invites_;  // by role
   std::string follow_key_;
@@ -138,6 +155,18 @@ class RoomHost {
   std::shared_ptr<const host::Moment> seen_;               // the moment of the last views
   std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
   std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
+  TrialRunner trials_;
+  std::unique_ptr<host::DeviceDoor> devices_;
+  std::int64_t brought_ = -1;   // the tick for which readings were brought last
+  std::string device_trouble_;  // the last reading that was refused
+  struct Unstored {
+    std::int64_t seq = 0;
+    Scene scene;
+    std::shared_ptr<const State> state;
+  };
+  std::map<std::string, std::shared_ptr<const State>> kept_;  // by scenario: its running state
+  std::map<std::string, Unstored> unstored_;                  // by scenario: those that the file does not have yet
+  std::map<std::string, journal::Snapshot> stored_;           // by scenario: those of the file, when it was opened
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };
 

@@ -1,4 +1,5 @@
 // A room begins with a scene, or goes on from its session file.
+#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -68,12 +69,16 @@ Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path
 Result<void> RoomHost::begin(const journal::Loaded& loaded) {
   beginning_ = loaded.room.scene;
   base_ = loaded.room.base;
+  kept_.clear();
+  unstored_.clear();
+  stored_ = loaded.scenarios;
   const auto scene = usable_scene(beginning_, "the scene of the session file");
   if (!scene) return scene.error();
   const auto state = state_after(loaded, *scene);
   if (!state) return state.error();
   const auto history = [&](Ledger& ledger) -> Result<void> {
-    room_ = std::make_unique<room::Room>(ledger, room::RoomOptions{options_.allowances, options_.random});
+    room_ = std::make_unique<room::Room>(ledger, room::RoomOptions{options_.allowances, options_.random,
+                                                                   [this](const std::string& id) { return kept_state(id); }});
     for (const room::EntryRecord& record : loaded.room.stored.entries)
       if (auto done = room_->replay(record); !done) return done.error().within("entry " + std::to_string(record.entry.seq));
     room_->restore(loaded.room.stored);
@@ -92,12 +97,15 @@ Result<void> RoomHost::begin(const journal::Loaded& loaded) {
     for (const auto& [number, seat] : std::map(room_->state().seats))
       if (seat.is_here) room_->note_presence(number, false, now);
   });
+  devices_.reset();
+  brought_ = -1;
+  follow_devices();
   follow_pace();
   return {};
 }
 
 // The ticks since the newest snapshot are taken again, with what was said in them.
-Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Scene& beginning) const {
+Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Scene& beginning) {
   Scene scene = beginning;
   std::optional<SavedState> saved;
   std::int64_t seq = loaded.room.base;
@@ -114,9 +122,16 @@ Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Sc
   const auto run_to = [&](std::int64_t tick) {
     while ((*session)->state()->tick < tick) (*session)->tick();
   };
+  std::int64_t last_return = base_;
   for (const room::EntryRecord& record : loaded.room.stored.entries) {
-    if (record.entry.seq <= seq || !record.entry.is_command()) continue;
+    if (record.entry.is_return()) last_return = record.entry.seq;
+    if (record.entry.seq <= seq) continue;
     run_to(record.entry.tick);
+    if (!record.entry.is_command()) {
+      if (auto done = follow_return(**session, record.entry); !done)
+        return done.error().within("entry " + std::to_string(record.entry.seq));
+      continue;
+    }
     // Undo marks of gestures before the snapshot are not known here; what counts is what the entry does to the scene.
     LogEntry entry = record.entry;
     entry.undoes = entry.redoes = 0;
@@ -125,9 +140,37 @@ Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Sc
     if (auto done = (*session)->submit({.command = entry.command, .author = entry.author}); !done)
       return done.error().within("entry " + std::to_string(entry.seq));
   }
-  for (const journal::HashRow& row : loaded.hashes) run_to(row.tick);
-  for (const room::EntryRecord& record : loaded.room.stored.entries) run_to(record.entry.tick);
+  // Ticks before the last return were higher, and are no more.
+  for (const journal::HashRow& row : loaded.hashes)
+    if (row.seq >= last_return) run_to(row.tick);
+  for (const room::EntryRecord& record : loaded.room.stored.entries)
+    if (record.entry.seq > last_return) run_to(record.entry.tick);
   return save(*(*session)->coming_state());
+}
+
+// Scenarios keep the state of their moment, and restarts go back to it.
+Result<void> RoomHost::follow_return(Session& session, const LogEntry& entry) {
+  if (entry.event) {
+    const auto content = entry.event->read();
+    if (!content) return content.error();
+    if ((**content).value("event", "") != "save_scenario") return {};
+    session.keep_moment(entry.seq);
+    kept_[(**content)["arguments"].value("id", "")] = session.coming_state();
+    return {};
+  }
+  if (!entry.restarts_from) return {};
+  const auto stored =
+      std::find_if(stored_.begin(), stored_.end(), [&](const auto& one) { return one.second.seq == *entry.restarts_from; });
+  if (!session.has_moment(*entry.restarts_from) && stored != stored_.end()) {
+    auto state = state_of(stored->second);
+    if (!state) return state.error();
+    session.keep_moment(*entry.restarts_from, std::move(*state));
+  }
+  LogEntry back = entry;
+  back.seq = 0;  // entries are numbered anew here
+  back.source = {};
+  back.state_hash.clear();  // a room goes on also where another version of the program gives other hashes
+  return session.replay(back);
 }
 
 // All keys follow from one, which is stored: whoever was invited before a crash is invited after it.

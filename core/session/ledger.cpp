@@ -120,6 +120,15 @@ Result<void> Ledger::rewind(const Author& author, std::int64_t tick, std::int64_
   return apply_entry(std::move(entry));
 }
 
+Result<void> Ledger::restart(const Author& author, std::int64_t tick, std::int64_t from, const std::string& state_hash) {
+  if (from > last_seq()) return Error{ErrorCode::out_of_range, "restart", "there is no entry " + std::to_string(from) + " yet"};
+  LogEntry entry{.tick = tick, .gesture = last_gesture_ + 1};
+  entry.author = author;
+  entry.restarts_from = from;
+  entry.state_hash = state_hash;
+  return apply_entry(std::move(entry));
+}
+
 void Ledger::call_off_rewinds(std::int64_t since) {
   const auto first =
       std::lower_bound(log_.begin(), log_.end(), since, [](const LogEntry& entry, std::int64_t seq) { return entry.seq < seq; });

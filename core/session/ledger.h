@@ -62,6 +62,8 @@ class Ledger {
   /// Logs that the running state goes back from `tick` to an earlier one. The scene and the steps that can be undone stay the
   /// same. The rewind itself cannot be undone, since later states are discarded.
   Result<void> rewind(const Author& author, std::int64_t tick, std::int64_t to);
+  /// Logs that the running state goes back to the one with which an entry was made, whose hash is told.
+  Result<void> restart(const Author& author, std::int64_t tick, std::int64_t from, const std::string& state_hash);
   /// The rewinds from the entry with this number on could not take place. They are called off, and what was said since belongs to
   /// the tick at which the first of them was said.
   void call_off_rewinds(std::int64_t since);

@@ -14,8 +14,9 @@ namespace bl {
 namespace {
 
 // Version 1 has no base, and all its authors are persons; version 2 has neither sources, nor labels, nor rewinds.
-// Versions before 4 do not name the scheme of their hashes, which is 1; versions before 5 have no events.
-constexpr int kLogVersion = 5;
+// Versions before 4 do not name the scheme of their hashes, which is 1; versions before 5 have no events, and those before 6 no
+// restarts.
+constexpr int kLogVersion = 6;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 constexpr const char* kAuthorKinds[] = {"person", "device", "program"};
 
@@ -39,6 +40,27 @@ Result<LogEntry> rewind_from_json(const Json& line, LogEntry entry) {
   return entry;
 }
 
+bool is_hash(const std::string& text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+Result<LogEntry> restart_from_json(const Json& line, LogEntry entry) {
+  for (const char* key : {"command", "arguments", "undoes", "redoes", "rewind", "event"})
+    if (line.contains(key))
+      return Error{ErrorCode::conflict, key, "a restart has no command and undoes none: remove the other fields"};
+  const auto from = number_in(line, "restart", true);
+  if (!from) return from.error();
+  if (*from >= entry.seq)
+    return Error{ErrorCode::out_of_range, "restart",
+                 "goes back to entry " + std::to_string(*from) + ", which is not before its own"};
+  const auto hash = line.find("state");
+  if (hash == line.end() || !hash->is_string() || !is_hash(hash->get<std::string>()))
+    return Error{ErrorCode::missing, "state", "expects 16 hexadecimal digits"};
+  entry.restarts_from = *from;
+  entry.state_hash = hash->get<std::string>();
+  return entry;
+}
+
 Result<LogEntry> event_from_json(const Json& line, LogEntry entry) {
   for (const char* key : {"command", "undoes", "redoes", "rewind"})
     if (line.contains(key))
@@ -55,7 +77,7 @@ Result<LogEntry> event_from_json(const Json& line, LogEntry entry) {
 Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
   if (auto keys = check_keys(line,
                              {"seq", "tick", "author", "kind", "gesture", "undoes", "redoes", "origin", "operation", "label",
-                              "abandoned", "rewind", "event", "command", "arguments"},
+                              "abandoned", "rewind", "restart", "state", "event", "command", "arguments"},
                              "");
       !keys)
     return keys.error();
@@ -88,6 +110,7 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
       return Error{ErrorCode::wrong_kind, "abandoned", "expects true, at an entry that undoes a gesture"};
     entry.is_abandoned = true;
   }
+  if (line.contains("restart")) return restart_from_json(line, std::move(entry));
   if (line.contains("rewind")) return rewind_from_json(line, std::move(entry));
   if (line.contains("event")) return event_from_json(line, std::move(entry));
   Json command = Json::object();
@@ -104,8 +127,7 @@ Result<LogCheck> check_from_json(const Json& json, bool is_end) {
                                : Result<std::int64_t>(Error{ErrorCode::parse, "", "expects {\"tick\", \"hash\"}"});
   if (!tick) return tick.error();
   const std::string hash = json.contains("hash") && json["hash"].is_string() ? json["hash"].get<std::string>() : "";
-  if (hash.size() != 16 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
-    return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
+  if (!is_hash(hash)) return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
   return LogCheck{*tick, hash, is_end};
 }
 
@@ -153,7 +175,7 @@ class LogReader {
 
   static Error no_log() {
     return {ErrorCode::parse, "",
-            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 5, \"scene\": {...}}"};
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 6, \"scene\": {...}}"};
   }
 
   LogFile log;
@@ -187,6 +209,9 @@ class LogReader {
     if (entry.rewinds_to) {
       if (auto back = go_back(*entry.rewinds_to); !back) return back;
     }
+    if (entry.restarts_from) {
+      if (auto back = restart(*entry.restarts_from); !back) return back;
+    }
     if (use_ == LogUse::recovery) entry = gestures_.fitted(entry);
     else if (auto fits = gestures_.check(entry); !fits) return fits;
     gestures_.take(entry);
@@ -208,6 +233,14 @@ class LogReader {
           "tick " + std::to_string(tick) + " lies before the scene of the log, which is at tick " + std::to_string(first_tick_)};
     log.last_tick = entry_tick_ = check_tick_ = tick;
     return {};
+  }
+
+  Result<void> restart(std::int64_t from) {
+    const auto entry = std::lower_bound(log.entries.begin(), log.entries.end(), from,
+                                        [](const LogEntry& one, std::int64_t seq) { return one.seq < seq; });
+    if (entry != log.entries.end() && entry->seq == from) return go_back(entry->tick);
+    if (use_ == LogUse::recovery) return {};
+    return Error{ErrorCode::not_found, "restart", "goes back to entry " + std::to_string(from) + ", which is not in the log"};
   }
 
   // A replay runs up to the tick of each line.
@@ -259,6 +292,7 @@ std::string log_line(const LogEntry& entry, const Registry& registry) {
   if (entry.source.operation != 0) line["operation"] = entry.source.operation;
   if (!entry.label.empty()) line["label"] = entry.label;
   if (entry.rewinds_to) line["rewind"] = *entry.rewinds_to;
+  else if (entry.restarts_from) line["restart"] = *entry.restarts_from, line["state"] = entry.state_hash;
   else if (entry.event) line.update(**entry.event->read());
   else line.update(command_to_json(registry, entry.command));
   return write_json_line(line) + "\n";

@@ -22,7 +22,8 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
-/// One command of an author, a rewind, or an event of the room around the session. Entries of one gesture are undone together.
+/// One command of an author, a rewind or another return, or an event of the room around the session. Entries of one gesture are
+/// undone together.
 struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
   Author author = {};
@@ -32,13 +33,19 @@ struct LogEntry {
   std::string label = {};     ///< the name of the step in the history; empty: derived from its command
   bool is_abandoned = false;  ///< an undo for good: the gesture cannot be redone
   std::optional<std::int64_t> rewinds_to =
-      {};                      ///< the running state goes back to this tick, the scene stays; there is no command
-  bool is_called_off = false;  ///< a rewind that could not take place: it stays where it is, but no log file has it
+      {};  ///< the running state goes back to this tick, the scene stays; there is no command
+  /// The running state goes back to the one with which that entry was made, under the present scene; there is no command. Unlike
+  /// a rewind it takes in first what was said in its own tick, such as the commands that bring the scene of that entry back.
+  std::optional<std::int64_t> restarts_from = {};
+  std::string state_hash = {};  ///< of the state that a restart goes back to
+  bool is_called_off = false;   ///< a rewind that could not take place: it stays where it is, but no log file has it
   /// What happened among the people, such as a poll that was opened: {"event": id, "arguments": {...}}. It has its number and its
   /// tick, and changes no scene; what it means is not the session's to know.
   std::optional<JsonValue> event = {};
 
-  bool is_command() const { return !rewinds_to && !event; }
+  bool is_command() const { return !is_return() && !event; }
+  /// Do the ticks go back?
+  bool is_return() const { return rewinds_to || restarts_from; }
 };
 
 /// A hash that was reached at a tick; a replay must reach the same one.

@@ -40,11 +40,28 @@ bool Session::tick() {
 }
 
 Result<void> Session::replay(const LogEntry& entry) {
+  if (entry.restarts_from) return restart(entry);
   if (!entry.rewinds_to) return ledger_.replay(entry);
   const auto kept = kept_.find(*entry.rewinds_to);
   if (kept == kept_.end() || kept->first >= state()->tick)
     return Error{ErrorCode::not_found, "rewind", "the state of tick " + std::to_string(*entry.rewinds_to) + " is not kept"};
   if (auto done = ledger_.replay(entry); !done) return done;
+  simulation_.return_to(kept->second);
+  return {};
+}
+
+// The scene first, so that nothing of the state is lost on the way through a scene that has other nodes.
+Result<void> Session::restart(const LogEntry& entry) {
+  const auto kept = moments_.find(*entry.restarts_from);
+  if (kept == moments_.end())
+    return Error{ErrorCode::not_found, "restart", "the state of entry " + std::to_string(*entry.restarts_from) + " is not kept"};
+  if (const std::string hash = hex_digits(kept->second->hash); !entry.state_hash.empty() && hash != entry.state_hash)
+    return Error{ErrorCode::conflict, "restart",
+                 "the state of entry " + std::to_string(*entry.restarts_from) + " has the hash " + hash +
+                     ", and the entry names " + entry.state_hash};
+  if (auto done = ledger_.replay(entry); !done) return done;
+  const Ledger::Changes changes = ledger_.take_changes();
+  if (changes.is_logic_changed) simulation_.set_scene(ledger_.scene(), changes.placed);
   simulation_.return_to(kept->second);
   return {};
 }
@@ -63,17 +80,21 @@ class Replaying {
  public:
   Replaying(const LogFile& log, Session& session, ReplayReport& report) : log_(log), session_(session), report_(report) {
     std::set<std::int64_t> targets;
-    for (const LogEntry& entry : log.entries)
+    for (const LogEntry& entry : log.entries) {
       if (entry.rewinds_to) targets.insert(*entry.rewinds_to);
+      if (entry.restarts_from) moments_.insert(*entry.restarts_from);
+    }
     session.keep_states(std::move(targets));
     begin_stretch(0);
   }
 
   Result<void> take(std::size_t index) {
-    const LogEntry& entry = log_.entries[index];
+    LogEntry entry = log_.entries[index];
+    if (log_.hash_scheme != kHashScheme) entry.state_hash.clear();  // it says nothing about the states of this program
     run_to(entry.tick);
     if (auto done = session_.replay(entry); !done) return done.error().within("entry " + std::to_string(entry.seq));
-    if (entry.rewinds_to) begin_stretch(index + 1);
+    if (moments_.contains(entry.seq)) session_.keep_moment(entry.seq);
+    if (entry.is_return()) begin_stretch(index + 1);
     ++report_.entries;
     return {};
   }
@@ -90,7 +111,7 @@ class Replaying {
   void begin_stretch(std::size_t first) {
     while (next_ < log_.checks.size() && log_.checks[next_].entries < first) ++next_;
     end_ = first;
-    while (end_ < log_.entries.size() && !log_.entries[end_].rewinds_to) ++end_;
+    while (end_ < log_.entries.size() && !log_.entries[end_].is_return()) ++end_;
     compare();
   }
 
@@ -109,8 +130,9 @@ class Replaying {
   const LogFile& log_;
   Session& session_;
   ReplayReport& report_;
-  std::size_t next_ = 0;  // check
-  std::size_t end_ = 0;   // of the stretch: the rewind, or the end of the log
+  std::set<std::int64_t> moments_;  // entries to which restarts go back
+  std::size_t next_ = 0;            // check
+  std::size_t end_ = 0;             // of the stretch: the rewind, or the end of the log
 };
 
 }  // namespace

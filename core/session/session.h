@@ -36,6 +36,11 @@ class Session {
   /// Keeps the states with which these ticks begin, so that a rewind can return to them.
   void keep_states(std::set<std::int64_t> ticks) { kept_ticks_ = std::move(ticks); }
 
+  /// Keeps the coming state under the number of an entry, or the one that is given, so that a restart can return to it.
+  void keep_moment(std::int64_t seq) { keep_moment(seq, coming_state()); }
+  void keep_moment(std::int64_t seq, std::shared_ptr<const State> state) { moments_[seq] = std::move(state); }
+  bool has_moment(std::int64_t seq) const { return moments_.contains(seq); }
+
   /// One tick with the commands since the last one. False where the work was stopped (core/base/stop): the state is then the one
   /// before, and the commands wait for the next tick.
   bool tick();
@@ -65,7 +70,9 @@ class Session {
   Ledger ledger_;
   Simulation simulation_;
   std::set<std::int64_t> kept_ticks_;
-  std::map<std::int64_t, std::shared_ptr<const State>> kept_;
+  std::map<std::int64_t, std::shared_ptr<const State>> kept_;     // by tick
+  std::map<std::int64_t, std::shared_ptr<const State>> moments_;  // by entry
+  Result<void> restart(const LogEntry& entry);
 };
 
 /// The end of a replay, and the first tick whose hash differs from the log.

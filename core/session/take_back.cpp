@@ -121,8 +121,8 @@ Result<TakenBack> Ledger::take_back(const Wish& wish) {
   if (!taken.left.empty()) return Error{ErrorCode::conflict, "", cannot + ": " + text_of(taken.left.front())};
   if (taken.misfit) return *taken.misfit;
   const auto named = std::find_if(log_.rbegin(), log_.rend(), [&](const LogEntry& e) { return e.gesture == wish.gesture; });
-  if (wish.gesture != 0 && named != log_.rend() && named->rewinds_to)
-    return Error{ErrorCode::conflict, "", "a rewind cannot be undone: the later states were discarded"};
+  if (wish.gesture != 0 && named != log_.rend() && named->is_return())
+    return Error{ErrorCode::conflict, "", "a return cannot be undone: the later states were discarded"};
   return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + wish.author.id};
 }
 

@@ -75,7 +75,12 @@ void DraftOp::declare(MessageBuilder<DraftOp>& m) {
 }
 void Want::declare(MessageBuilder<Want>& m) {
   m.from_page().id("want").doc("The views that are to be followed from now on.");
-  m.field(&Want::views, "views").required().doc("`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`.");
+  m.field(&Want::views, "views")
+      .required()
+      .doc(
+          "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, "
+          "`draft_plans`.");
+  m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }
 void Seen::declare(MessageBuilder<Seen>& m) {
   m.from_page().id("seen").doc("How far a page has come.");
@@ -113,8 +118,13 @@ void SceneOut::declare(MessageBuilder<SceneOut>& m) {
 }
 void Ops::declare(MessageBuilder<Ops>& m) {
   m.id("ops").doc("Entries of the log, after they are stored.");
-  m.field(&Ops::e, "e").required().doc("[{s, k, a, g, c or v, by, d}].");
+  m.field(&Ops::e, "e")
+      .required()
+      .doc(
+          "[{s, k, a, g, c or v, by, d}]; a restart has `back`, the entry to whose running state it goes, and `state`, its "
+          "hash.");
   m.field(&Ops::d, "d").required().doc("Number of the last stored entry.");
+  m.field(&Ops::epoch, "epoch").min(0).doc("Grows with each return to a scenario: ticks go back.");
 }
 void Ack::declare(MessageBuilder<Ack>& m) {
   m.id("ack").doc("The operation is stored.");

@@ -49,7 +49,8 @@ struct DraftOp {
   static void declare(MessageBuilder<DraftOp>& m);
 };
 struct Want {
-  std::vector<std::string> views;
+  static constexpr std::size_t kMostDrafts = 4;
+  std::vector<std::string> views, drafts;
   static void declare(MessageBuilder<Want>& m);
 };
 struct Seen {
@@ -84,7 +85,7 @@ struct SceneOut {
 };
 struct Ops {
   JsonValue e = JsonValue::null();
-  std::int64_t d = 0;
+  std::int64_t d = 0, epoch = 0;
   static void declare(MessageBuilder<Ops>& m);
 };
 struct Ack {

@@ -58,8 +58,10 @@ Json cards_of(const State& state) {
 View room_view(const ViewSources& sources) {
   const room::RoomState& state = sources.room.state();
   View view;
-  Json phase = {
-      {"name", state.phase.name}, {"activities", Json::array()}, {"ends_at", state.phase.ends_at}, {"forms", state.phase.forms}};
+  Json phase = {{"name", sources.room.words(state.phase.name)},
+                {"activities", Json::array()},
+                {"ends_at", state.phase.ends_at},
+                {"forms", state.phase.forms}};
   for (const Activity activity : state.phase.activities)
     phase["activities"].push_back(kActivityNames[static_cast<std::size_t>(activity)]);
   Json seats = Json::object();
@@ -85,6 +87,17 @@ View room_view(const ViewSources& sources) {
     for (const auto& [name, area] : state.areas) areas[name] = {{"pen", area.pen}, {"asking", area.asking}};
     return areas;
   }());
+  put(view, "scenarios", [&] {
+    Json scenarios = Json::object();
+    for (const auto& [id, scenario] : state.scenarios)
+      scenarios[id] = {{"name", sources.room.words(scenario.name)},
+                       {"note", sources.room.words(scenario.note)},
+                       {"seat", scenario.seat},
+                       {"seq", scenario.seq},
+                       {"tick", scenario.tick}};
+    return scenarios;
+  }());
+  put(view, "epoch", state.epoch);
   put(view, "door", room::kDoorNames[static_cast<std::size_t>(state.door)]);
   put(view, "layout", state.layout);
   put(view, "paused", state.is_paused);
@@ -292,12 +305,24 @@ Json words_of_steps(const ViewSources& sources, const room::Draft& draft) {
   return words;
 }
 
+Json conflicts_of(const ViewSources& sources, const room::DraftSummary& summary) {
+  const auto content = [](const std::optional<JsonValue>& value) { return value ? Json(**value->read()) : Json(); };
+  Json list = Json::array();
+  for (const room::DraftConflict& conflict : summary.conflicts)
+    list.push_back({{"place", text_of(conflict.place)},
+                    {"label", host::label_of_place(conflict.place, sources.room.scene())},
+                    {"by", seat_name(sources.room.state(), conflict.author)},
+                    {"live", content(conflict.live)},
+                    {"draft", content(conflict.drafted)}});
+  return list;
+}
+
 View proposals_view(const ViewSources& sources) {
   View view;
   const room::RoomState& state = sources.room.state();
   for (const auto& [id, proposal] : state.proposals) {
     Json json = {{"seat", proposal.seat},
-                 {"title", proposal.title},
+                 {"title", sources.room.words(proposal.title)},
                  {"why", words_of(sources.room, proposal.why)},
                  {"state", room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]},
                  {"steps", proposal.steps},
@@ -307,11 +332,10 @@ View proposals_view(const ViewSources& sources) {
     if (draft != sources.room.drafts().end()) json["words"] = words_of_steps(sources, draft->second);
     if (draft != sources.room.drafts().end() && proposal.state == room::ProposalState::proposed) {
       const room::DraftSummary summary = sources.room.summary_of(id);
-      json["conflicts"] = Json::array();
-      for (const room::DraftConflict& conflict : summary.conflicts)
-        json["conflicts"].push_back({{"place", text_of(conflict.place)}, {"by", seat_name(state, conflict.author)}});
+      json["conflicts"] = conflicts_of(sources, summary);
       json["misfits"] = misfits_of(summary.misfits);
     }
+    json["trial"] = trial_to_json(sources.trials, id);
     put(view, id, json);
   }
   return view;
@@ -321,11 +345,30 @@ View drafts_view(const ViewSources& sources, std::int64_t seat) {
   View view;
   for (const auto& [id, draft] : sources.room.drafts()) {
     if (draft.seat() != seat || draft.state() == room::DraftState::dropped) continue;
+    const room::DraftSummary summary = sources.room.summary_of(id);
     put(view, id,
         {{"title", draft.title()},
          {"state", room::kDraftStateNames[static_cast<std::size_t>(draft.state())]},
          {"steps", words_of_steps(sources, draft)},
-         {"misfits", misfits_of(sources.room.summary_of(id).misfits)}});
+         {"conflicts", conflicts_of(sources, summary)},
+         {"misfits", misfits_of(summary.misfits)},
+         {"trial", trial_to_json(sources.trials, id)}});
+  }
+  return view;
+}
+
+// Of the drafts that pages of this seat look at, those that it may see: its own, and what was proposed.
+View draft_plans_view(const ViewSources& sources, std::int64_t seat) {
+  View view;
+  if (sources.trials == nullptr) return view;
+  const auto looked_at = sources.trials->looked_at.find(seat);
+  if (looked_at == sources.trials->looked_at.end()) return view;
+  for (const std::string& id : looked_at->second) {
+    const auto draft = sources.room.drafts().find(id);
+    const auto trial = sources.trials->trials.find(id);
+    if (draft == sources.room.drafts().end() || trial == sources.trials->trials.end() || !trial->second.picture) continue;
+    if (draft->second.seat() != seat && !sources.room.state().proposals.contains(id)) continue;
+    for (const auto& [key, content] : trial->second.picture->plan) view[id + "/" + key] = content;
   }
   return view;
 }
@@ -336,7 +379,10 @@ bool is_view(std::string_view name) {
   return std::find(std::begin(kViewNames), std::end(kViewNames), name) != std::end(kViewNames);
 }
 
-bool is_of_seat(std::string_view view) { return view == "card" || view == "votes" || view == "comments" || view == "drafts"; }
+bool is_of_seat(std::string_view view) {
+  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_plans"};
+  return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
+}
 
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat) {
   if (name == "room") return room_view(sources);
@@ -347,6 +393,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "comments") return comments_view(sources, seat);
   if (name == "proposals") return proposals_view(sources);
   if (name == "drafts") return drafts_view(sources, seat);
+  if (name == "draft_plans") return draft_plans_view(sources, seat);
   return {};
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/graph/state.h"
 #include "core/room/room.h"
+#include "core/wire/draft_trial.h"
 
 namespace bl::wire {
 
@@ -21,10 +22,12 @@ struct ViewSources {
   const State& state;
   room::Room& room;
   std::string code, title;
+  const DraftTrials* trials = nullptr;  ///< none where no draft is tried
 };
 
-/// The names of all views. Of these, `card`, `votes`, `comments` and `drafts` are different for each seat.
-inline constexpr std::string_view kViewNames[] = {"room", "plan", "figures", "card", "votes", "comments", "proposals", "drafts"};
+/// The names of all views. Of these, `card`, `votes`, `comments`, `drafts` and `draft_plans` are different for each seat.
+inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figures", "card",       "votes",
+                                                  "comments", "proposals", "drafts",  "draft_plans"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
 

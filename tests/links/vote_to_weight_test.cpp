@@ -24,6 +24,10 @@ LinkCase voted(const Table& mapping) {
   link.set("mapping", Shared<Table>(mapping));
   link.from("node.id", std::string("poll")).from("vote.results", Shared<Table>(results_of({{"a", 0.5}, {"b", 0.3}, {"c", 0.2}})));
   link.from("vote.ballot_count", std::int64_t{8}).from("vote.turnout", 0.8).from("vote.electorate", std::int64_t{10});
+  Table decided{{"option", "share"}, {{std::string("a"), 0.5}, {std::string("b"), 0.3}, {std::string("c"), 0.2}}};
+  link.from("vote.decided", Shared<Table>(decided))
+      .from("vote.decided_ballots", std::int64_t{8})
+      .from("vote.decided_turnout", 0.8);
   link.from("vote.is_open", false).from("vote.is_shown", true);
   return link;
 }
@@ -52,6 +56,9 @@ TEST(VoteToWeight, WaitsUntilTheResultCounts) {
   const Table mapping = mapping_of({{"a", 1000, 3000}});
   auto open = voted(mapping);
   open.from("vote.is_open", true);
+  ASSERT_EQ(open.run(), "");
+  EXPECT_NEAR(open.number(End::to, "target"), 2000, 1e-9) << "the result of the last close stays in force";
+  open.from("vote.decided_ballots", std::int64_t{0});
   EXPECT_EQ(waiting(open), "when: the vote `poll` is still open, so that it does not act yet");
   open.set("when", std::string("shown"));
   ASSERT_EQ(open.run(), "");
@@ -59,7 +66,7 @@ TEST(VoteToWeight, WaitsUntilTheResultCounts) {
   open.from("vote.is_shown", false);
   EXPECT_EQ(waiting(open), "when: the vote `poll` does not show its result before it is closed, so that it does not act yet");
   auto empty = voted(mapping);
-  empty.from("vote.ballot_count", std::int64_t{0});
+  empty.from("vote.decided_ballots", std::int64_t{0});
   EXPECT_EQ(waiting(empty), "from: the vote `poll` has no ballot, so that it does not act yet");
 }
 
@@ -70,7 +77,7 @@ TEST(VoteToWeight, NeedsItsTurnout) {
   EXPECT_TRUE(link.proposed(End::to, "target").has_value()) << "reached exactly";
   link.set("minimum_turnout", 0.9);
   EXPECT_EQ(waiting(link), "minimum_turnout: the vote `poll` has a turnout of 80 % and needs 90 %, so that it does not act yet");
-  link.from("vote.electorate", std::int64_t{0}).from("vote.turnout", 0.0);
+  link.from("vote.electorate", std::int64_t{0}).from("vote.decided_turnout", 0.0);
   EXPECT_NE(waiting(link).find("does not know how many may vote"), std::string::npos);
 }
 
@@ -118,7 +125,8 @@ TEST(VoteToWeight, StudySharesOutTheWholeBlock) {
   ASSERT_EQ(open(true), "");
   ASSERT_EQ(world.submit(command<CastVote>({"people", "newcomer", {R"({"culture": 10})"}}), "newcomer"), "");
   world.tick(3);
-  EXPECT_EQ(all(), 12000) << "an open vote proposes nothing: the demands are what people have set";
+  EXPECT_NEAR(all(), 84000, 1e-6) << "what was decided stays in force while the vote is open again";
+  EXPECT_NEAR(demands("culture", 2), culture, 1e-6);
   ASSERT_EQ(open(false), "");
   world.tick(3);
   EXPECT_NEAR(all(), 84000, 1e-6);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/hash.h"
 #include "core/define/codec.h"
 #include "core/session/log.h"
 #include "tests/support/random_commands.h"
@@ -33,7 +34,7 @@ std::string random_words(Random& random) {
 }
 
 RandomRecords::RandomRecords(const Scene& scene, std::uint64_t seed, std::int64_t last_seq)
-    : scene_(&scene), random_(seed), seq_(last_seq), seq_before_(last_seq) {}
+    : scene_(&scene), random_(seed), seq_(last_seq), seq_before_(last_seq), first_seq_(last_seq + 1) {}
 
 // A command that fits the declarations, as it is after it was read: an argument of null, for one, is the same as none.
 Command RandomRecords::command() {
@@ -57,6 +58,9 @@ room::EntryRecord RandomRecords::entry() {
   if (kind == 0 && tick_ > 0) {
     entry.rewinds_to = static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(tick_)));
     tick_ = *entry.rewinds_to;
+  } else if (kind == 1 && seq_ > first_seq_) {
+    entry.restarts_from = seq_ - 1;
+    entry.state_hash = hex_digits(random_.below(1000000));
   } else if (kind < 3) {
     Json event = Json::object();
     event["event"] = "comment";

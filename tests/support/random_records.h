@@ -32,7 +32,7 @@ class RandomRecords {
   const Scene* scene_;
   Random random_;
   std::int64_t seq_, tick_ = 0;
-  std::int64_t seq_before_, tick_before_ = 0;
+  std::int64_t seq_before_, first_seq_, tick_before_ = 0;
   int number_ = 0;
 };
 

@@ -53,7 +53,7 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
   auto* certificate = c.add_option("--certificate", o.certificate, "Certificate chain for TLS, as PEM.")->type_name("FILE");
   auto* key = c.add_option("--key", o.key, "Its private key, as PEM.")->type_name("FILE")->needs(certificate);
   certificate->needs(key);
-  c.add_flag("--live", o.is_live, "Lets facilitators set addresses of sensors and actuators, and names of files.");
+  c.add_flag("--live", o.is_live, "Connects sensors and actuators, and lets facilitators set their addresses and names of files.");
   c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
   c.add_option("--behind-proxy", o.proxy,
                "The address of a proxy in front of the server. What it says in X-Forwarded-For, -Host and -Proto is believed.")

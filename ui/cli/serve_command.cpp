@@ -125,6 +125,7 @@ int serve_command(ServeOptions options) {
   for (const std::string& source : options.sources) {
     std::string code = new_code();
     while (rooms.contains(code)) code = new_code();
+    if (options.is_live) room_options.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
     auto room = serve::RoomHost::open(journal_of(options, source), code, source, room_options);
     if (!room) {
       print_error(source, room.error());

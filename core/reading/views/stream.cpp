@@ -18,6 +18,19 @@ void SensorFigures::declare(ViewBuilder<SensorFigures>& v) {
 }
 BL_VIEW(SensorFigures)
 
+void PeopleFigures::declare(ViewBuilder<PeopleFigures>& v) {
+  v.of("people_sensor");
+  v.reads(&PeopleFigures::address, "people_sensor.address");
+  v.reads(&PeopleFigures::tick_length, "people_sensor.tick_length", Unit::second);
+  v.reads(&PeopleFigures::height, "people_sensor.height", Unit::metre);
+  v.reads(&PeopleFigures::use, "people_sensor.use");
+  v.reads(&PeopleFigures::demand, "people_sensor.demand", Unit::cubic_metre);
+  v.reads(&PeopleFigures::most, "people_sensor.most");
+  v.reads(&PeopleFigures::present, "people_sensor.present");
+  v.reads(&PeopleFigures::connection, "people_sensor.connection");
+}
+BL_VIEW(PeopleFigures)
+
 void ActuatorFigures::declare(ViewBuilder<ActuatorFigures>& v) {
   v.of("actuator");
   v.reads(&ActuatorFigures::value, "actuator.value");
@@ -42,6 +55,6 @@ void BrokerSettings::declare(ViewBuilder<BrokerSettings>& v) {
 }
 BL_VIEW(BrokerSettings)
 
-BL_VIEWS(stream, SensorFigures, ActuatorFigures, BrokerSettings)
+BL_VIEWS(stream, SensorFigures, PeopleFigures, ActuatorFigures, BrokerSettings)
 
 }  // namespace bl::reading

@@ -22,6 +22,20 @@ struct SensorFigures {
   static const ViewDefinition& view();
 };
 
+/// A sensor that follows people, and what their nodes are like.
+struct PeopleFigures {
+  std::string address;
+  double tick_length = 0;  ///< that a tick stands for [s]
+  double height = 0;       ///< of the nodes [m]
+  std::string use;
+  double demand = 0;  ///< of each person [m3]
+  std::int64_t most = 0, present = 0;
+  std::string connection;  ///< what is wrong with the table
+
+  static void declare(ViewBuilder<PeopleFigures>& v);
+  static const ViewDefinition& view();
+};
+
 /// A number that goes to a device.
 struct ActuatorFigures {
   double value = 0;

@@ -15,7 +15,7 @@ struct Propose {
   static void declare(EventBuilder<Propose>& e) {
     e.id("propose").label("Propose").doc("Shows a draft to the facilitator, who accepts it or not.");
     e.argument(&In::draft, "draft").required().doc("Name of the draft.");
-    e.argument(&In::title, "title").doc("What it is called.");
+    e.title(&In::title, "title").doc("What it is called.");
     e.words(&In::why, "why").doc("What it is good for, in words.");
     e.argument(&In::steps, "steps").min(0).doc("How many steps it has; the room fills this in.");
   }

@@ -16,7 +16,7 @@ struct SaveScenario {
         .label("Save scenario")
         .doc("Names the scene as it is now, so that people can compare it and come back to it.");
     e.argument(&In::id, "id").required().doc("Id of the scenario; must not be taken.");
-    e.argument(&In::name, "name").doc("What people see.");
+    e.title(&In::name, "name").doc("What people see.");
     e.words(&In::note, "note").doc("What is good or bad about it, in words.");
   }
   static Result<void> apply(RoomState& state, const In& in, const EventPlace& place) {

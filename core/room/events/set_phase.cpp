@@ -17,7 +17,7 @@ struct SetPhase {
   static constexpr Rights kRights{};
   static void declare(EventBuilder<SetPhase>& e) {
     e.id("set_phase").label("Set phase").doc("Begins a phase. What it does not let people do is refused, facilitators excepted.");
-    e.argument(&In::name, "name").doc("What people see as the title of the phase.");
+    e.title(&In::name, "name").doc("What people see as the title of the phase.");
     e.argument(&In::activities, "activities").doc("What people may do: `change`, `draft`, `comment`, `vote`.");
     e.argument(&In::forms, "forms").doc("Typifications whose nodes participants may add, each within its own settings.");
     e.argument(&In::ends_at, "ends_at").min(0).doc("What the timer counts down to, in milliseconds since 1970; 0 for no timer.");

@@ -149,10 +149,10 @@ TEST(Log, OlderVersionsAreReadAndReplay) {
   EXPECT_EQ(log_line(world.session().log().front(), full_registry()), lines) << "the form of a line has not changed";
   world.tick(2);
   lines += log_line(LogCheck{.tick = 2, .hash = hex_digits(world.state().hash), .is_end = true});
-  for (const char* version : {"1", "2", "3", "4"}) {
+  for (const char* version : {"1", "2", "3", "4", "5"}) {
     std::string header = log_header(kScene);
     header.replace(header.find("\"hashes\""), header.find("\"scene\"") - header.find("\"hashes\""), "");
-    header.replace(header.find("\"version\": 5"), 12, std::string("\"version\": ") + version);
+    header.replace(header.find("\"version\": 6"), 12, std::string("\"version\": ") + version);
     const auto log = read_log(header + lines, full_registry());
     ASSERT_TRUE(log.ok()) << log.error().text();
     const auto report = replay(*log, full_registry(), 1);

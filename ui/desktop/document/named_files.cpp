@@ -58,6 +58,24 @@ Command set_text(const std::string& node, const std::string& port, const std::st
   return command<SetPort>({node, {port}, JsonValue::of(Json(text))});
 }
 
+// A recorded table: one that does not lie below the new folder is copied there.
+void name_table(const std::string& node, const std::string& port, const std::string& address, const files::path& from,
+                const files::path& to, NamedFiles& named) {
+  if (!address.starts_with(kReplay)) return;
+  const auto parsed = address::parse_live_address(address);
+  if (!parsed || address.compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) return;
+  const auto path = found(parsed->path, parsed->path, from);
+  if (!path) return;
+  auto name = below(*path, to);
+  if (!name) {
+    const files::path place = place_for(*path, to);
+    named.copies.emplace_back(path->string(), place.string());
+    name = place.filename().string();
+  }
+  named.commands.push_back(
+      set_text(node, port, std::string(kReplay) + *name + address.substr(kReplay.size() + parsed->path.size())));
+}
+
 }  // namespace
 
 NamedFiles files_named_from(const Scene& scene, const std::string& folder, const std::string& target) {
@@ -78,20 +96,9 @@ NamedFiles files_named_from(const Scene& scene, const std::string& folder, const
           if (found(name, name, from)) named.secrets.push_back(name);
         }
     const auto sensor = settings_of<SensorFigures>(scene, types, node);
-    if (!sensor || !sensor->address.starts_with(kReplay)) continue;
-    const std::string& address = sensor->address;
-    const auto parsed = address::parse_live_address(address);
-    if (!parsed || address.compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) continue;
-    const auto path = found(parsed->path, parsed->path, from);
-    if (!path) continue;
-    auto name = below(*path, to);
-    if (!name) {
-      const files::path place = place_for(*path, to);
-      named.copies.emplace_back(path->string(), place.string());
-      name = place.filename().string();
-    }
-    named.commands.push_back(set_text(id, path_of<&SensorFigures::address>(),
-                                      std::string(kReplay) + *name + address.substr(kReplay.size() + parsed->path.size())));
+    const auto people = settings_of<PeopleFigures>(scene, types, node);
+    if (sensor) name_table(id, path_of<&SensorFigures::address>(), sensor->address, from, to, named);
+    if (people) name_table(id, path_of<&PeopleFigures::address>(), people->address, from, to, named);
   }
   return named;
 }
