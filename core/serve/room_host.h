@@ -14,6 +14,7 @@
 #include "core/journal/writer.h"
 #include "core/room/room.h"
 #include "core/serve/guest.h"
+#include "core/serve/room_windows.h"
 #include "core/wire/messages.h"
 #include "core/wire/views.h"
 
@@ -79,6 +80,10 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted;
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
+    bool is_window = false, is_ticking = false;  // a window of this program; its self-test gives what ours does
+    bool is_following = false;                   // it has a scene, and gets what comes
+    bool wants_snapshot = false;
+    double snapshot_at = -1;  // when it got the last one [s]
     bool is_welcome = false;  // nothing is shown before: pages take the first of each view after it for the whole
   };
   /// Something to be told once the record that it stands in is stored.
@@ -106,7 +111,24 @@ class RoomHost {
   void show(Visitor& visitor);
   void store_hash();
   void keep_records();
-  void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
+  void welcome(Visitor& visitor, const std::string& token, std::int64_t have, std::int64_t tick);
+  // Windows.
+  static bool ticks_alike(const wire::Hello& hello);
+  /// For whoever reads entries and computes no ticks: the scene before the first entry, or those that are missing.
+  void begin_reader(Visitor& visitor, std::int64_t have);
+  void send_entries(Visitor& visitor, std::int64_t after);
+  void begin_window(Visitor& visitor, std::int64_t have, std::int64_t tick);
+  void follow_from(Visitor& visitor, std::int64_t seq);
+  void send_snapshots();
+  void hand_out_snapshot();
+  void watch_ticks();
+  void tell_ticks();
+  /// Those that somebody has asked for in the entries after this one.
+  void take_steps(std::int64_t since);
+  /// False where the message has a wrong form.
+  bool hear_window(Visitor& visitor, const std::string& t, const Json& frame, std::size_t size);
+  void forget_presence(std::int64_t seat);
+  void tell_presences();
   wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_}; }
 
   std::string code_, title_;
@@ -128,6 +150,8 @@ class RoomHost {
   std::shared_ptr<const host::Moment> seen_;               // the moment of the last views
   std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
   std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
+  Windows windows_;
+  bool is_packing_ = false;  // a snapshot is being made
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };
 

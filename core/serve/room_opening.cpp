@@ -85,6 +85,7 @@ Result<void> RoomHost::begin(const journal::Loaded& loaded) {
     for (const auto& [number, seat] : std::map(room_->state().seats))
       if (seat.is_here) room_->note_presence(number, false, now);
   });
+  watch_ticks();
   follow_pace();
   return {};
 }

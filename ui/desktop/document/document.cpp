@@ -57,6 +57,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   }
   std::unique_ptr<Document> document(new Document(registry, path));
   document->host_ = std::move(*host);
+  document->running_ = document->host_.get();
   document->host_->begin_journal(document->source(), write_scene(reading.scene, registry, state));
   if (!path.empty()) document->saved_ = std::move(reading.scene);  // without a file there is nothing that holds it
   document->read_imports(problems);
@@ -88,7 +89,7 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
     note("Passwords and certificates were not copied: put " + names + " beside the new file.");
   }
   if (named.commands.empty()) return 0;
-  const std::int64_t gesture = session().new_gesture();
+  const std::int64_t gesture = running_->new_gesture();
   if (auto done = submit(named.commands, gesture, "Name files from the new folder"); !done)
     return 0;  // somebody has taken the node away: then it names no file any more
   if (!named.copies.empty())
@@ -122,7 +123,7 @@ Result<void> Document::save(const std::string& path) {
   const std::int64_t gesture = name_files_from(named);
   // Scene and running state of one and the same moment.
   const auto text_to_save = [this] {
-    const SavedState state = bl::save(*session().coming_state());
+    const SavedState state = bl::save(*running_->coming_state());
     return write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr);
   };
   const std::string text = text_to_save();
@@ -133,11 +134,11 @@ Result<void> Document::save(const std::string& path) {
     origin_.clear();
     saved_ = scene();
     is_unsaved_ = false;
-    compared_size_ = session().log().size();
+    compared_size_ = running_->log().size();
     write_imports(path);
   } else if (gesture != 0) {
     save_note_.clear();
-    session().abandon(gesture);
+    running_->abandon(gesture);
   }
   if (written) host_->begin_journal(source(), text);  // what was before it is safe
   return written;
@@ -174,7 +175,7 @@ void Document::write_imports(const std::string& scene_path) {
 // What devices have said since the file was written is no change of anybody's: it is taken on in what is compared with, too.
 bool Document::is_unsaved() {
   if (!saved_) return true;
-  const auto& log = session().log();
+  const auto& log = running_->log();
   bool has_persons = false;
   for (; compared_size_ < log.size(); ++compared_size_) {
     const LogEntry& entry = log[compared_size_];

@@ -63,19 +63,19 @@ bool Editor::show(const std::vector<Command>& commands, std::int64_t gesture) {
 
 void Editor::end_gesture(std::int64_t gesture) {
   if (!document) return;
-  if (auto done = document->session().end_gesture(gesture); !done) notify(NoticeKind::error, done.error().text());
+  if (auto done = document->running().end_gesture(gesture); !done) notify(NoticeKind::error, done.error().text());
 }
 
 bool Editor::arrange(const JsonValue& patch, std::int64_t gesture) { return submit(command<SetView>({patch, false}), gesture); }
 
 void Editor::undo() {
   if (!document) return;
-  tell_left(*this, document->session().undo(), "Nothing to undo.");
+  tell_left(*this, document->running().undo(), "Nothing to undo.");
 }
 
 void Editor::redo() {
   if (!document) return;
-  tell_left(*this, document->session().redo(), "Nothing to redo.");
+  tell_left(*this, document->running().redo(), "Nothing to redo.");
 }
 
 std::string Editor::fresh_id(const std::string& wish) const {
@@ -125,15 +125,16 @@ bool Editor::open(const std::string& wanted, bool plays) {
   }
   person.remember(person.recent, path);
   take(std::move(fresh));
-  document->session().play(plays);
+  document->running().play(plays);
   if (!problems.empty()) notify(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
   return true;
 }
 
 void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
-  document->session().make_ticks_wait(serves_ticks && host::has_recordings(document->scene(), program));
-  moment = document->session().moment();
+  if (host::LiveSession* session = document->local())
+    session->make_ticks_wait(serves_ticks && host::has_recordings(document->scene(), program));
+  moment = document->running().moment();
   picks = {};
   panels = nullptr;
   script_watch.clear();
@@ -149,7 +150,7 @@ const Registry& Editor::types() const {
 
 void Editor::begin_frame() {
   if (document)
-    if (auto done = document->session().keep_up(); !done) notify(NoticeKind::error, done.error().text());
+    if (auto done = document->running().keep_up(); !done) notify(NoticeKind::error, done.error().text());
   held_before_ = std::move(held_);
   held_.clear();
   (void)types();

@@ -100,7 +100,7 @@ class Editor {
   void end_gesture(std::int64_t gesture);
   /// A patch of the scene's view (canvas layout, cameras), as one step.
   bool arrange(const JsonValue& patch, std::int64_t gesture = 0);
-  std::int64_t new_gesture() { return document->session().new_gesture(); }
+  std::int64_t new_gesture() { return document->running().new_gesture(); }
   void undo();
   void redo();
   /// A free id for a new node or link, made from a wanted one such as "tower".

@@ -23,14 +23,14 @@ std::int64_t rewind_ticks(const host::Moment& moment) {
 }
 
 void change_rate(Workbench& editor, double factor) {
-  editor.document->session().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
+  editor.document->running().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
 }
 
-void toggle_play(Workbench& editor) { editor.document->session().play(!editor.moment->is_playing); }
-void one_tick(Workbench& editor) { editor.document->session().step(1); }
-void rewind(Workbench& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
+void toggle_play(Workbench& editor) { editor.document->running().play(!editor.moment->is_playing); }
+void one_tick(Workbench& editor) { editor.document->running().step(1); }
+void rewind(Workbench& editor) { editor.document->running().rewind(rewind_ticks(*editor.moment)); }
 bool can_rewind(const Workbench& editor) {
-  return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick;
+  return has_document(editor) && editor.moment && editor.document->running().can_rewind();
 }
 
 std::string rewind_hint(const host::Moment& moment) {
@@ -107,7 +107,7 @@ void draw_clock(Workbench& editor) {
   float rate = static_cast<float>(moment.wanted_rate);
   if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(kSlowest), static_cast<float>(kFastest), "%.3g ticks/s",
                          ImGuiSliderFlags_Logarithmic))
-    editor.document->session().set_rate(rate);
+    editor.document->running().set_rate(rate);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Wanted ticks per second (- slower, = faster)");
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();

@@ -136,7 +136,7 @@ void Desktop::frame(double now) {
   editor.next_frame = kNoFrame;
   editor.begin_frame();
   (void)editor.script_watch.poll(editor);
-  if (editor.document) editor.moment = editor.document->session().moment();
+  if (editor.document) editor.moment = editor.document->running().moment();
   else editor.moment = nullptr;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   float top = 0;
@@ -173,9 +173,9 @@ void Desktop::frame(double now) {
 
 // A scene that needs each tick for itself keeps the clock awake: devices are served in each, and some pictures follow its number.
 void Desktop::let_rest() {
-  host::LiveSession& session = editor_->document->session();
-  session.let_rest(!editor_->has_devices && !view_->shows_ticks());
-  if (session.has_waiting_values()) editor_->wake_at(editor_->now + kGestureSeconds);
+  host::Running& running = editor_->document->running();
+  running.let_rest(!editor_->has_devices && !view_->shows_ticks());
+  if (running.has_waiting_values()) editor_->wake_at(editor_->now + kGestureSeconds);
 }
 
 // Toolbar, then canvas and 3D view side by side, the inspector to their right and lists and charts below.
