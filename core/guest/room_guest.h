@@ -108,6 +108,8 @@ class RoomGuest final : public host::Running {
   /// When keep_up() has something to do though nobody has said anything [s].
   double next_turn() const;
   const Fold& fold() const { return fold_; }
+  /// How many hashes of the room were the same here.
+  std::int64_t agreed() const { return follower_.agreed(); }
   Follower& follower() { return follower_; }
 
  private:
@@ -130,6 +132,8 @@ class RoomGuest final : public host::Running {
   void hear_say(const wire::Say& say);
   void say_hello();
   void say_due(double now);
+  /// A snapshot is asked for soon.
+  void miss(const std::string& why, std::int64_t tick);
   void resync(const std::string& why, const Difference& difference);
   Result<void> say_values(std::int64_t gesture, std::vector<Command> commands);
   Result<void> end_gestures(std::int64_t but);

@@ -163,9 +163,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
     auto entry = entry_of(json, *registry_);
     const auto change = entry ? fold_.take(*entry) : Result<Fold::Change>(entry.error());
     if (!change) {
-      wants_resync_ = true;
-      asked_why_ = "entry";
-      asked_ = {.tick = follower_.tick(), .why = "entry", .expected = {}, .found = {}, .text = {}};
+      miss("entry", entry ? entry->tick : follower_.tick());
       break;
     }
     if (!entry->is_command()) continue;
@@ -185,11 +183,10 @@ void RoomGuest::hear_tick(const wire::TickOut& mark) {
   if (!has_scene_) return;
   if (mode_ == "values") {
     if (mark.k <= follower_.tick() || wants_resync_) return;
-    wants_resync_ = true;
-    asked_why_ = "values";
-    asked_ = {.tick = mark.k, .why = "values", .expected = {}, .found = {}, .text = {}};
-    return;
+    return miss("values", mark.k);
   }
+  // A tick that has read what is not here cannot be taken.
+  if (mark.s > fold_.seq()) return miss("entry", mark.k);
   if (!mark.scene.empty() && mark.s == fold_.seq() && mark.scene != hex_digits(hash_of(fold_.confirmed()))) {
     wants_resync_ = true;
     asked_why_ = "scene";
@@ -255,6 +252,12 @@ void RoomGuest::hear_say(const wire::Say& say) {
 }
 
 // --- Differences ----------------------------------------------------------------------------------------------------
+
+void RoomGuest::miss(const std::string& why, std::int64_t tick) {
+  wants_resync_ = true;
+  asked_why_ = why;
+  asked_ = {.tick = tick, .why = why, .expected = {}, .found = {}, .text = {}};
+}
 
 void RoomGuest::resync(const std::string& why, const Difference& difference) {
   const double now = options_.clock->now();
