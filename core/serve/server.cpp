@@ -1,4 +1,4 @@
-// Boost.Beast: the only file that sees it. All handlers run on one thread, which is also the rooms'.
+// Boost.Beast, as a server. All handlers run on one thread, which is also the rooms'.
 #include "core/serve/server.h"
 
 #include <utility>
@@ -152,6 +152,8 @@ class SocketGuest : public Guest, public std::enable_shared_from_this<SocketGues
     const auto hello = wire::read_message<wire::Hello>(*frame);
     if (!hello) return close(CloseCode::bad_frame, hello.error().text());
     if (!has_origin_ && hello->kind != "desktop") return close(CloseCode::no_seat, "pages come from this server");
+    if (!has_origin_ && hello->token.empty() && hello->invite.empty())
+      return close(CloseCode::no_seat, "a window comes in by an invitation: copy the whole address, with what follows #");
     const auto room = shared_.rooms.find(hello->room);
     if (room == shared_.rooms.end()) return close(CloseCode::no_seat, "there is no room with this code");
     room_ = room->second.get();

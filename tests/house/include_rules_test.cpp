@@ -182,6 +182,8 @@ TEST(HouseRules, IncludesOfSamples) {
       {"core/base/mathematics.cpp", "#include <sleef.h>", ""},
       {"core/sun/a.cpp", "#include <sleef.h>", "core/base/ only"},
       {"core/journal/a.cpp", "#include <sqlite3.h>", ""},
+      {"core/room/a.cpp", "#include <boost/beast/core.hpp>", "core/serve/ only"},
+      {"core/serve/a.h", "#include <boost/asio.hpp>", ".cpp files only"},
       {"tests/core/journal/a.cpp", "#include <sqlite3.h>", ""},
       {"ui/cli/main.cpp", "#include <sqlite3.h>", "core/journal/ only"},
       {"core/define/a.cpp", "#include <nlohmann/json.hpp>", ""},

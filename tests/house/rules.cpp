@@ -34,6 +34,7 @@ constexpr std::array kLibraries = {
     Library{"lo/", "core/live/", true, "liblo"},
     Library{"curl/", "core/live/", true, "libcurl"},
     Library{"libexif/", "core/import/", true, "libexif"},
+    Library{"boost/", "core/serve/", true, "Boost"},
     Library{"sqlite3.h", "core/journal/", true, "SQLite"},
     Library{"stb/", "ui/desktop/view/", true, "stb"},
     Library{"GLFW/", "ui/desktop/", false, "GLFW"},
