@@ -98,9 +98,8 @@ Result<void> Fold::show(std::int64_t gesture, Command command) {
   own.known.insert(touches.begin(), touches.end());
   // A value that this one replaces needs never be said.
   std::erase_if(own.frames, [&](const Frame& frame) {
-    return std::all_of(frame.touches.begin(), frame.touches.end(), [&](const Touch& place) {
-      return std::find(touches.begin(), touches.end(), place) != touches.end();
-    });
+    return std::all_of(frame.touches.begin(), frame.touches.end(),
+                       [&](const Touch& place) { return std::find(touches.begin(), touches.end(), place) != touches.end(); });
   });
   own.frames.push_back({std::move(command), touches, edit.placed()});
   fresh_shown() = std::move(trial);

@@ -86,9 +86,9 @@ class Fold {
   };
   struct Gesture {
     double said_at = -std::numeric_limits<double>::infinity();
-    std::vector<Frame> frames = {};            // that wait
-    std::vector<Command> back = {};            // in the order to apply: what was there before
-    std::set<Touch> known = {};                // places that `back` brings back
+    std::vector<Frame> frames = {};  // that wait
+    std::vector<Command> back = {};  // in the order to apply: what was there before
+    std::set<Touch> known = {};      // places that `back` brings back
     bool is_said = false;
   };
   Scene& fresh_shown();

@@ -235,9 +235,7 @@ void Follower::tick(std::unique_lock<std::mutex>& lock) {
     if (setting) simulation_.set_scene(setting->scene, setting->placed);
     if (is_passing) simulation_.pass(next - now);
     else simulation_.step();
-  } catch (const std::exception& exception) {
-    trouble = std::string("a tick failed here (") + exception.what() + ")";
-  }
+  } catch (const std::exception& exception) { trouble = std::string("a tick failed here (") + exception.what() + ")"; }
   const double end = clock_.now(), seconds = end - begin, since = end - last_tick_;
   lock.lock();
   is_busy_ = false;

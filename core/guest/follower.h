@@ -29,9 +29,9 @@ struct Mark {
 /// Why the ticks here are not those of the room any more.
 struct Difference {
   std::int64_t tick = 0;
-  std::string why;                 ///< `hash`, `late` where an entry belongs to a tick that is over, or `failed`
-  std::string expected, found;     ///< hashes, where they differ
-  std::string text;                ///< of a tick that failed
+  std::string why;              ///< `hash`, `late` where an entry belongs to a tick that is over, or `failed`
+  std::string expected, found;  ///< hashes, where they differ
+  std::string text;             ///< of a tick that failed
 };
 
 class Follower {

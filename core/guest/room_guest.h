@@ -21,15 +21,15 @@
 namespace bl::guest {
 
 struct RoomGuestOptions {
-  std::string code = {};            ///< of the room
-  std::string invite = {};          ///< key of an invitation, for the first visit
-  std::string token = {};           ///< of the seat, from an earlier visit
-  std::string run = {};             ///< random; the name of the life of this window
-  std::string name = {};            ///< of the person, where they want to give it
-  host::SelfTest self = {};         ///< what this program is
-  int threads = 1;                  ///< of the ticks
+  std::string code = {};     ///< of the room
+  std::string invite = {};   ///< key of an invitation, for the first visit
+  std::string token = {};    ///< of the seat, from an earlier visit
+  std::string run = {};      ///< random; the name of the life of this window
+  std::string name = {};     ///< of the person, where they want to give it
+  host::SelfTest self = {};  ///< what this program is
+  int threads = 1;           ///< of the ticks
   host::Clock* clock = &host::real_clock();
-  std::function<double()> random = {};                ///< 0 to 1, for the times of new attempts
+  std::function<double()> random = {};  ///< 0 to 1, for the times of new attempts
   /// Begins an attempt; `wake` may be called on any thread when there is something to take.
   std::function<std::unique_ptr<Link>(std::function<void()> wake)> connect = {};
   std::function<void(const std::string& token)> keep_token = {};
@@ -46,10 +46,10 @@ struct Refused {
 struct Standing {
   bool is_connected = false;  ///< the room has said welcome on the present connection
   bool has_scene = false;
-  double lost_since = 0;     ///< on the clock of the options [s]; where it is not connected
-  std::size_t waiting = 0;   ///< operations without an answer
-  std::string end = {};      ///< why there will be no further attempt; empty where there will
-  bool takes_ticks = true;   ///< this program computes the same as the server; else the server's values are shown
+  double lost_since = 0;    ///< on the clock of the options [s]; where it is not connected
+  std::size_t waiting = 0;  ///< operations without an answer
+  std::string end = {};     ///< why there will be no further attempt; empty where there will
+  bool takes_ticks = true;  ///< this program computes the same as the server; else the server's values are shown
 };
 
 class RoomGuest final : public host::Running {
@@ -110,6 +110,8 @@ class RoomGuest final : public host::Running {
   const Fold& fold() const { return fold_; }
   /// How many hashes of the room were the same here.
   std::int64_t agreed() const { return follower_.agreed(); }
+  /// How often the window had another result or scene than the room, and has begun anew.
+  std::int64_t differed() const { return differed_; }
   Follower& follower() { return follower_; }
 
  private:
@@ -160,12 +162,13 @@ class RoomGuest final : public host::Running {
   bool has_scene_ = false, is_stale_ = false, wants_resync_ = false;
   Difference asked_;
   std::string asked_why_;
+  std::int64_t differed_ = 0;
   double resync_at_ = -1e9, values_at_ = -1e9;
   double lost_since_ = 0, retry_at_ = 0;
   int attempts_ = 0;
   // What this guest says.
   std::int64_t last_id_ = 0, last_answered_ = 0, last_gesture_ = 0;
-  std::deque<Sent> sent_;  // without an answer
+  std::deque<Sent> sent_;                               // without an answer
   std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
   double pace_at_ = -1e9;
   Whereabouts where_;

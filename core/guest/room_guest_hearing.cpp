@@ -118,7 +118,8 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   if (const auto room = welcome.room.read(); room && people_.title.empty()) people_.title = text_in(**room, "title");
   if (mode_ != welcome.mode && welcome.mode == "values")
     notices_.push_back(
-        "This program computes other results than the room's server. It shows the server's values, a second old at most, and does "
+        "This program computes other results than the room's server. It shows the server's values, a second old at most, and "
+        "does "
         "not compute them itself.");
   mode_ = welcome.mode;
   epoch_ = welcome.epoch;
@@ -141,8 +142,7 @@ void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
   const auto text = journal::unpack({*bytes, snapshot.size, snapshot.digest});
   if (!text) return notices_.push_back("The room has sent a scene that cannot be read: " + text.error().text());
   SceneReading reading = read_scene(*text, *registry_);
-  if (!reading.is_usable())
-    return finish("This program cannot read the room's scene: " + reading.first_error().text());
+  if (!reading.is_usable()) return finish("This program cannot read the room's scene: " + reading.first_error().text());
   if (auto begun = follower_.begin(reading.scene, reading.state ? &*reading.state : nullptr); !begun)
     notices_.push_back("The running state of the room cannot be shown: " + begun.error().text());
   fold_.begin(std::move(reading.scene), snapshot.s);
@@ -168,8 +168,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
     }
     if (!entry->is_command()) continue;
     has_changed = true;
-    if (change->is_logic_changed && mode_ != "values")
-      follower_.set_scene(entry->tick, fold_.confirmed(), change->placed);
+    if (change->is_logic_changed && mode_ != "values") follower_.set_scene(entry->tick, fold_.confirmed(), change->placed);
     history_.take(*entry, fold_.confirmed());
     entry_ticks_.emplace_back(entry->tick, entry->seq);
     log_.push_back(std::move(*entry));
@@ -190,7 +189,8 @@ void RoomGuest::hear_tick(const wire::TickOut& mark) {
   if (!mark.scene.empty() && mark.s == fold_.seq() && mark.scene != hex_digits(hash_of(fold_.confirmed()))) {
     wants_resync_ = true;
     asked_why_ = "scene";
-    asked_ = {.tick = mark.k, .why = "scene", .expected = mark.scene, .found = hex_digits(hash_of(fold_.confirmed())), .text = {}};
+    asked_ = {
+        .tick = mark.k, .why = "scene", .expected = mark.scene, .found = hex_digits(hash_of(fold_.confirmed())), .text = {}};
   }
   follower_.mark({mark.k, mark.h, mark.rest});
   if (follower_.behind() <= kTooFarBehind || follower_.moment()->tick_seconds * people_.rate <= 0.9) return;
@@ -248,7 +248,8 @@ void RoomGuest::hear_say(const wire::Say& say) {
   if (say.id == "storage") notices_.push_back("The room cannot store anything at the moment: " + text_in(told, "why"));
   else if (say.id == "stored") notices_.push_back("The room is stored again.");
   else if (say.id == "window_differs")
-    notices_.push_back("The window of " + text_in(told, "name") + " computed another result than the server, and has begun anew.");
+    notices_.push_back("The window of " + text_in(told, "name") +
+                       " computed another result than the server, and has begun anew.");
 }
 
 // --- Differences ----------------------------------------------------------------------------------------------------
@@ -270,6 +271,7 @@ void RoomGuest::resync(const std::string& why, const Difference& difference) {
   asked_ = difference;
   if (!is_welcome_ || now - resync_at_ < kBetweenResyncs) return;
   resync_at_ = now;
+  if (why == "hash" || why == "scene") ++differed_;
   wire::Resync message;
   message.k = difference.tick;
   message.expected = difference.expected;

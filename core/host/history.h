@@ -37,8 +37,8 @@ class History {
   const Author& author() const { return author_; }
   /// Oldest first.
   const std::vector<HistoryStep>& steps() const { return steps_; }
-  /// The gesture of the holder's last step, which can still be extended; 0 where there is none, or where something was undone or redone
-  /// since.
+  /// The gesture of the holder's last step, which can still be extended; 0 where there is none, or where something was undone or
+  /// redone since.
   std::int64_t last_step() const { return last_step_; }
 
  private:

@@ -18,8 +18,8 @@ class Running {
   virtual ~Running() = default;
 
   // The scene, and the ways to change it.
-  /// The scene as its holder sees it: with gestures in progress, and in a room with what nobody has answered yet. A returned scene
-  /// can be read until keep_up() is called.
+  /// The scene as its holder sees it: with gestures in progress, and in a room with what nobody has answered yet. A returned
+  /// scene can be read until keep_up() is called.
   virtual const Scene& scene() const = 0;
   /// It grows with each change of scene(); it begins anew, shorter, where everything may have changed.
   virtual const std::vector<LogEntry>& log() const = 0;

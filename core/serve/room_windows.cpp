@@ -14,12 +14,12 @@ namespace bl::serve {
 
 namespace {
 
-constexpr std::int64_t kMostTail = 2000;       // entries that a window is sent at once
+constexpr std::int64_t kMostTail = 2000;        // entries that a window is sent at once
 constexpr std::int64_t kMostTicksBehind = 600;  // that a window takes again sooner than it reads a snapshot
 constexpr std::int64_t kTicksBetweenHashes = 20;
-constexpr double kBetweenSnapshots = 0.5;                         // for one window [s]
-constexpr double kBetweenPresences = 0.25, kGoneAfter = 5;        // [s]
-constexpr std::size_t kMostPresence = 2048, kMostHeld = 64;       // bytes of a frame; nodes in it
+constexpr double kBetweenSnapshots = 0.5;                    // for one window [s]
+constexpr double kBetweenPresences = 0.25, kGoneAfter = 5;   // [s]
+constexpr std::size_t kMostPresence = 2048, kMostHeld = 64;  // bytes of a frame; nodes in it
 
 std::shared_ptr<const std::string> frame_of_snapshot(const Scene& scene, const State& state, std::int64_t seq) {
   const SavedState saved = save(state);
@@ -116,7 +116,8 @@ void RoomHost::hand_out_snapshot() {
 
 // A tick is told once every entry that it has read is stored, and so sent.
 void RoomHost::tell_ticks() {
-  if (!problem_.empty() || std::none_of(visitors_.begin(), visitors_.end(), [](const auto& v) { return v.second.is_window; })) return;
+  if (!problem_.empty() || std::none_of(visitors_.begin(), visitors_.end(), [](const auto& v) { return v.second.is_window; }))
+    return;
   const auto moment = session_->moment();
   const State& ticked = *moment->ticked;
   TickMark& mark = windows_.mark;
@@ -172,9 +173,9 @@ bool RoomHost::hear_window(Visitor& visitor, const std::string& t, const Json& f
     if (!message) return false;
     if (!message->found.empty()) {
       const room::Seat* seat = room_->state().seat(visitor.seat);
-      const auto notice = frame_of_message(wire::Say{
-          "window_differs",
-          JsonValue::of({{"seat", visitor.seat}, {"name", seat == nullptr ? "" : seat->name}, {"tick", message->k}})});
+      const auto notice = frame_of_message(
+          wire::Say{"window_differs",
+                    JsonValue::of({{"seat", visitor.seat}, {"name", seat == nullptr ? "" : seat->name}, {"tick", message->k}})});
       for (auto& [key, other] : visitors_)
         if (const room::Seat* who = room_->state().seat(other.seat); who != nullptr && who->role == Role::facilitator)
           other.guest->send(notice);

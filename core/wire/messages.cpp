@@ -188,11 +188,12 @@ std::string line_of(const MessageDefinition& kind, const std::map<std::string, V
 }
 
 std::vector<const MessageDefinition*> message_kinds() {
-  return {&message_kind<Hello>(),    &message_kind<Op>(),          &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
-          &message_kind<RedoOp>(),   &message_kind<RewindOp>(),    &message_kind<DraftOp>(),    &message_kind<Want>(),
-          &message_kind<Seen>(),     &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Resync>(), &message_kind<Welcome>(), &message_kind<SnapshotOut>(), &message_kind<TickOut>(),
-          &message_kind<SceneOut>(), &message_kind<Ops>(),         &message_kind<Ack>(),        &message_kind<Nack>(),
-          &message_kind<StateOut>(), &message_kind<PresenceOut>(), &message_kind<Say>(),        &message_kind<Pong>()};
+  return {&message_kind<Hello>(),       &message_kind<Op>(),          &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
+          &message_kind<RedoOp>(),      &message_kind<RewindOp>(),    &message_kind<DraftOp>(),    &message_kind<Want>(),
+          &message_kind<Seen>(),        &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Resync>(),
+          &message_kind<Welcome>(),     &message_kind<SnapshotOut>(), &message_kind<TickOut>(),    &message_kind<SceneOut>(),
+          &message_kind<Ops>(),         &message_kind<Ack>(),         &message_kind<Nack>(),       &message_kind<StateOut>(),
+          &message_kind<PresenceOut>(), &message_kind<Say>(),         &message_kind<Pong>()};
 }
 
 Json message_schema() {

@@ -28,10 +28,10 @@ namespace bl::guest {
 
 /// How bad the network is.
 struct Weather {
-  double lost = 0;      ///< part of the frames after the welcome
-  double doubled = 0;   ///< part of the frames from the guest
-  double cut = 0;       ///< of a connection, in each turn
-  int most_delay = 0;   ///< turns
+  double lost = 0;     ///< part of the frames after the welcome
+  double doubled = 0;  ///< part of the frames from the guest
+  double cut = 0;      ///< of a connection, in each turn
+  int most_delay = 0;  ///< turns
 };
 
 /// Both ends of one connection.
@@ -52,7 +52,10 @@ class Wire final : public serve::Guest, public std::enable_shared_from_this<Wire
     std::string frame;
   };
   int due() {
-    last_due_ = std::max(last_due_, now + (weather_->most_delay == 0 ? 0 : static_cast<int>(random_->below(static_cast<std::uint64_t>(weather_->most_delay) + 1))));
+    last_due_ =
+        std::max(last_due_, now + (weather_->most_delay == 0
+                                       ? 0
+                                       : static_cast<int>(random_->below(static_cast<std::uint64_t>(weather_->most_delay) + 1))));
     return last_due_;
   }
   bool is_lost(const std::string& frame) {

@@ -194,8 +194,7 @@ TEST(RoomGuests, AnOutageOfAMinuteLosesNothing) {
   room.wires.front()->is_closed = true;
   room.weather.lost = 1;
   room.turn();
-  for (int k = 0; k < 30; ++k)
-    ASSERT_TRUE(anna.submit({command<RenameNode>({"cafe", "Away " + std::to_string(k)})}).ok());
+  for (int k = 0; k < 30; ++k) ASSERT_TRUE(anna.submit({command<RenameNode>({"cafe", "Away " + std::to_string(k)})}).ok());
   for (int k = 0; k < 60; ++k) room.turn(1);
   EXPECT_EQ(anna.standing().waiting, 30u);
   EXPECT_EQ(anna.scene().nodes.find("cafe")->second.name, "Away 29");

@@ -12,6 +12,11 @@
 #include "core/host/running.h"
 #include "core/import/import_report.h"
 #include "ui/desktop/document/named_files.h"
+#include "ui/desktop/document/person_settings.h"
+
+namespace bl::guest {
+class RoomGuest;
+}
 
 namespace bl::desktop {
 
@@ -34,6 +39,13 @@ class Document {
   static std::unique_ptr<Document> recover(const Registry& registry, const host::Journal::UnsavedJournal& remains, int threads,
                                            std::vector<Problem>& problems);
 
+  /// The scene of a room, by its address. The seat that it gives is kept among the person's settings, which must outlive the
+  /// document. An error only where the address is none: who cannot connect goes on trying.
+  static Result<std::unique_ptr<Document>> join(const Registry& registry, const std::string& address, int threads,
+                                                PersonSettings& person);
+
+  ~Document();
+
   /// Unique among all documents that this window has opened; addresses may be reused.
   std::uint64_t id() const { return id_; }
   /// The scene as it runs, here or in a room.
@@ -41,6 +53,8 @@ class Document {
   const host::Running& running() const { return *running_; }
   /// The session of a scene that runs in this window; there is none for a scene of a room.
   host::LiveSession* local() { return host_ ? &host_->session() : nullptr; }
+  /// The room that the scene runs in; there is none for a scene of this window.
+  guest::RoomGuest* room() const { return guest_.get(); }
   /// The same, where the scene is known to run here.
   host::LiveSession& session() { return host_->session(); }
   const Scene& scene() const { return running_->scene(); }
@@ -96,9 +110,10 @@ class Document {
   importing::ImportReports imports_;
   std::uint64_t imports_revision_ = 0;
   std::optional<Scene> saved_;  ///< the content of the file; none where there is no file, or another content
+  std::unique_ptr<guest::RoomGuest> guest_;
   std::unique_ptr<host::Host> host_;  ///< none where the scene runs in a room
   host::Running* running_ = nullptr;  ///< what runs the scene
-  std::size_t compared_size_ = 0;  ///< of the log
+  std::size_t compared_size_ = 0;     ///< of the log
   bool is_unsaved_ = false;
 };
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ui/desktop/panels/workbench.h"
+#include "ui/desktop/view/camera.h"
 
 namespace bl::desktop {
 
@@ -41,6 +43,8 @@ class Desktop {
   void draw_notices();
   void watch_journal();
   void let_rest();
+  void follow_somebody();
+  void tell_whereabouts();
 
   std::unique_ptr<Workbench> editor_;
   std::unique_ptr<Canvas> canvas_;
@@ -48,6 +52,7 @@ class Desktop {
   std::unique_ptr<Dialogs> dialogs_;
   std::unique_ptr<StartPage> start_page_;
   Renderer* renderer_;
+  std::optional<Camera> followed_camera_;  ///< as it was set last
   Area was_area_ = Area::canvas;
   std::string told_problem_;  ///< of the journal, as people know it
 };

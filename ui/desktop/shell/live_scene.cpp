@@ -17,7 +17,8 @@ void LiveScene::frame() {
     editor.has_devices = false;
     tick_ = -1;
     // The devices of a room are its server's.
-    if (number != 0 && editor.document->local() != nullptr) devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
+    if (number != 0 && editor.document->local() != nullptr)
+      devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
   }
   if (!devices_ || !editor.moment) return;
   host::LiveSession& session = *editor.document->local();
