@@ -145,7 +145,10 @@ void Editor::hear_room() {
   for (const auto& [seat, where] : room->people().whereabouts) {
     const auto person_there = room->people().seats.find(seat);
     if (seat == room->seat() || person_there == room->people().seats.end()) continue;
-    Other other{.seat = seat, .name = person_there->second.name, .colour = colour_of_text(person_there->second.colour)};
+    Other other;
+    other.seat = seat;
+    other.name = person_there->second.name;
+    other.colour = colour_of_text(person_there->second.colour);
     other.holds.insert(where.holds.begin(), where.holds.end());
     if (!where.is_hidden) other.cursor = where.cursor;
     if (!where.camera.is_null()) other.camera = where.camera.text();

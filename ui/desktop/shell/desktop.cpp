@@ -201,6 +201,12 @@ void Desktop::tell_whereabouts() {
   Workbench& editor = *editor_;
   guest::RoomGuest* room = editor.document ? editor.document->room() : nullptr;
   if (room == nullptr) return;
+  // The scene of a room comes after its window has opened.
+  if (fitted_ != editor.document->id() && room->standing().has_scene && !editor.moment->state->nodes.empty()) {
+    fitted_ = editor.document->id();
+    canvas_->fit(true);
+    view_->fit(true);
+  }
   static constexpr std::size_t kMostHeld = 32;
   guest::Whereabouts where;
   where.cursor = view_->cursor();

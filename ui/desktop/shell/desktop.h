@@ -1,6 +1,7 @@
 // The whole window as one ImGui frame after another; knows no window system, so that tests can drive it without one.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ class Desktop {
   std::unique_ptr<Dialogs> dialogs_;
   std::unique_ptr<StartPage> start_page_;
   Renderer* renderer_;
+  std::uint64_t fitted_ = 0;  ///< the document of a room whose scene was brought into sight when it came
   std::optional<Camera> followed_camera_;  ///< as it was set last
   Area was_area_ = Area::canvas;
   std::string told_problem_;  ///< of the journal, as people know it

@@ -61,7 +61,8 @@ TEST(RoomWindows, TwoPeopleSeeEachOther) {
   const Deadline deadline(300, "two windows in a room");
   serve::RunningServer server;
   RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "viewer"));
-  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
   EXPECT_NE(lead->desktop().title().find("room BKRT"), std::string::npos) << lead->desktop().title();
   EXPECT_TRUE(lead.room().standing().takes_ticks);
 
@@ -95,7 +96,8 @@ TEST(RoomWindows, TwoPeopleSeeEachOther) {
   Camera camera = lead.editor().view->camera();
   camera.azimuth += 0.5;
   lead.editor().view->set_camera(camera);
-  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return std::abs(other.editor().view->camera().azimuth - camera.azimuth) < 1e-6; }));
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return std::abs(other.editor().view->camera().azimuth - camera.azimuth) < 1e-6; }));
   camera.azimuth += 0.5;
   other.editor().view->set_camera(camera);
   ASSERT_TRUE(frames_until({&lead, &other}, [&] { return other.editor().followed == 0; })) << "until they look elsewhere";
@@ -105,7 +107,8 @@ TEST(RoomWindows, ADragOfOneGivesBothTheSameTicks) {
   const Deadline deadline(300, "a drag in a room");
   serve::RunningServer server;
   RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "viewer"));
-  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
   const std::int64_t gesture = lead.editor().new_gesture();
   int k = 0;
   ASSERT_TRUE(frames_until({&lead, &other}, [&] {
