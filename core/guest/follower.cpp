@@ -2,7 +2,6 @@
 #include "core/guest/follower.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 
 #include "core/base/hash.h"
@@ -13,6 +12,8 @@ namespace {
 
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
+// Who holds the ticks up is looked for again after so long [s].
+constexpr double kPause = 0.001;
 
 }  // namespace
 
@@ -265,7 +266,7 @@ void Follower::run() {
   while (!is_ending_) {
     if (holds_ > 0) {
       done_.notify_all();
-      wake_.wait_for(lock, std::chrono::milliseconds(1));
+      clock_.wait(wake_, lock, clock_.now() + kPause);
       continue;
     }
     if (can_tick() && clock_.now() >= due()) {

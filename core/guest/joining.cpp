@@ -2,7 +2,6 @@
 #include "core/guest/joining.h"
 
 #include <atomic>
-#include <random>
 
 #include "core/room/secrets.h"
 #include "core/serve/client.h"
@@ -64,9 +63,7 @@ Result<std::unique_ptr<RoomGuest>> join_room(const Registry& registry, std::stri
   how.threads = options.threads;
   how.keep_token = std::move(options.keep_token);
   // When the next attempt comes decides nothing but who is first.
-  how.random = [engine = std::minstd_rand(std::random_device()())]() mutable {
-    return std::uniform_real_distribution<double>()(engine);
-  };
+  how.random = [] { return static_cast<unsigned char>(room::system_random_bytes(1)[0]) / 255.0; };
   how.connect = [where = *read](std::function<void()> wake) -> std::unique_ptr<Link> {
     return std::make_unique<SocketLink>(where, std::move(wake));
   };

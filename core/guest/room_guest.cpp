@@ -2,7 +2,6 @@
 #include "core/guest/room_guest.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 

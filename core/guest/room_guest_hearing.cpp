@@ -1,6 +1,5 @@
 // What comes from the server: a scene, entries, marks of ticks, answers; and connections that come and go.
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -35,7 +34,8 @@ void RoomGuest::lose(const std::string&) {
   if (is_welcome_) lost_since_ = now;
   link_.reset();
   is_open_ = is_welcome_ = false;
-  const double pause = std::min(kLastRetry, kFirstRetry * std::pow(kRetryGrowth, attempts_));
+  double pause = kFirstRetry;
+  for (int k = 0; k < attempts_; ++k) pause = std::min(kLastRetry, pause * kRetryGrowth);
   const double chance = options_.random ? options_.random() : 0.5;
   retry_at_ = now + pause * (1 + kRetryJitter * (2 * chance - 1));
   attempts_ = std::min(attempts_ + 1, 30);

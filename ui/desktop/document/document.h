@@ -8,15 +8,12 @@
 #include <vector>
 
 #include "core/file/scene_file.h"
+#include "core/guest/guest_fwd.h"
 #include "core/host/host.h"
 #include "core/host/running.h"
 #include "core/import/import_report.h"
 #include "ui/desktop/document/named_files.h"
 #include "ui/desktop/document/person_settings.h"
-
-namespace bl::guest {
-class RoomGuest;
-}
 
 namespace bl::desktop {
 
