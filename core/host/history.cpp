@@ -8,18 +8,19 @@
 namespace bl::host {
 
 void History::take(const LogEntry& entry, const Scene& scene) {
-  if (entry.author != author_ || !entry.is_command()) return;
+  const bool is_own = entry.author == author_;
+  if (!entry.is_command() || (!is_own && (whose_ == HistoryOf::holder || entry.author.kind == AuthorKind::device))) return;
   if (entry.undoes != 0 || entry.redoes != 0) {
-    last_step_ = 0;
+    if (is_own) last_step_ = 0;
     return take_back(entry);
   }
-  last_step_ = entry.gesture;
+  if (is_own) last_step_ = entry.gesture;
   auto step = std::find_if(steps_.begin(), steps_.end(), [&](const HistoryStep& s) { return s.gesture == entry.gesture; });
   if (step == steps_.end()) {
-    // A new step ends what was undone before it.
-    std::erase_if(steps_, [](const HistoryStep& s) { return s.is_undone; });
+    // A new step ends what its author had undone before it.
+    std::erase_if(steps_, [&](const HistoryStep& s) { return s.is_undone && s.author == entry.author; });
     const std::string label = entry.label.empty() ? label_of_step(*registry_, entry.command, scene) : entry.label;
-    steps_.push_back({entry.gesture, entry.tick, label, false, 0});
+    steps_.push_back({entry.gesture, entry.tick, label, false, 0, entry.author});
     step = steps_.end() - 1;
   }
   ++step->entries;

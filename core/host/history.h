@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/define/registry.h"
@@ -17,19 +18,27 @@ struct HistoryStep {
   std::string label;        ///< what was done, such as "Set port · Library"
   bool is_undone = false;   ///< undone, and not redone since
   std::size_t entries = 0;  ///< commands in it
+  Author author = {};
 };
 
-/// Follows the log entry by entry. Entries of devices and others are no steps of the holder, and neither is a rewind.
+/// Whose steps a history holds.
+enum class HistoryOf : std::uint8_t { holder, everybody };
+
+/// Follows the log entry by entry. Entries of devices are no steps, and neither is a rewind.
 class History {
  public:
-  History(const Registry& registry, Author author) : registry_(&registry), author_(std::move(author)) {}
+  History(const Registry& registry, Author author, HistoryOf whose = HistoryOf::holder)
+      : registry_(&registry), author_(std::move(author)), whose_(whose) {}
 
   /// `scene`: the scene after the entry, for names.
   void take(const LogEntry& entry, const Scene& scene);
+  /// The holder, where it becomes known later.
+  void set_author(Author author) { author_ = std::move(author); }
+  const Author& author() const { return author_; }
   /// Oldest first.
   const std::vector<HistoryStep>& steps() const { return steps_; }
-  /// The gesture of the last step, which can still be extended; 0 where there is none, or where something was undone or redone
-  /// since.
+  /// The gesture of the holder's last step, which can still be extended; 0 where there is none, or where something was undone or
+  /// redone since.
   std::int64_t last_step() const { return last_step_; }
 
  private:
@@ -37,6 +46,7 @@ class History {
 
   const Registry* registry_;
   Author author_;
+  HistoryOf whose_;
   std::vector<HistoryStep> steps_;
   std::int64_t last_step_ = 0;
 };

@@ -37,6 +37,11 @@ Result<void> Host::show(const std::vector<Command>& commands, std::int64_t gestu
   return commands.empty() ? Result<void>() : session_->show(as_one(commands), gesture);
 }
 
+bool Host::can_rewind() const {
+  const auto now = moment();
+  return now->oldest < now->state->tick;
+}
+
 void Host::begin_journal(const std::string& scene_path, const std::string& scene_text) {
   (void)journal_.begin(scene_path, scene_text, session_->last_seq());
 }

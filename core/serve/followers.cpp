@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/serve/following.h"
+#include "core/serve/room_frames.h"
+#include "core/wire/base64.h"
 #include "core/wire/operations.h"
 
 namespace bl::serve {
@@ -16,11 +18,6 @@ namespace {
 constexpr std::size_t kPart = 96 << 10;          // of a copy, before it becomes text [bytes]
 constexpr std::size_t kUnsentMost = 512 << 10;   // so much is on its way at once [bytes]
 constexpr std::size_t kWaitingMost = 64u << 20;  // who is behind by more begins anew [bytes]
-
-template <class M>
-std::shared_ptr<const std::string> frame_of(const M& message) {
-  return std::make_shared<const std::string>(wire::write_message(message));
-}
 
 }  // namespace
 
@@ -113,7 +110,7 @@ void Followers::send_copy(Follower& follower) {
   while (!follower.digest.empty() && !follower.has_all && follower.guest->unsent() < kUnsentMost) {
     CopyPart part;
     part.n = follower.copied;
-    part.part = text_of_bytes(std::string_view(follower.packed).substr(follower.sent, kPart));
+    part.part = wire::base64_of(std::string_view(follower.packed).substr(follower.sent, kPart));
     follower.sent = std::min(follower.sent + kPart, follower.packed.size());
     follower.has_all = part.is_last = follower.sent == follower.packed.size();
     if (part.is_last) {
@@ -121,7 +118,7 @@ void Followers::send_copy(Follower& follower) {
       part.digest = follower.digest;
       follower.packed = {};
     }
-    follower.guest->send(frame_of(part));
+    follower.guest->send(frame_of_message(part));
   }
   while (follower.has_all && !follower.waiting.empty() && follower.guest->unsent() < kUnsentMost) {
     follower.waiting_bytes -= follower.waiting.front()->size();
@@ -132,7 +129,7 @@ void Followers::send_copy(Follower& follower) {
 
 void Followers::changed(const Result<std::string>& changes) {
   ++last_;
-  const auto frame = changes ? frame_of(Changes{last_, text_of_bytes(*changes)}) : nullptr;
+  const auto frame = changes ? frame_of_message(Changes{last_, wire::base64_of(*changes)}) : nullptr;
   for (auto& [key, follower] : followers_) {
     if (follower.digest.empty()) continue;  // it is in the copy that is still to come
     if (frame && follower.waiting_bytes + frame->size() < kWaitingMost) {

@@ -3,9 +3,7 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
-#include "core/base/result.h"
 #include "core/wire/message_builder.h"
 
 namespace bl::serve {
@@ -34,9 +32,5 @@ struct Kept {
   std::int64_t n = 0;
   static void declare(wire::MessageBuilder<Kept>& m);
 };
-
-/// Base64 (RFC 4648).
-std::string text_of_bytes(std::string_view bytes);
-Result<std::string> bytes_of_text(std::string_view text);
 
 }  // namespace bl::serve

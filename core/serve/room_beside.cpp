@@ -43,6 +43,7 @@ room::Answer RoomHost::ask(std::int64_t seat, const room::Operation& operation) 
     const std::string back = room_->take_restart();
     if (back.empty()) return nullptr;
     last_hash_tick_ = kept_.at(back)->tick;
+    begin_windows_anew();
     return kept_.at(back);
   });
   is_changed_ = true;

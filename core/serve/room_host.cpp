@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/define/codec.h"
 #include "core/file/scene_file.h"
 #include "core/room/refusals.h"
+#include "core/serve/room_frames.h"
 #include "core/wire/operations.h"
 
 namespace bl::serve {
@@ -16,34 +16,6 @@ namespace {
 
 constexpr double kBetweenViews = 0.2;                                 // [s]
 constexpr std::size_t kSkipAbove = 256 << 10, kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
-constexpr std::int64_t kMostTail = 2000;                              // entries that a window is sent at once
-
-std::shared_ptr<const std::string> frame_of(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
-
-template <class M>
-std::shared_ptr<const std::string> frame_of_message(const M& message) {
-  return frame_of(wire::write_message(message));
-}
-
-Json entry_to_json(const LogEntry& entry, std::int64_t by, const std::string& draft) {
-  Json json = {{"s", entry.seq}, {"k", entry.tick}, {"a", entry.author.id}, {"g", entry.gesture}};
-  if (entry.author.kind != AuthorKind::person) json["kind"] = entry.author.kind == AuthorKind::device ? "device" : "program";
-  if (entry.undoes != 0) json["u"] = entry.undoes;
-  if (entry.redoes != 0) json["r"] = entry.redoes;
-  if (entry.restarts_from) json["back"] = *entry.restarts_from, json["state"] = entry.state_hash;
-  else if (entry.event) json["v"] = **entry.event->read();
-  else json["c"] = command_to_json(full_registry(), entry.command);
-  if (by != 0) json["by"] = by;
-  if (!draft.empty()) json["d"] = draft;
-  return json;
-}
-
-std::shared_ptr<const std::string> ops_of(const std::vector<room::EntryRecord>& records, std::int64_t stored,
-                                          std::int64_t epoch) {
-  Json list = Json::array();
-  for (const room::EntryRecord& record : records) list.push_back(entry_to_json(record.entry, record.by, record.draft));
-  return frame_of_message(wire::Ops{JsonValue::of(std::move(list)), stored, epoch});
-}
 
 std::set<std::string> known_views(const std::vector<std::string>& names) {
   std::set<std::string> known;
@@ -108,16 +80,19 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
   }
   Visitor& visitor = visitors_[guest.get()];
   visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views)};
+  visitor.is_window = hello.kind == "desktop" && !hello.fingerprint.empty();
+  visitor.is_ticking = visitor.is_window && ticks_alike(hello);
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
-  welcome(visitor, token, hello.epoch == 0 || hello.epoch == epoch() ? hello.have : 0);
+  const bool is_known = hello.epoch == 0 || hello.epoch == epoch();
+  welcome(visitor, token, is_known ? hello.have : 0, is_known ? hello.tick : 0);
   flush();
   return true;
 }
 
 // Told once the seat is stored: a token that a crash could forget is given to nobody.
-void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t have) {
+void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t have, std::int64_t tick) {
   Guest* key = visitor.guest.get();
-  tellings_.push_back([this, key, token, have] {
+  tellings_.push_back([this, key, token, have, tick] {
     const auto found = visitors_.find(key);
     if (found == visitors_.end()) return;
     Visitor& who = found->second;
@@ -138,17 +113,11 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
     message.rate = room_->state().rate;
     message.done = room_->greet(who.seat, who.run, 0);
     message.token = token;
+    if (who.is_window) message.mode = who.is_ticking ? "ticks" : "values";
     who.guest->send(frame_of_message(message));
     who.is_welcome = true;
-    if (who.kind == "desktop") {
-      const auto& log = session_->log();
-      const bool is_tail = have >= base_ && have <= stored_seq_ && stored_seq_ - have <= kMostTail && have > 0;
-      if (!is_tail) who.guest->send(frame_of_message(wire::SceneOut{base_, JsonValue(beginning_)}));
-      std::vector<room::EntryRecord> tail;
-      for (const LogEntry& entry : log)
-        if (entry.seq <= stored_seq_ && (!is_tail || entry.seq > have)) tail.push_back({entry, 0});
-      if (!tail.empty()) who.guest->send(ops_of(tail, stored_seq_, message.epoch));
-    }
+    if (who.is_window) begin_window(who, have, tick);
+    else if (who.kind == "desktop") begin_reader(who, have);
     who.welcomed_with = who.guest->unsent();
     if (!problem_.empty()) who.guest->send(frame_of_message(wire::Say{"storage", JsonValue::of({{"why", problem_}})}));
     show(who);
@@ -176,6 +145,8 @@ void RoomHost::hear(Guest& guest, std::string_view text) {
     std::erase_if(visitor.shown, [&](const auto& one) { return !visitor.wanted.contains(one.first); });
     is_changed_ = true;
     show(visitor);
+  } else if (!hear_window(visitor, t, *frame, text.size())) {
+    guest.close(CloseCode::bad_frame, "the message has a wrong form");
   }
 }
 
@@ -185,6 +156,7 @@ void RoomHost::submit(Visitor& visitor, const room::Operation& operation) {
     const room::Answer no = room::refuse(room::Reason::storage, "", "nothing can be stored at the moment: " + problem_);
     return visitor.guest->send(frame_of(wire::write_answer(operation.id, no)));
   }
+  const std::int64_t before = session_->last_seq();
   const room::Answer answer = ask(visitor.seat, operation);
   tellings_.push_back([this, key, id = operation.id, answer] {
     const auto there = visitors_.find(key);
@@ -192,6 +164,7 @@ void RoomHost::submit(Visitor& visitor, const room::Operation& operation) {
   });
   flush();
   follow_pace();
+  take_steps(before);
 }
 
 void RoomHost::leave(Guest& guest) {
@@ -201,7 +174,9 @@ void RoomHost::leave(Guest& guest) {
   visitors_.erase(found);
   const bool is_elsewhere =
       std::any_of(visitors_.begin(), visitors_.end(), [&](const auto& one) { return one.second.seat == seat; });
-  if (is_elsewhere || !problem_.empty()) return;
+  if (is_elsewhere) return;
+  forget_presence(seat);
+  if (!problem_.empty()) return;
   say([&](room::Now now) { room_->note_presence(seat, false, now); });
   flush();
 }
@@ -242,7 +217,7 @@ void RoomHost::flush() {
   ++commits_under_way_;
   std::vector<std::shared_ptr<const std::string>> entries;
   const std::int64_t seq = session_->last_seq();
-  if (!record.entries.empty()) entries.push_back(ops_of(record.entries, seq, epoch()));
+  if (!record.entries.empty()) entries.push_back(frame_of_entries(record.entries, seq, epoch()));
   auto done = [this, seq, tellings = std::exchange(tellings_, {}), entries = std::move(entries),
                is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
     options_.on_own_thread([this, seq, tellings, entries, result, is_alive] {
@@ -274,7 +249,8 @@ void RoomHost::tell(std::int64_t seq, const std::vector<Telling>& tellings,
   stored_seq_ = std::max(stored_seq_, seq);
   for (const auto& frame : entries)
     for (auto& [key, visitor] : visitors_)
-      if (visitor.kind == "desktop") visitor.guest->send(frame);
+      if (visitor.is_window ? visitor.is_following : visitor.kind == "desktop") visitor.guest->send(frame);
+  tell_ticks();
   for (const Telling& telling : tellings) telling();
   show();
 }
@@ -311,22 +287,26 @@ void RoomHost::recover() {
           problem_.clear();
           for (auto& [key, visitor] : visitors_) {
             visitor.shown.clear();
-            visitor.is_welcome = false;
+            visitor.is_welcome = visitor.is_following = false;
             visitor.guest->send(frame_of_message(wire::Say{"stored", {}}));
-            welcome(visitor, "", 0);
+            welcome(visitor, "", 0, 0);
           }
           flush();
         });
       });
 }
 
+std::int64_t RoomHost::read_by(const State& ticked) const {
+  const auto& log = session_->log();
+  for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
+    if (entry->tick < ticked.tick || entry->is_return()) return entry->seq;
+  return base_;
+}
+
 // The entries of the ticks before are final: what is said now belongs to a later one. They go to the disk before the hash does.
 void RoomHost::store_hash() {
   const State& ticked = *session_->moment()->ticked;
-  std::int64_t seq = base_;
-  const auto& log = session_->log();
-  for (auto entry = log.rbegin(); entry != log.rend() && seq == base_; ++entry)
-    if (entry->tick < ticked.tick || entry->is_return()) seq = entry->seq;
+  const std::int64_t seq = read_by(ticked);
   if (ticked.tick == last_hash_tick_) return;
   last_hash_tick_ = ticked.tick;
   const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
@@ -382,7 +362,10 @@ void RoomHost::turn() {
   for (auto& [key, visitor] : visitors_)
     if (room_->state().seat(visitor.seat) == nullptr)
       visitor.guest->close(CloseCode::removed, "the facilitator has closed this seat");
-    else if (visitor.guest->unsent() > kCloseAbove + visitor.welcomed_with) visitor.guest->close(CloseCode::draining, "too slow");
+    else if (visitor.guest->unsent() > kCloseAbove + visitor.welcomed_with)
+      visitor.guest->close(CloseCode::draining, "too much waits to be taken");
+  send_snapshots();
+  tell_presences();
   for (auto& [key, visitor] : visitors_) show(visitor);  // who was too slow for the last views gets them now
   const double now = options_.clock->now();
   if (now - last_views_ < kBetweenViews) return;

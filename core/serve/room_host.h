@@ -16,6 +16,7 @@
 #include "core/room/room.h"
 #include "core/serve/followers.h"
 #include "core/serve/guest.h"
+#include "core/serve/room_windows.h"
 #include "core/serve/trial_runner.h"
 #include "core/session/session.h"
 #include "core/wire/messages.h"
@@ -87,6 +88,10 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted, looks_at = {};                          // views and drafts
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
+    bool is_window = false, is_ticking = false;  // a window of this program; its self-test gives what ours does
+    bool is_following = false;                   // it has a scene, and gets what comes
+    bool wants_snapshot = false;
+    double snapshot_at = -1;        // when it got the last one [s]
     bool is_welcome = false;        // nothing is shown before: pages take the first of each view after it for the whole
     std::size_t welcomed_with = 0;  // the scene or the entries that it missed may be more than what else may wait [bytes]
   };
@@ -125,9 +130,29 @@ class RoomHost {
   void publish();
   void show();
   void show(Visitor& visitor);
+  /// The last entry that this state has read; those that are said now belong to later ticks.
+  std::int64_t read_by(const State& ticked) const;
   void store_hash();
   void keep_records();
-  void welcome(Visitor& visitor, const std::string& token, std::int64_t have);
+  void welcome(Visitor& visitor, const std::string& token, std::int64_t have, std::int64_t tick);
+  // Windows.
+  static bool ticks_alike(const wire::Hello& hello);
+  /// For whoever reads entries and computes no ticks: the scene before the first entry, or those that are missing.
+  void begin_reader(Visitor& visitor, std::int64_t have);
+  void send_entries(Visitor& visitor, std::int64_t after);
+  void begin_window(Visitor& visitor, std::int64_t have, std::int64_t tick);
+  void follow_from(Visitor& visitor, std::int64_t seq);
+  void send_snapshots();
+  void hand_out_snapshot();
+  void begin_windows_anew();
+  void watch_ticks();
+  void tell_ticks();
+  /// Those that somebody has asked for in the entries after this one.
+  void take_steps(std::int64_t since);
+  /// False where the message has a wrong form.
+  bool hear_window(Visitor& visitor, const std::string& t, const Json& frame, std::size_t size);
+  void forget_presence(std::int64_t seat);
+  void tell_presences();
   wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown()}; }
 
   std::string code_, title_;
@@ -167,6 +192,8 @@ class RoomHost {
   std::map<std::string, std::shared_ptr<const State>> kept_;  // by scenario: its running state
   std::map<std::string, Unstored> unstored_;                  // by scenario: those that the file does not have yet
   std::map<std::string, journal::Snapshot> stored_;           // by scenario: those of the file, when it was opened
+  Windows windows_;
+  bool is_packing_ = false;  // a snapshot is being made
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };
 

@@ -100,6 +100,7 @@ Result<void> RoomHost::begin(const journal::Loaded& loaded) {
   devices_.reset();
   brought_ = -1;
   follow_devices();
+  watch_ticks();
   follow_pace();
   return {};
 }

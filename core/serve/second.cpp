@@ -12,6 +12,7 @@
 #include "core/serve/client.h"
 #include "core/serve/following.h"
 #include "core/serve/guest.h"
+#include "core/wire/base64.h"
 #include "core/wire/messages.h"
 #include "core/wire/operations.h"
 
@@ -118,7 +119,7 @@ class Second {
     if (t == "copy") {
       const auto part = wire::read_message<CopyPart>(*frame);
       if (!part) return part.error();
-      const auto bytes = bytes_of_text(part->part);
+      const auto bytes = wire::bytes_of_base64(part->part);
       if (!bytes) return bytes.error();
       packed_ += *bytes;
       return part->is_last ? take(*part) : Result<std::int64_t>(-1);
@@ -127,7 +128,7 @@ class Second {
     const auto changes = wire::read_message<Changes>(*frame);
     if (!changes) return changes.error();
     if (!is_following_ || changes->n != last_ + 1) return Error{ErrorCode::conflict, options_.path, "a change is missing"};
-    const auto bytes = bytes_of_text(changes->bytes);
+    const auto bytes = wire::bytes_of_base64(changes->bytes);
     if (!bytes) return bytes.error();
     if (auto repeated = copy_->repeat(*bytes); !repeated) return repeated.error();
     return last_ = changes->n;

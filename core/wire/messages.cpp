@@ -28,6 +28,7 @@ void Hello::declare(MessageBuilder<Hello>& m) {
   m.field(&Hello::fingerprint, "fp").doc("What a window's build computes in its self-test.");
   m.field(&Hello::name, "name").doc("Name of the person, where they were asked for it.");
   m.field(&Hello::have, "have").min(0).doc("Number of the last entry that was received.");
+  m.field(&Hello::tick, "tick").min(0).doc("The tick that a window has reached; it goes on from there where that is possible.");
   m.field(&Hello::epoch, "epoch").min(0).doc("Epoch of that number.");
   m.field(&Hello::unacked, "unacked").min(0).doc("Number of the last operation that has its answer.");
   m.field(&Hello::views, "views").doc("The views that are to be followed.");
@@ -95,8 +96,16 @@ void PresenceIn::declare(MessageBuilder<PresenceIn>& m) {
   m.from_page().id("presence").doc("Where somebody is and what they hold; the newest counts, and nothing of it is stored.");
   m.field(&PresenceIn::n, "n").min(0).doc("Ascending.");
   m.field(&PresenceIn::cursor, "cursor").doc("[x, y, z] in metres, or null.");
+  m.field(&PresenceIn::camera, "camera").doc("How a window looks at the scene, for those who follow it; null where it does not.");
   m.field(&PresenceIn::holds, "holds").doc("Ids of nodes that the person has selected.");
   m.field(&PresenceIn::hidden, "hidden").doc("On where the page is not visible.");
+}
+void Resync::declare(MessageBuilder<Resync>& m) {
+  m.from_page().id("resync").doc("A window asks for a snapshot, because it can no longer follow the ticks from where it is.");
+  m.field(&Resync::k, "k").min(0).doc("The tick at which that was noticed.");
+  m.field(&Resync::expected, "expected").doc("The server's hash of that tick, where hashes differ.");
+  m.field(&Resync::found, "found").doc("The window's own hash of it.");
+  m.field(&Resync::why, "why").doc("`hash`, `late`, `entry`, or `values` where the window does not compute ticks at all.");
 }
 void Welcome::declare(MessageBuilder<Welcome>& m) {
   m.id("welcome").doc("The answer to `hello`.");
@@ -109,12 +118,30 @@ void Welcome::declare(MessageBuilder<Welcome>& m) {
   m.field(&Welcome::rate, "rate").required().doc("Ticks in a second.");
   m.field(&Welcome::done, "done").required().doc("The last operation of this run that is answered.");
   m.field(&Welcome::resume, "resume").doc("`none` or `snapshot`: all views come anew.");
+  m.field(&Welcome::mode, "mode")
+      .doc("For windows that have sent their self-test: `ticks` where it equals the server's, else `values`.");
   m.field(&Welcome::token, "token").doc("Opens the seat again; only on the first visit.");
 }
 void SceneOut::declare(MessageBuilder<SceneOut>& m) {
   m.id("scene").doc("The scene before the first entry, for windows; `ops` with all entries since follow.");
   m.field(&SceneOut::s, "s").required().doc("Number of the last entry that it holds already.");
   m.field(&SceneOut::scene, "scene").required().doc("The scene file.");
+}
+void SnapshotOut::declare(MessageBuilder<SnapshotOut>& m) {
+  m.id("snapshot").doc("A scene with its running state, for windows that take the same ticks; what comes later goes on from it.");
+  m.field(&SnapshotOut::s, "s").required().doc("Number of the last entry that it holds.");
+  m.field(&SnapshotOut::k, "k").required().doc("Its tick.");
+  m.field(&SnapshotOut::scene, "scene").required().doc("The scene file with its state: deflated by zlib, in base 64.");
+  m.field(&SnapshotOut::size, "size").required().doc("Bytes of the text.");
+  m.field(&SnapshotOut::digest, "digest").required().doc("A hash of the text.");
+}
+void TickOut::declare(MessageBuilder<TickOut>& m) {
+  m.id("tick").doc("Every entry that a tick has read is sent: a window may take the ticks up to this one.");
+  m.field(&TickOut::k, "k").required().doc("The tick.");
+  m.field(&TickOut::s, "s").required().doc("Number of the last entry that it has read.");
+  m.field(&TickOut::h, "h").doc("Its hash, at least once in twenty ticks that were taken.");
+  m.field(&TickOut::scene, "scene").doc("A hash of the scene after the entry `s`, with `h` where nothing has been said since.");
+  m.field(&TickOut::rest, "rest").doc("On where the ticks only count on from here, until somebody says something.");
 }
 void Ops::declare(MessageBuilder<Ops>& m) {
   m.id("ops").doc("Entries of the log, after they are stored.");
@@ -171,11 +198,12 @@ std::string line_of(const MessageDefinition& kind, const std::map<std::string, V
 }
 
 std::vector<const MessageDefinition*> message_kinds() {
-  return {&message_kind<Hello>(),    &message_kind<Op>(),          &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
-          &message_kind<RedoOp>(),   &message_kind<RewindOp>(),    &message_kind<DraftOp>(),    &message_kind<Want>(),
-          &message_kind<Seen>(),     &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Welcome>(),
-          &message_kind<SceneOut>(), &message_kind<Ops>(),         &message_kind<Ack>(),        &message_kind<Nack>(),
-          &message_kind<StateOut>(), &message_kind<PresenceOut>(), &message_kind<Say>(),        &message_kind<Pong>()};
+  return {&message_kind<Hello>(),       &message_kind<Op>(),          &message_kind<RoomOp>(),     &message_kind<UndoOp>(),
+          &message_kind<RedoOp>(),      &message_kind<RewindOp>(),    &message_kind<DraftOp>(),    &message_kind<Want>(),
+          &message_kind<Seen>(),        &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Resync>(),
+          &message_kind<Welcome>(),     &message_kind<SnapshotOut>(), &message_kind<TickOut>(),    &message_kind<SceneOut>(),
+          &message_kind<Ops>(),         &message_kind<Ack>(),         &message_kind<Nack>(),       &message_kind<StateOut>(),
+          &message_kind<PresenceOut>(), &message_kind<Say>(),         &message_kind<Pong>()};
 }
 
 Json message_schema() {

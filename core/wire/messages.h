@@ -14,7 +14,7 @@ namespace bl::wire {
 
 struct Hello {
   std::string room, run, invite, token, kind = "page", lang, build, fingerprint, name;
-  std::int64_t have = 0, epoch = 0, unacked = 0;
+  std::int64_t have = 0, tick = 0, epoch = 0, unacked = 0;
   std::vector<std::string> views;
   static void declare(MessageBuilder<Hello>& m);
 };
@@ -63,10 +63,15 @@ struct Ping {
 };
 struct PresenceIn {
   std::int64_t n = 0;
-  JsonValue cursor = JsonValue::null();
+  JsonValue cursor = JsonValue::null(), camera = JsonValue::null();
   std::vector<std::string> holds;
   bool hidden = false;
   static void declare(MessageBuilder<PresenceIn>& m);
+};
+struct Resync {
+  std::int64_t k = 0;
+  std::string expected, found, why;
+  static void declare(MessageBuilder<Resync>& m);
 };
 
 // From the server.
@@ -75,13 +80,24 @@ struct Welcome {
   JsonValue you = {}, room = {}, limits = {};
   std::int64_t epoch = 0, seq = 0, tick = 0, done = 0;
   double rate = 0;
-  std::string resume = "snapshot", token;
+  std::string resume = "snapshot", token, mode;
   static void declare(MessageBuilder<Welcome>& m);
 };
 struct SceneOut {
   std::int64_t s = 0;
   JsonValue scene = {};
   static void declare(MessageBuilder<SceneOut>& m);
+};
+struct SnapshotOut {
+  std::int64_t s = 0, k = 0, size = 0;
+  std::string scene, digest;
+  static void declare(MessageBuilder<SnapshotOut>& m);
+};
+struct TickOut {
+  std::int64_t k = 0, s = 0;
+  std::string h, scene;
+  bool rest = false;
+  static void declare(MessageBuilder<TickOut>& m);
 };
 struct Ops {
   JsonValue e = JsonValue::null();

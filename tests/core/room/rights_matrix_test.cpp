@@ -270,6 +270,7 @@ const std::map<std::string, std::string> kEvents = {{"join", "......."},
                                                     {"mark", "x....x."},
                                                     {"show", "x......"},
                                                     {"set_pace", "x......"},
+                                                    {"step_clock", "x......"},
                                                     {"set_door", "x......"},
                                                     {"close_room", "x......"},
                                                     {"forget", "x......"}};

@@ -122,7 +122,10 @@ TEST_F(RoomHosts, NothingIsShownBeforeTheWelcome) {
     host_->hear(*lead,
                 R"({"t": "room", "id": )" + std::to_string(k + 1) + R"(, "e": {"event": "mark", "arguments": {"text": "x"}}})");
     ASSERT_TRUE(host_->greet(guest, hello));
-    run_until([&] { return guest->last("state") != nullptr && (*guest->last("state"))["view"] == "room"; });
+    run_until([&] {
+      return std::any_of(guest->frames.begin(), guest->frames.end(),
+                         [](const Json& frame) { return frame["t"] == "state" && frame["view"] == "room"; });
+    });
     EXPECT_EQ(guest->frames.front()["t"], "welcome");
   }
 }

@@ -5,29 +5,12 @@
 #include <fstream>
 #include <future>
 
-#include "core/base/random.h"
 #include "core/serve/following.h"
 #include "tests/core/serve/talk.h"
 #include "tests/support/deadline.h"
 
 namespace bl::serve {
 namespace {
-
-TEST(Following, BytesTravelAsText) {
-  EXPECT_EQ(text_of_bytes(""), "");
-  EXPECT_EQ(text_of_bytes("f"), "Zg==");
-  EXPECT_EQ(text_of_bytes("fo"), "Zm8=");
-  EXPECT_EQ(text_of_bytes("foobar"), "Zm9vYmFy");  // RFC 4648, 10
-  Random random(1);
-  for (std::size_t size = 0; size < 200; ++size) {
-    std::string bytes;
-    for (std::size_t k = 0; k < size; ++k) bytes += static_cast<char>(random.below(256));
-    const auto back = bytes_of_text(text_of_bytes(bytes));
-    ASSERT_TRUE(back) << size;
-    EXPECT_EQ(*back, bytes);
-  }
-  for (const char* wrong : {"Zg=", "Z===", "Zg==Zg==", "Zg\n=", "????", "=Zg="}) EXPECT_FALSE(bytes_of_text(wrong)) << wrong;
-}
 
 // A second laptop on a thread of its own.
 class Laptop {

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "core/file/file_io.h"
+#include "core/guest/joining.h"
+#include "core/guest/room_guest.h"
 #include "core/reading/figures.h"
 #include "ui/desktop/document/named_files.h"
 
@@ -22,6 +24,8 @@ Document::Document(const Registry& registry, std::string path) : registry_(&regi
   static std::uint64_t made = 0;
   id_ = ++made;
 }
+
+Document::~Document() = default;
 
 bool is_shipped(const std::string& path) {
   namespace files = std::filesystem;
@@ -57,6 +61,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   }
   std::unique_ptr<Document> document(new Document(registry, path));
   document->host_ = std::move(*host);
+  document->running_ = document->host_.get();
   document->host_->begin_journal(document->source(), write_scene(reading.scene, registry, state));
   if (!path.empty()) document->saved_ = std::move(reading.scene);  // without a file there is nothing that holds it
   document->read_imports(problems);
@@ -72,7 +77,27 @@ std::unique_ptr<Document> Document::recover(const Registry& registry, const host
   return document;
 }
 
+Result<std::unique_ptr<Document>> Document::join(const Registry& registry, const std::string& address, int threads,
+                                                 PersonSettings& person) {
+  const auto room = guest::room_named(address);
+  if (!room) return room.error();
+  guest::JoinOptions how{.token = {}, .name = {}, .threads = threads, .keep_token = {}};
+  if (const auto seat = person.seats.find(*room); seat != person.seats.end()) how.token = seat->second;
+  how.keep_token = [&person, where = *room](const std::string& token) {
+    if (token.empty()) person.seats.erase(where);
+    else person.seats[where] = token;
+    (void)write_person_settings(person);  // a seat that is not kept is taken anew
+  };
+  auto guest = guest::join_room(registry, address, std::move(how));
+  if (!guest) return guest.error();
+  std::unique_ptr<Document> document(new Document(registry, ""));
+  document->guest_ = std::move(*guest);
+  document->running_ = document->guest_.get();
+  return document;
+}
+
 std::string Document::name() const {
+  if (guest_) return (guest_->people().title.empty() ? "" : guest_->people().title + ", ") + "room " + guest_->code();
   if (!path_.empty()) return std::filesystem::path(path_).filename().string();
   return origin_.empty() ? "Untitled scene" : std::filesystem::path(origin_).stem().string() + " (copy, not saved yet)";
 }
@@ -88,7 +113,7 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
     note("Passwords and certificates were not copied: put " + names + " beside the new file.");
   }
   if (named.commands.empty()) return 0;
-  const std::int64_t gesture = session().new_gesture();
+  const std::int64_t gesture = running_->new_gesture();
   if (auto done = submit(named.commands, gesture, "Name files from the new folder"); !done)
     return 0;  // somebody has taken the node away: then it names no file any more
   if (!named.copies.empty())
@@ -118,11 +143,17 @@ Result<void> Document::save(const std::string& path) {
     return Error{ErrorCode::conflict, path,
                  "The scenes in this folder come with the program and are not overwritten: choose another folder."};
   save_note_.clear();
+  if (guest_) {
+    // A copy for this person: the room keeps its own.
+    const SavedState state = bl::save(*running_->coming_state());
+    save_note_ = "This is a copy. What is done in the room is stored there, and not in this file.";
+    return write_file(path, write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr));
+  }
   const NamedFiles named = files_named_from(scene(), folder(), std::filesystem::path(path).parent_path().string());
   const std::int64_t gesture = name_files_from(named);
   // Scene and running state of one and the same moment.
   const auto text_to_save = [this] {
-    const SavedState state = bl::save(*session().coming_state());
+    const SavedState state = bl::save(*running_->coming_state());
     return write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr);
   };
   const std::string text = text_to_save();
@@ -133,11 +164,11 @@ Result<void> Document::save(const std::string& path) {
     origin_.clear();
     saved_ = scene();
     is_unsaved_ = false;
-    compared_size_ = session().log().size();
+    compared_size_ = running_->log().size();
     write_imports(path);
   } else if (gesture != 0) {
     save_note_.clear();
-    session().abandon(gesture);
+    running_->abandon(gesture);
   }
   if (written) host_->begin_journal(source(), text);  // what was before it is safe
   return written;
@@ -173,8 +204,9 @@ void Document::write_imports(const std::string& scene_path) {
 
 // What devices have said since the file was written is no change of anybody's: it is taken on in what is compared with, too.
 bool Document::is_unsaved() {
+  if (guest_) return guest_->standing().waiting > 0;
   if (!saved_) return true;
-  const auto& log = session().log();
+  const auto& log = running_->log();
   bool has_persons = false;
   for (; compared_size_ < log.size(); ++compared_size_) {
     const LogEntry& entry = log[compared_size_];
@@ -191,6 +223,9 @@ bool Document::is_unsaved() {
   return is_unsaved_;
 }
 
-Result<void> Document::save_log(const std::string& path) const { return write_file(path, host_->log_text()); }
+Result<void> Document::save_log(const std::string& path) const {
+  if (!host_) return Error{ErrorCode::conflict, path, "The log of a room is kept by its server."};
+  return write_file(path, host_->log_text());
+}
 
 }  // namespace bl::desktop

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "core/file/scene_file.h"
+#include "core/guest/guest_fwd.h"
 #include "core/host/host.h"
+#include "core/host/running.h"
 #include "core/import/import_report.h"
 #include "ui/desktop/document/named_files.h"
+#include "ui/desktop/document/person_settings.h"
 
 namespace bl::desktop {
 
@@ -33,10 +36,25 @@ class Document {
   static std::unique_ptr<Document> recover(const Registry& registry, const host::Journal::UnsavedJournal& remains, int threads,
                                            std::vector<Problem>& problems);
 
+  /// The scene of a room, by its address. The seat that it gives is kept among the person's settings, which must outlive the
+  /// document. An error only where the address is none: who cannot connect goes on trying.
+  static Result<std::unique_ptr<Document>> join(const Registry& registry, const std::string& address, int threads,
+                                                PersonSettings& person);
+
+  ~Document();
+
   /// Unique among all documents that this window has opened; addresses may be reused.
   std::uint64_t id() const { return id_; }
+  /// The scene as it runs, here or in a room.
+  host::Running& running() { return *running_; }
+  const host::Running& running() const { return *running_; }
+  /// The session of a scene that runs in this window; there is none for a scene of a room.
+  host::LiveSession* local() { return host_ ? &host_->session() : nullptr; }
+  /// The room that the scene runs in; there is none for a scene of this window.
+  guest::RoomGuest* room() const { return guest_.get(); }
+  /// The same, where the scene is known to run here.
   host::LiveSession& session() { return host_->session(); }
-  const Scene& scene() const { return host_->session().scene(); }
+  const Scene& scene() const { return running_->scene(); }
   /// The path that Save writes to; empty where it has to ask.
   const std::string& path() const { return path_; }
   /// The file that the scene was read from, or written to last: that of a copy is its original. Empty where there is none.
@@ -60,22 +78,22 @@ class Document {
   /// Where the reports of a scene file are kept: quarter.import.csv beside quarter.json.
   static std::string imports_path(const std::string& scene_path);
   /// Why a crash would lose unsaved changes; empty where it would not.
-  std::string journal_problem() const { return host_->journal_problem(); }
+  std::string journal_problem() const { return host_ ? host_->journal_problem() : std::string(); }
   /// Does the scene differ from its file? Compared again only after changes.
   bool is_unsaved();
   /// Writes the log since the scene was opened, for `replay`.
   Result<void> save_log(const std::string& path) const;
   /// Steps, oldest first.
-  const std::vector<host::HistoryStep>& history() const { return host_->history().steps(); }
-  std::int64_t last_step() const { return host_->history().last_step(); }
+  const std::vector<host::HistoryStep>& history() const { return running_->history(); }
+  std::int64_t last_step() const { return running_->last_step(); }
 
   /// Submits commands as one step. `label`: the name of the step, where the commands alone do not say what was meant: "Solo ·
   /// Hotel".
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "") {
-    return host_->submit(commands, gesture, label);
+    return running_->submit(commands, gesture, label);
   }
   /// One frame of a gesture that is under way.
-  Result<void> show(const std::vector<Command>& commands, std::int64_t gesture) { return host_->show(commands, gesture); }
+  Result<void> show(const std::vector<Command>& commands, std::int64_t gesture) { return running_->show(commands, gesture); }
 
  private:
   Document(const Registry& registry, std::string path);
@@ -89,8 +107,10 @@ class Document {
   importing::ImportReports imports_;
   std::uint64_t imports_revision_ = 0;
   std::optional<Scene> saved_;  ///< the content of the file; none where there is no file, or another content
-  std::unique_ptr<host::Host> host_;
-  std::size_t compared_size_ = 0;  ///< of the log
+  std::unique_ptr<guest::RoomGuest> guest_;
+  std::unique_ptr<host::Host> host_;  ///< none where the scene runs in a room
+  host::Running* running_ = nullptr;  ///< what runs the scene
+  std::size_t compared_size_ = 0;     ///< of the log
   bool is_unsaved_ = false;
 };
 

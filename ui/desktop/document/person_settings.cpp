@@ -29,6 +29,8 @@ void each_member(Settings& s, Visit visit) {
   visit("recent", s.recent);
   visit("recent_additions", s.recent_additions);
   visit("layers", s.layers);
+  visit("seats", s.seats);
+  visit("recent_rooms", s.recent_rooms);
 }
 
 }  // namespace

@@ -18,8 +18,10 @@ struct PersonSettings {
   std::string navigation = "rhino";           ///< rhino, blender, sketchup, polyscope
   int width = 1440, height = 900;             ///< of the window
   std::vector<std::string> recent;            ///< scene files, the last first
+  std::vector<std::string> recent_rooms;      ///< addresses, the last first
   std::vector<std::string> recent_additions;  ///< typifications and link kinds that were added last
   std::map<std::string, bool> layers;         ///< of the 3D view, by id; those that differ from their defaults
+  std::map<std::string, std::string> seats;   ///< in rooms: by HOST:PORT/CODE, what opens the seat again
   std::string file;                           ///< where it is kept; empty: nowhere (tests)
 
   void remember(std::vector<std::string>& list, const std::string& item, std::size_t most = 12);

@@ -10,6 +10,8 @@
 
 #include "core/base/scarcity.h"
 #include "core/base/text.h"
+#include "core/guest/joining.h"
+#include "core/guest/room_guest.h"
 #include "core/host/device_door.h"
 
 namespace bl::desktop {
@@ -63,23 +65,26 @@ bool Editor::show(const std::vector<Command>& commands, std::int64_t gesture) {
 
 void Editor::end_gesture(std::int64_t gesture) {
   if (!document) return;
-  if (auto done = document->session().end_gesture(gesture); !done) notify(NoticeKind::error, done.error().text());
+  if (auto done = document->running().end_gesture(gesture); !done) notify(NoticeKind::error, done.error().text());
 }
 
 bool Editor::arrange(const JsonValue& patch, std::int64_t gesture) { return submit(command<SetView>({patch, false}), gesture); }
 
 void Editor::undo() {
   if (!document) return;
-  tell_left(*this, document->session().undo(), "Nothing to undo.");
+  tell_left(*this, document->running().undo(), "Nothing to undo.");
 }
 
 void Editor::redo() {
   if (!document) return;
-  tell_left(*this, document->session().redo(), "Nothing to redo.");
+  tell_left(*this, document->running().redo(), "Nothing to redo.");
 }
 
 std::string Editor::fresh_id(const std::string& wish) const {
-  return fresh_key(to_identifier(wish),
+  // Two people who add something at the same moment give it two ids.
+  const guest::RoomGuest* room = document->room();
+  const std::string own = room == nullptr ? wish : wish + "_" + std::to_string(room->seat());
+  return fresh_key(to_identifier(own),
                    [&](const std::string& id) { return scene().nodes.contains(id) || scene().links.contains(id); });
 }
 
@@ -106,7 +111,54 @@ void Editor::list_problems(std::string file, std::vector<Problem> found) {
   go_on();
 }
 
+bool Editor::join(const std::string& address) {
+  auto joined = Document::join(program, address, kTickThreads, person);
+  if (!joined) {
+    notify(NoticeKind::error, "This room cannot be joined: " + joined.error().text());
+    return false;
+  }
+  person.remember(person.recent_rooms, address);
+  list_problems("", {});
+  take(std::move(*joined));
+  return true;
+}
+
+const Other* Editor::holder_of(const std::string& node) const {
+  const auto found = std::find_if(others.begin(), others.end(), [&](const Other& other) { return other.holds.contains(node); });
+  return found == others.end() ? nullptr : &*found;
+}
+
+// What has come from the room since the last frame, in words and in colours.
+void Editor::hear_room() {
+  others.clear();
+  guest::RoomGuest* room = document ? document->room() : nullptr;
+  if (room == nullptr) {
+    followed = 0;
+    return;
+  }
+  for (const guest::Refused& refused : room->take_refusals())
+    notify(NoticeKind::warning,
+           refused.what + " was refused: " + refused.text +
+               (refused.place.empty() || refused.text.find(refused.place) != std::string::npos ? std::string()
+                                                                                               : " (" + refused.place + ")"));
+  for (const std::string& notice : room->take_notices()) notify(NoticeKind::told, notice);
+  for (const auto& [seat, where] : room->people().whereabouts) {
+    const auto person_there = room->people().seats.find(seat);
+    if (seat == room->seat() || person_there == room->people().seats.end()) continue;
+    Other other;
+    other.seat = seat;
+    other.name = person_there->second.name;
+    other.colour = colour_of_text(person_there->second.colour);
+    other.holds.insert(where.holds.begin(), where.holds.end());
+    if (!where.is_hidden) other.cursor = where.cursor;
+    if (!where.camera.is_null()) other.camera = where.camera.text();
+    others.push_back(std::move(other));
+  }
+  wake_at(now + std::max(0.0, room->next_turn() - host::real_clock().now()));
+}
+
 bool Editor::open(const std::string& wanted, bool plays) {
+  if (guest::is_room_address(wanted)) return join(wanted);
   std::error_code error;
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
@@ -125,15 +177,16 @@ bool Editor::open(const std::string& wanted, bool plays) {
   }
   person.remember(person.recent, path);
   take(std::move(fresh));
-  document->session().play(plays);
+  document->running().play(plays);
   if (!problems.empty()) notify(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
   return true;
 }
 
 void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
-  document->session().make_ticks_wait(serves_ticks && host::has_recordings(document->scene(), program));
-  moment = document->session().moment();
+  if (host::LiveSession* session = document->local())
+    session->make_ticks_wait(serves_ticks && host::has_recordings(document->scene(), program));
+  moment = document->running().moment();
   picks = {};
   panels = nullptr;
   script_watch.clear();
@@ -149,7 +202,8 @@ const Registry& Editor::types() const {
 
 void Editor::begin_frame() {
   if (document)
-    if (auto done = document->session().keep_up(); !done) notify(NoticeKind::error, done.error().text());
+    if (auto done = document->running().keep_up(); !done) notify(NoticeKind::error, done.error().text());
+  hear_room();
   held_before_ = std::move(held_);
   held_.clear();
   (void)types();

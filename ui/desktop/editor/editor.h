@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -56,6 +57,16 @@ struct Delivery {
   std::string problem;  ///< of the connection
 };
 
+/// Somebody else in the room of the open scene.
+struct Other {
+  std::int64_t seat = 0;
+  std::string name;
+  ImU32 colour = 0;
+  std::set<std::string> holds;  ///< nodes that they have selected
+  std::optional<Vector3> cursor;
+  std::string camera;  ///< as text; empty: not told
+};
+
 class Editor {
  public:
   Editor(const Registry& all_types, PersonSettings& somebody) : program(all_types), person(somebody) {}
@@ -79,6 +90,8 @@ class Editor {
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< memory of inspector, lists and charts for this document
   std::uint64_t bytes_sent = 0;                ///< bytes sent to the graphics processor since the window opened
+  std::vector<Other> others;                   ///< who else is in the room, as their windows have said last
+  std::int64_t followed = 0;                   ///< the seat whose camera this window follows; 0: nobody's
   std::map<std::string, Delivery> deliveries;  ///< by actuator, where there is a connection
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
@@ -100,7 +113,7 @@ class Editor {
   void end_gesture(std::int64_t gesture);
   /// A patch of the scene's view (canvas layout, cameras), as one step.
   bool arrange(const JsonValue& patch, std::int64_t gesture = 0);
-  std::int64_t new_gesture() { return document->session().new_gesture(); }
+  std::int64_t new_gesture() { return document->running().new_gesture(); }
   void undo();
   void redo();
   /// A free id for a new node or link, made from a wanted one such as "tower".
@@ -117,11 +130,17 @@ class Editor {
   void list_problems(std::string file, std::vector<Problem> found);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
+  /// Joins the room of an address, in place of the open document.
+  bool join(const std::string& address);
   void take(std::unique_ptr<Document> fresh);
   /// At the beginning of a frame: submits due values of gestures, and releases scripts that nothing can point into any more.
   void begin_frame();
 
+  /// Who of the others has selected this node; nobody where nobody has.
+  const Other* holder_of(const std::string& node) const;
+
  private:
+  void hear_room();
   // Panels keep pointers into types() until they hear of a change; scripts that were replaced live on until then.
   mutable std::vector<Scripts> held_, held_before_;
 };

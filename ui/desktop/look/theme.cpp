@@ -265,4 +265,11 @@ ImU32 Theme::diverging(double t) const {
   return mixed(middle, t < 0 ? rgb(0x2f6fb7) : rgb(0xb8552b), static_cast<float>(std::abs(std::clamp(t, -1.0, 1.0))));
 }
 
+ImU32 colour_of_text(const std::string& text, ImU32 otherwise) {
+  if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    return otherwise;
+  const unsigned long all = std::stoul(text.substr(1), nullptr, 16);
+  return IM_COL32(all >> 16 & 0xffu, all >> 8 & 0xffu, all & 0xffu, 255);
+}
+
 }  // namespace bl::desktop

@@ -71,6 +71,9 @@ ImU32 faded(ImU32 colour, float opacity);
 /// `share` of `b` in `a`.
 ImU32 mixed(ImU32 a, ImU32 b, float share);
 
+/// `#rrggbb` as a colour; `otherwise` where the text is none.
+ImU32 colour_of_text(const std::string& text, ImU32 otherwise = IM_COL32(128, 128, 128, 255));
+
 /// Signs of the packaged icon face, as UTF-8.
 namespace icon {
 inline constexpr const char *kPlay = "\xef\x81\x8b", *kPause = "\xef\x81\x8c", *kStep = "\xef\x81\x91", *kRewind = "\xef\x81\x8a",

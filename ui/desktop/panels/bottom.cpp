@@ -10,7 +10,7 @@ namespace bl::desktop {
 void watch_run(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
   // Nobody pays for times that nobody sees.
-  editor.document->session().watch_times(memory.times_frame >= ImGui::GetFrameCount() - 1);
+  editor.document->running().watch_times(memory.times_frame >= ImGui::GetFrameCount() - 1);
   const std::shared_ptr<const State>& state = editor.moment->state;
   const bool is_the_same_scene = memory.watched && memory.watched->plan->dependents == state->plan->dependents &&
                                  memory.watched_problems == editor.problems_revision;

@@ -23,15 +23,17 @@ std::int64_t rewind_ticks(const host::Moment& moment) {
 }
 
 void change_rate(Workbench& editor, double factor) {
-  editor.document->session().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
+  editor.document->running().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
 }
 
-void toggle_play(Workbench& editor) { editor.document->session().play(!editor.moment->is_playing); }
-void one_tick(Workbench& editor) { editor.document->session().step(1); }
-void rewind(Workbench& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
+void toggle_play(Workbench& editor) { editor.document->running().play(!editor.moment->is_playing); }
+void one_tick(Workbench& editor) { editor.document->running().step(1); }
+void rewind(Workbench& editor) { editor.document->running().rewind(rewind_ticks(*editor.moment)); }
 bool can_rewind(const Workbench& editor) {
-  return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick;
+  return has_document(editor) && editor.moment && editor.document->running().can_rewind();
 }
+
+bool may_set_clock(const Workbench& editor) { return has_document(editor) && editor.document->running().why_no_clock().empty(); }
 
 std::string rewind_hint(const host::Moment& moment) {
   std::string hint = "Rewind five seconds (Backspace)";
@@ -98,17 +100,28 @@ void draw_standing(Workbench& editor) {
 void draw_clock(Workbench& editor) {
   const host::Moment& moment = *editor.moment;
   const Theme& theme = editor.theme;
-  if (tool_button(editor, icon::kRewind, rewind_hint(moment).c_str(), false, can_rewind(editor))) rewind(editor);
-  if (tool_button(editor, moment.is_playing ? icon::kPause : icon::kPlay, moment.is_playing ? "Pause (P)" : "Play (P)",
-                  moment.is_playing))
+  // In a room not everybody sets the clock; why not is said in place of what a button does.
+  const std::string why_not = editor.document->running().why_no_clock();
+  const bool is_possible = why_not.empty(), is_room = editor.document->room() != nullptr;
+  const auto hint = [&](const std::string& otherwise) { return is_possible ? otherwise : why_not; };
+  const std::string back =
+      is_room ? "Takes back what everybody has changed in the last five seconds (Backspace)" : rewind_hint(moment);
+  if (tool_button(editor, icon::kRewind, hint(back).c_str(), false, is_possible && can_rewind(editor))) rewind(editor);
+  if (tool_button(editor, moment.is_playing ? icon::kPause : icon::kPlay,
+                  hint(moment.is_playing ? "Pause (P)" : "Play (P)").c_str(), moment.is_playing, is_possible))
     toggle_play(editor);
-  if (tool_button(editor, icon::kStep, "One tick (.)", false, !moment.is_playing)) one_tick(editor);
+  if (tool_button(editor, icon::kStep, hint("One tick (.)").c_str(), false, is_possible && !moment.is_playing)) one_tick(editor);
+  ImGui::BeginDisabled(!is_possible);
   ImGui::SetNextItemWidth(theme.px(120));
   float rate = static_cast<float>(moment.wanted_rate);
   if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(kSlowest), static_cast<float>(kFastest), "%.3g ticks/s",
                          ImGuiSliderFlags_Logarithmic))
-    editor.document->session().set_rate(rate);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Wanted ticks per second (- slower, = faster)");
+    editor.document->running().set_rate(rate);
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", hint(is_room ? "Ticks per second for everybody, from 1 to 20 (- slower, = faster)"
+                                         : "Wanted ticks per second (- slower, = faster)")
+                                .c_str());
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(theme.fonts().strong);
@@ -119,16 +132,17 @@ void draw_clock(Workbench& editor) {
   ImGui::SameLine(0, theme.px(16));
   ImGui::AlignTextToFramePadding();
   draw_standing(editor);
+  draw_room(editor);
 }
 
 void add_clock_actions(std::vector<Action>& list) {
   auto is_playing = [](const Workbench& e) { return e.moment && e.moment->is_playing; };
-  auto is_paused = [](const Workbench& e) { return e.moment && !e.moment->is_playing; };
-  list.push_back({"Clock", "Play", {GLFW_KEY_P}, {}, Area::none, has_document, toggle_play, false, is_playing});
+  auto is_paused = [](const Workbench& e) { return may_set_clock(e) && e.moment && !e.moment->is_playing; };
+  list.push_back({"Clock", "Play", {GLFW_KEY_P}, {}, Area::none, may_set_clock, toggle_play, false, is_playing});
   list.push_back({"Clock", "One tick", {GLFW_KEY_PERIOD}, {}, Area::none, is_paused, one_tick, true});
   list.push_back({"Clock", "Rewind five seconds", {GLFW_KEY_BACKSPACE}, {}, Area::none, can_rewind, rewind});
-  list.push_back({"Clock", "Slower", {GLFW_KEY_MINUS}, {}, Area::none, has_document, [](Workbench& e) { change_rate(e, 0.5); }});
-  list.push_back({"Clock", "Faster", {GLFW_KEY_EQUAL}, {}, Area::none, has_document, [](Workbench& e) { change_rate(e, 2); }});
+  list.push_back({"Clock", "Slower", {GLFW_KEY_MINUS}, {}, Area::none, may_set_clock, [](Workbench& e) { change_rate(e, 0.5); }});
+  list.push_back({"Clock", "Faster", {GLFW_KEY_EQUAL}, {}, Area::none, may_set_clock, [](Workbench& e) { change_rate(e, 2); }});
 }
 
 }  // namespace bl::desktop

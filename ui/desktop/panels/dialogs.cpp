@@ -116,10 +116,11 @@ void Dialogs::draw() {
   else if (kind_ == Kind::unsaved) draw_unsaved();
   else if (kind_ == Kind::recovery) draw_recovery();
   else if (kind_ == Kind::import) draw_import();
+  else if (kind_ == Kind::join) draw_join();
   std::erase_if(ending_, [](const std::unique_ptr<ImportTask>& task) { return task->is_done(); });
   // What one dialog has opened in its place comes in the next frame, and is fresh then.
   if (kind_ == drawn) is_fresh_ = false;
-  if (kind_ == Kind::fresh || kind_ == Kind::import) return;  // their choosers are drawn inside them
+  if (kind_ == Kind::fresh || kind_ == Kind::import || kind_ == Kind::join) return;  // their choosers are drawn inside them
   if (const auto path = chooser_.draw(*editor_)) {
     const auto chosen = chosen_;  // may open the chooser for something else
     chosen(*path);
@@ -204,7 +205,11 @@ void Dialogs::draw_unsaved() {
   if (!begin("Unsaved changes", 460, 150)) return;
   const Theme& theme = editor_->theme;
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted((editor_->document->name() + " has changes that are not saved.").c_str());
+  const bool is_room = editor_->document->room() != nullptr;
+  ImGui::TextUnformatted(
+      (editor_->document->name() + (is_room ? " has not answered all of your changes. Without the answer they are lost."
+                                            : " has changes that are not saved."))
+          .c_str());
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(10)});
   const ImVec2 size{theme.px(130), 0};

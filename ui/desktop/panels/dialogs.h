@@ -22,6 +22,8 @@ class Dialogs {
   void draw();
 
   void ask_open();
+  /// Asks for the address of a room, and joins it.
+  void ask_join();
   void ask_save_as(std::function<void()> then = {});
   void ask_report();
   void ask_log();
@@ -48,7 +50,7 @@ class Dialogs {
   bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
-  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import };
+  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import, join };
   enum class Recovered { nothing, in_part, all };
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
@@ -62,6 +64,7 @@ class Dialogs {
   void draw_file_field(const char* label, std::string& path, std::vector<std::string> endings);
   void draw_unsaved();
   void draw_recovery();
+  void draw_join();
   Recovered recover(const host::Journal::UnsavedJournal& remains);
   void make_scene();
 
@@ -80,7 +83,7 @@ class Dialogs {
   FileChooser chooser_;
   std::function<void(const std::string&)> chosen_;
   std::function<void()> then_;  ///< what the question about unsaved changes was asked for; gone with the question
-  std::string query_;
+  std::string query_, address_;
   int marked_ = 0;
   making::NewOptions fresh_;
   std::vector<std::string> told_;  ///< notes and errors of the last try to make a scene

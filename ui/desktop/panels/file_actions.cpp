@@ -27,6 +27,7 @@ void back_to_saved(Workbench& editor) {
 }
 
 bool has_imports(const Workbench& editor) { return has_document(editor) && !editor.document->imports().empty(); }
+bool has_log(const Workbench& editor) { return has_document(editor) && editor.document->room() == nullptr; }
 bool has_file(const Workbench& editor) { return has_document(editor) && !editor.document->source().empty(); }
 
 }  // namespace
@@ -37,6 +38,7 @@ void add_file_actions(std::vector<Action>& list) {
   };
   file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Workbench& e) { e.dialogs->show_new_scene(); });
   file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Workbench& e) { e.dialogs->ask_open(); });
+  file("Join a room ...", {GLFW_KEY_J, true}, nullptr, [](Workbench& e) { e.dialogs->ask_join(); });
   file("Import surroundings ...", {GLFW_KEY_I, true}, nullptr, [](Workbench& e) { e.dialogs->show_import(); });
   file("Add link script ...", {}, has_document, [](Workbench& e) { e.dialogs->ask_script(); });
   file("Save", {GLFW_KEY_S, true}, has_document, [](Workbench& e) { e.dialogs->save(); });
@@ -44,7 +46,7 @@ void add_file_actions(std::vector<Action>& list) {
   file("Back to the saved scene", {}, has_file, back_to_saved);
   file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Workbench& e) { e.dialogs->ask_report(); });
   file("Write the import report ...", {}, has_imports, [](Workbench& e) { e.dialogs->ask_import_report(); });
-  file("Save the log for replay ...", {}, has_document, [](Workbench& e) { e.dialogs->ask_log(); });
+  file("Save the log for replay ...", {}, has_log, [](Workbench& e) { e.dialogs->ask_log(); });
   file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Workbench& e) { e.wants_picture = true; });
   list.back().is_always = true;
   file("Close the scene", {GLFW_KEY_W, true}, has_document, close_document);

@@ -1,6 +1,7 @@
 // The steps of this document, the newest last; a press takes back or brings back everything up to it.
 #include <cmath>
 
+#include "core/guest/room_guest.h"
 #include "core/reading/figures.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
@@ -51,9 +52,10 @@ bool draw_step(Workbench& editor, int index, const std::string& label, const std
   list.AddText(small, small->FontSize, {at.x + width - detail_width - theme.px(8), middle - small->FontSize / 2}, c.text_faint,
                detail.c_str());
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s", is_undone    ? "Redo everything up to here"
-                            : is_current ? "This is how the scene is now"
-                                         : "Undo everything after this");
+    ImGui::SetTooltip("%s", editor.document->room() != nullptr ? "Undo takes back your own last step"
+                            : is_undone                        ? "Redo everything up to here"
+                            : is_current                       ? "This is how the scene is now"
+                                                               : "Undo everything after this");
   return is_pressed;
 }
 
@@ -62,6 +64,7 @@ bool draw_step(Workbench& editor, int index, const std::string& label, const std
 void draw_history(Workbench& editor) {
   if (!editor.document) return;
   const std::vector<host::HistoryStep>& steps = editor.document->history();
+  const guest::RoomGuest* room = editor.document->room();
   const std::size_t done = done_steps(editor);
   const float height = std::round(ImGui::GetFontSize() + editor.theme.px(8));
   int wanted = -1;
@@ -73,11 +76,12 @@ void draw_history(Workbench& editor) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       bool is_hit = false;
       if (row == 0) {
-        is_hit = draw_step(editor, 0, "Opened", editor.document->name(), false, done == 0, height);
+        is_hit = draw_step(editor, 0, room == nullptr ? "Opened" : "Joined", editor.document->name(), false, done == 0, height);
       } else {
         const host::HistoryStep& step = steps[static_cast<std::size_t>(row) - 1];
-        const std::string detail =
-            "tick " + reading::grouped(static_cast<double>(step.tick)) + ",  " + reading::counted(step.entries, "command");
+        const std::string detail = (room == nullptr ? "" : room->people().name_of(step.author.id) + ",  ") + "tick " +
+                                   reading::grouped(static_cast<double>(step.tick)) + ",  " +
+                                   reading::counted(step.entries, "command");
         is_hit = draw_step(editor, row, step.label, detail, step.is_undone, static_cast<std::size_t>(row) == done, height);
       }
       if (is_hit) wanted = row;
@@ -88,7 +92,8 @@ void draw_history(Workbench& editor) {
   seen = steps.size();
   ImGui::PopStyleVar();
   ImGui::EndChild();
-  if (wanted >= 0) go_to_step(editor, static_cast<std::size_t>(wanted));
+  // In a room the steps of all stand here, and each takes back their own, the last first.
+  if (wanted >= 0 && room == nullptr) go_to_step(editor, static_cast<std::size_t>(wanted));
 }
 
 }  // namespace bl::desktop

@@ -223,7 +223,7 @@ bool Dialogs::prepare_scene_for_import() {
   if (!document) return false;
   editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
-  editor_->document->session().play(true);
+  editor_->document->running().play(true);
   return true;
 }
 

@@ -73,7 +73,7 @@ void scrub(Workbench& editor, const std::string& key, CellEvent& event) {
   // Before anything else: with keyboard navigation Esc lets go of the item in the same frame.
   if (memory.scrub.key == key && memory.scrub.has_moved && !memory.scrub.is_abandoned &&
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
-    editor.document->session().abandon(memory.scrub.gesture);
+    editor.document->running().abandon(memory.scrub.gesture);
     memory.scrub.is_abandoned = true;
   }
   if (memory.scrub.key == key && memory.scrub.has_moved && !memory.scrub.is_abandoned && ImGui::IsItemDeactivated())

@@ -54,7 +54,7 @@ Unit unit_of_parameter(const Workbench& editor, const LinkDefinition& kind, cons
 }  // namespace
 
 void InspectorView::refresh(Workbench& editor, const Picks& shown) {
-  const std::size_t log_size = editor.document->session().log().size();
+  const std::size_t log_size = editor.document->running().log().size();
   if (editor.moment->state != state_) {
     state_ = editor.moment->state;
     pulls_.clear();

@@ -80,7 +80,7 @@ void Dialogs::make_scene() {
   for (const auto& [file, warning] : made.warnings) problems.push_back({false, warning.within("import")});
   editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
-  editor_->document->session().play(true);
+  editor_->document->running().play(true);
   told_.push_back("done");
   if (made.fill() > 1)
     editor_->notify(NoticeKind::warning,

@@ -9,6 +9,8 @@ namespace bl::desktop {
 void watch_run(Workbench& editor);
 /// Toolbar: play, pause, one tick, rewind, speed; what the simulation does and whether it keeps up.
 void draw_clock(Workbench& editor);
+/// At the end of the toolbar: the room that the scene runs in, if it is one.
+void draw_room(Workbench& editor);
 /// What is chosen, with all of its ports; several nodes are edited together.
 void draw_inspector(Workbench& editor);
 /// Tabs below: problems and conflicts, statistics with charts, times, history, imports.

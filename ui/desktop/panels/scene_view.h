@@ -91,6 +91,8 @@ class SceneView {
   const std::string& colour_choice() const { return editor_->person.colour_by; }
   bool is_walking() const { return is_walking_; }
   bool is_moving() const { return move_.has_value(); }
+  /// Where the mouse is in the scene; nothing where it is elsewhere.
+  std::optional<Point3> cursor() const;
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.
   const std::string& pointed_at() const { return pointed_at_; }
   /// What is drawn and can be picked: without the nodes that are hidden.
@@ -158,6 +160,7 @@ class SceneView {
   std::vector<LabelRequest> label_wishes() const;
   void draw_labels();
   void draw_media_notes();
+  void draw_others();
   void draw_pin();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();

@@ -222,7 +222,7 @@ void SceneView::end_move(bool is_kept) {
     return editor_->notify(NoticeKind::warning,
                            "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
   if (is_kept) editor_->end_gesture(move_->gesture);
-  else editor_->document->session().abandon(move_->gesture);
+  else editor_->document->running().abandon(move_->gesture);
   move_.reset();
   drag_ = Drag::none;
 }

@@ -90,6 +90,7 @@ void StartPage::draw_beginnings(float width) {
   if (row(theme, icon::kPlus, "New from boundary and programme", "a site as GeoJSON, demands as CSV"))
     editor_->dialogs->show_new_scene();
   if (row(theme, icon::kFolder, "Open a scene", "or drop a file onto this window")) editor_->dialogs->ask_open();
+  if (row(theme, icon::kLink, "Join a room", "an address such as room://192.168.1.20:8080/BKRT")) editor_->dialogs->ask_join();
   ImGui::Dummy({0, theme.px(16)});
   if (!editor_->problems.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, c.bad);

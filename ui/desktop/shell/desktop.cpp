@@ -6,6 +6,7 @@
 
 #include <imgui_internal.h>
 
+#include "core/guest/room_guest.h"
 #include "core/making/context_import.h"
 #include "core/making/media_making.h"
 #include "ui/desktop/look/splitter.h"
@@ -136,7 +137,7 @@ void Desktop::frame(double now) {
   editor.next_frame = kNoFrame;
   editor.begin_frame();
   (void)editor.script_watch.poll(editor);
-  if (editor.document) editor.moment = editor.document->session().moment();
+  if (editor.document) editor.moment = editor.document->running().moment();
   else editor.moment = nullptr;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   float top = 0;
@@ -159,7 +160,9 @@ void Desktop::frame(double now) {
     start_page_->leave();
     watch_journal();
     watch_run(editor);
+    follow_somebody();
     draw_workspace(top);
+    tell_whereabouts();
   } else {
     const Colours& c = editor.theme.colours();
     pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { start_page_->draw(); });
@@ -173,9 +176,44 @@ void Desktop::frame(double now) {
 
 // A scene that needs each tick for itself keeps the clock awake: devices are served in each, and some pictures follow its number.
 void Desktop::let_rest() {
-  host::LiveSession& session = editor_->document->session();
-  session.let_rest(!editor_->has_devices && !view_->shows_ticks());
-  if (session.has_waiting_values()) editor_->wake_at(editor_->now + kGestureSeconds);
+  host::Running& running = editor_->document->running();
+  running.let_rest(!editor_->has_devices && !view_->shows_ticks());
+  if (running.has_waiting_values()) editor_->wake_at(editor_->now + kGestureSeconds);
+}
+
+// The camera of somebody else, until this person moves their own.
+void Desktop::follow_somebody() {
+  Workbench& editor = *editor_;
+  if (editor.followed == 0 || (followed_camera_ && *followed_camera_ != view_->camera())) {
+    editor.followed = followed_camera_ ? 0 : editor.followed;
+    followed_camera_.reset();
+  }
+  for (const Other& other : editor.others) {
+    if (other.seat != editor.followed || other.camera.empty()) continue;
+    const Camera camera = camera_from_json_text(other.camera, view_->camera());
+    if (camera != view_->camera()) view_->set_camera(camera);
+    followed_camera_ = view_->camera();
+  }
+}
+
+// What the others of a room see of this window.
+void Desktop::tell_whereabouts() {
+  Workbench& editor = *editor_;
+  guest::RoomGuest* room = editor.document ? editor.document->room() : nullptr;
+  if (room == nullptr) return;
+  // The scene of a room comes after its window has opened.
+  if (fitted_ != editor.document->id() && room->standing().has_scene && !editor.moment->state->nodes.empty()) {
+    fitted_ = editor.document->id();
+    canvas_->fit(true);
+    view_->fit(true);
+  }
+  static constexpr std::size_t kMostHeld = 32;
+  guest::Whereabouts where;
+  where.cursor = view_->cursor();
+  for (const std::string& id : editor.picks.nodes)
+    if (where.holds.size() < kMostHeld) where.holds.push_back(id);
+  where.camera = JsonValue(to_json_text(view_->camera()));
+  room->set_whereabouts(std::move(where));
 }
 
 // Toolbar, then canvas and 3D view side by side, the inspector to their right and lists and charts below.

@@ -1,11 +1,14 @@
 // The whole window as one ImGui frame after another; knows no window system, so that tests can drive it without one.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ui/desktop/panels/workbench.h"
+#include "ui/desktop/view/camera.h"
 
 namespace bl::desktop {
 
@@ -41,6 +44,8 @@ class Desktop {
   void draw_notices();
   void watch_journal();
   void let_rest();
+  void follow_somebody();
+  void tell_whereabouts();
 
   std::unique_ptr<Workbench> editor_;
   std::unique_ptr<Canvas> canvas_;
@@ -48,6 +53,8 @@ class Desktop {
   std::unique_ptr<Dialogs> dialogs_;
   std::unique_ptr<StartPage> start_page_;
   Renderer* renderer_;
+  std::uint64_t fitted_ = 0;  ///< the document of a room whose scene was brought into sight when it came
+  std::optional<Camera> followed_camera_;  ///< as it was set last
   Area was_area_ = Area::canvas;
   std::string told_problem_;  ///< of the journal, as people know it
 };

@@ -23,7 +23,7 @@ FrameWatch::FrameWatch(Desktop& desktop, std::function<void()> wake) : desktop_(
 }
 
 FrameWatch::~FrameWatch() {
-  if (document_ != 0 && document_ == document()) desktop_->editor().document->session().unsubscribe_moments(listener_);
+  if (document_ != 0 && document_ == document()) desktop_->editor().document->running().unsubscribe_moments(listener_);
 }
 
 std::uint64_t FrameWatch::document() const {
@@ -37,15 +37,15 @@ void FrameWatch::follow_document() {
   document_ = document();
   touch();
   if (document_ == 0) return;
-  listener_ = desktop_->editor().document->session().subscribe_moments([sleep = sleep_](const auto&) {
+  listener_ = desktop_->editor().document->running().subscribe_moments([sleep = sleep_](const auto&) {
     if (sleep->is_asleep.exchange(false)) sleep->wake();
   });
 }
 
 bool FrameWatch::has_news() const {
   if (document_ == 0) return false;
-  const host::LiveSession& session = desktop_->editor().document->session();
-  return session.moment() != drawn_ || session.unserved_tick();
+  const host::Running& running = desktop_->editor().document->running();
+  return running.moment() != drawn_ || running.has_news();
 }
 
 void FrameWatch::touch() {

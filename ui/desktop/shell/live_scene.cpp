@@ -16,10 +16,12 @@ void LiveScene::frame() {
     editor.deliveries.clear();
     editor.has_devices = false;
     tick_ = -1;
-    if (number != 0) devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
+    // The devices of a room are its server's.
+    if (number != 0 && editor.document->local() != nullptr)
+      devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
   }
   if (!devices_ || !editor.moment) return;
-  host::LiveSession& session = editor.document->session();
+  host::LiveSession& session = *editor.document->local();
   const bool has_news = devices_->follow(session.said(), session.last_seq());
   editor.has_devices = !devices_->is_empty();
   if (has_news && devices_->has_recordings() != session.do_ticks_wait()) session.make_ticks_wait(devices_->has_recordings());

@@ -18,8 +18,10 @@
 #include <imgui.h>
 #include <stb_image_write.h>
 
+#include "core/base/hash.h"
 #include "core/base/printable.h"
 #include "core/file/file_io.h"
+#include "core/guest/room_guest.h"
 #include "core/session/types/plugins.h"
 #include "ui/desktop/shell/desktop.h"
 #include "ui/desktop/shell/frame_watch.h"
@@ -236,6 +238,19 @@ void write_times(const std::string& path, const FrameTimes& times) {
   if (auto written = write_file(path, text); !written) complain(written.error().text());
 }
 
+// Whether this window took the same ticks as its room.
+void write_room_report(const std::string& path, Editor& editor) {
+  const guest::RoomGuest* room = editor.document ? editor.document->room() : nullptr;
+  if (room == nullptr) return;
+  const auto moment = room->moment();
+  const guest::Standing standing = room->standing();
+  const std::string text = "tick,hash,entry,agreed,differed,waiting,role\n" + std::to_string(moment->ticked->tick) + "," +
+                           hex_digits(moment->ticked->hash) + "," + std::to_string(room->fold().seq()) + "," +
+                           std::to_string(room->agreed()) + "," + std::to_string(room->differed()) + "," +
+                           std::to_string(standing.waiting) + "," + room->role() + "\n";
+  if (auto written = write_file(path, text); !written) complain(written.error().text());
+}
+
 }  // namespace
 
 int run_window(const WindowOptions& options) noexcept {
@@ -290,6 +305,7 @@ int run_window(const WindowOptions& options) noexcept {
       }
       wait_for_next_frame(window.handle(), begin);
     }
+    if (!options.room_report.empty()) write_room_report(options.room_report, editor);
     glfwGetWindowSize(window.handle(), &person.width, &person.height);
   }
   (void)write_person_settings(person);  // a settings file that cannot be written is no reason to fail at the end

@@ -11,6 +11,7 @@ struct WindowOptions {
   std::string scene;                 ///< empty: the start page
   std::string pictures;              ///< a folder for the pictures that F12 takes; empty: the person's own
   std::string times;                 ///< where the frame times are written at the end, as CSV; empty: nowhere
+  std::string room_report;           ///< where it is written at the end what became of the room, as CSV; empty: nowhere
   bool is_playing = true;            ///< the clock runs from the start
   bool is_live = false;              ///< connects to the sensors and actuators of scenes; recorded tables are played in any case
   std::vector<std::string> plugins;  ///< folders of plugins

@@ -269,6 +269,16 @@ void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool ha
   ink.list.AddRect(screen.low(), screen.high(), colour, round, 0, (is_picked ? 2.0f : 1.0f) * scale);
 }
 
+// Who else in the room has chosen it.
+void draw_holder(const Ink& ink, const Box& screen, const Other& other) {
+  const float scale = ink.board.theme().scale(), size = 11 * scale, gap = 3 * scale;
+  const ImVec2 low = screen.low() - ImVec2(gap, gap), high = screen.high() + ImVec2(gap, gap);
+  ink.list.AddRect(low, high, other.colour, 4 * scale, 0, 2 * scale);
+  const float width = text_width(ink.board, size, other.name);
+  ink.list.AddRectFilled({low.x, low.y - size - 2 * gap}, {low.x + width + 2 * gap, low.y}, other.colour, 2 * scale);
+  draw_text(ink.board, {low.x + gap, low.y - size - gap}, size, IM_COL32(255, 255, 255, 255), other.name);
+}
+
 // Places to pull a link from.
 void draw_handles(const Ink& ink, const Box& screen, bool is_at_edge) {
   const float radius = (is_at_edge ? 5.0f : 3.5f) * ink.board.theme().scale();
@@ -300,6 +310,7 @@ void draw_node(const Ink& ink, NodeBox& box, const Glance& glance, bool stands_o
   if (ink.zoom < kNameZoom) draw_as_name(ink, box, glance, screen);
   else draw_whole(ink, box, screen);
   draw_outline(ink, box, screen, glance.has_error, stands_out);
+  if (const Other* other = ink.board.editor.holder_of(box.id)) draw_holder(ink, screen, *other);
 }
 
 }  // namespace

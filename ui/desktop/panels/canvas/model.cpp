@@ -99,10 +99,10 @@ std::string text_of(const Workbench& editor, const Selection& selection) {
 
 void Model::update(const Workbench& editor) {
   const std::uint64_t document = editor.document->id();
-  const std::size_t log_size = editor.document->session().log().size();
+  const std::size_t log_size = editor.document->running().log().size();
   const Scene& scene = editor.scene();
   const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
-  const std::vector<LogEntry>& log = editor.document->session().log();
+  const std::vector<LogEntry>& log = editor.document->running().log();
   // A drag in 3D says a new place many times a second, of which no box says anything.
   while (!is_other && log_size_ < log_size && only_moves(log[log_size_].command)) ++log_size_;
   if (is_other || log_size != log_size_ || entered != narrowed_to_ || is_dark_ != editor.theme.is_dark()) {

@@ -1,0 +1,270 @@
+// What the holder says: shown at once, sent with a number, and kept until the room has answered.
+#include "core/guest/room_guest.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "core/define/registry.h"
+#include "core/host/step_labels.h"
+
+namespace bl::guest {
+
+namespace {
+
+constexpr double kSlowestRoom = 1, kFastestRoom = 20;  // ticks a second, as rooms have it
+constexpr std::size_t kKeptEntryTicks = 20000;         // as many entries as a room can take back
+
+Command as_one(const std::vector<Command>& commands) {
+  return commands.size() == 1 ? commands.front() : command<Batch>({commands});
+}
+
+}  // namespace
+
+RoomGuest::RoomGuest(const Registry& registry, RoomGuestOptions options)
+    : registry_(&registry),
+      options_(std::move(options)),
+      fold_(registry),
+      follower_(registry, options_.threads, *options_.clock),
+      history_(registry, Author{}, host::HistoryOf::everybody) {
+  lost_since_ = options_.clock->now();
+  connect();
+}
+
+RoomGuest::~RoomGuest() { link_.reset(); }
+
+void RoomGuest::send(std::string frame) {
+  if (link_ && is_open_) link_->send(std::move(frame));
+}
+
+// Before the welcome nothing is sent: everything without an answer goes out after it, in order.
+template <class Message>
+void RoomGuest::send_operation(Message message, const std::string& what) {
+  message.id = ++last_id_;
+  sent_.push_back({last_id_, wire::write_message(message), what});
+  if (!is_welcome_) return;
+  if (sent_.size() == 1) answer_at_ = options_.clock->now();
+  send(sent_.back().frame);
+}
+
+// --- Commands -------------------------------------------------------------------------------------------------------
+
+Result<void> RoomGuest::say_values(std::int64_t gesture, std::vector<Command> commands) {
+  if (commands.empty()) return {};
+  if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
+  if (!has_scene_) return Error{ErrorCode::conflict, "", "the room has not sent its scene yet"};
+  Command one = as_one(commands);
+  const std::string what = host::label_of_step(*registry_, one, scene());
+  wire::Op op;
+  op.base = fold_.seq();
+  op.gesture = gesture;
+  op.c = JsonValue::of(command_to_json(*registry_, one));
+  if (auto done = fold_.add(last_id_ + 1, one); !done) return done;
+  LogEntry shown{.tick = follower_.tick(), .gesture = gesture};
+  shown.author = history_.author();
+  shown.command = std::move(one);
+  log_.push_back(std::move(shown));
+  send_operation(std::move(op), what);
+  is_stale_ = true;
+  return {};
+}
+
+Result<void> RoomGuest::end_gestures(std::int64_t but) {
+  Result<void> first;
+  for (const std::int64_t gesture : fold_.open()) {
+    if (gesture == but) continue;
+    auto ended = end_gesture(gesture);
+    if (first && !ended) first = std::move(ended);
+  }
+  return first;
+}
+
+Result<void> RoomGuest::submit(const std::vector<Command>& commands, std::int64_t gesture, const std::string&) {
+  if (auto ended = end_gestures(gesture); !ended) return ended;
+  auto said = say_values(gesture, commands);
+  refresh();
+  return said;
+}
+
+Result<void> RoomGuest::show(const std::vector<Command>& commands, std::int64_t gesture) {
+  if (commands.empty()) return {};
+  if (!end_.empty() || !has_scene_) return say_values(gesture, commands);
+  if (auto ended = end_gestures(gesture); !ended) return ended;
+  if (auto shown = fold_.show(gesture, as_one(commands)); !shown) return shown;
+  is_stale_ = true;
+  auto said = say_values(gesture, fold_.take_due(gesture, options_.clock->now(), false));
+  refresh();
+  return said;
+}
+
+Result<void> RoomGuest::end_gesture(std::int64_t gesture) {
+  auto said = say_values(gesture, fold_.take_due(gesture, options_.clock->now(), true));
+  fold_.end(gesture);
+  if (!said) fold_.show_again();
+  is_stale_ = true;
+  refresh();
+  return said;
+}
+
+void RoomGuest::abandon(std::int64_t gesture) {
+  const std::vector<Command> back = fold_.drop(gesture);
+  is_stale_ = true;
+  if (!back.empty())
+    if (auto said = say_values(gesture, back); !said) notices_.push_back(said.error().text());
+  refresh();
+}
+
+// The room knows what can be undone; what it does comes back as entries.
+Result<TakenBack> RoomGuest::undo() {
+  if (auto ended = end_gestures(0); !ended) return ended.error();
+  if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
+  send_operation(wire::UndoOp{}, "Undo");
+  return TakenBack{};
+}
+
+Result<TakenBack> RoomGuest::redo() {
+  if (auto ended = end_gestures(0); !ended) return ended.error();
+  if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
+  send_operation(wire::RedoOp{}, "Redo");
+  return TakenBack{};
+}
+
+// --- The clock ------------------------------------------------------------------------------------------------------
+
+std::string RoomGuest::why_no_clock() const {
+  if (!end_.empty()) return end_;
+  if (!is_welcome_) return "There is no connection to the room.";
+  return role_ == "facilitator" ? std::string() : "Only the facilitator sets the clock of a room.";
+}
+
+void RoomGuest::play(bool is_playing) {
+  if (!why_no_clock().empty()) return;
+  wished_pace_ = {!is_playing, wished_pace_ ? wished_pace_->second : people_.rate};
+}
+
+void RoomGuest::set_rate(double ticks_per_second) {
+  if (!why_no_clock().empty()) return;
+  const double rate = std::clamp(ticks_per_second, kSlowestRoom, kFastestRoom);
+  wished_pace_ = {wished_pace_ ? wished_pace_->first : people_.is_paused, rate};
+}
+
+void RoomGuest::step(int ticks) {
+  if (why_no_clock().empty()) say_event("step_clock", JsonValue::of({{"ticks", ticks}}));
+}
+
+void RoomGuest::rewind(std::int64_t ticks) {
+  if (!why_no_clock().empty()) return;
+  const std::int64_t from = follower_.tick() - ticks;
+  std::int64_t to = entry_ticks_.empty() ? fold_.seq() : entry_ticks_.front().second - 1;
+  for (const auto& [tick, seq] : entry_ticks_)
+    if (tick < from) to = seq;
+  if (to >= fold_.seq()) {
+    notices_.push_back("Nothing has been changed since then.");
+    return;
+  }
+  wire::RewindOp op;
+  op.to = to;
+  send_operation(op, "Rewind");
+}
+
+void RoomGuest::say_event(const std::string& event, const JsonValue& arguments) {
+  if (!end_.empty()) return;
+  wire::RoomOp op;
+  const auto content = arguments.read();
+  op.e = JsonValue::of({{"event", event}, {"arguments", content ? **content : Json::object()}});
+  send_operation(std::move(op), event);
+}
+
+void RoomGuest::set_whereabouts(Whereabouts where) {
+  wire::PresenceIn message;
+  if (where.cursor) message.cursor = JsonValue::of({where.cursor->x, where.cursor->y, where.cursor->z});
+  message.camera = where.camera;
+  message.holds = where.holds;
+  message.hidden = where.is_hidden;
+  std::string text = wire::write_message(message);
+  if (text == where_text_) return;
+  where_text_ = std::move(text);
+  where_ = std::move(where);
+  is_where_sent_ = false;
+}
+
+// --- Turns ----------------------------------------------------------------------------------------------------------
+
+void RoomGuest::say_due(double now) {
+  for (const std::int64_t gesture : fold_.waiting())
+    if (auto said = say_values(gesture, fold_.take_due(gesture, now, false)); !said) notices_.push_back(said.error().text());
+  if (!is_welcome_) return;
+  if (wished_pace_ && now - pace_at_ >= kBetweenPaces) {
+    say_event("set_pace", JsonValue::of({{"rate", wished_pace_->second}, {"is_paused", wished_pace_->first}}));
+    wished_pace_.reset();
+    pace_at_ = now;
+  }
+  if (!is_where_sent_ && now - where_at_ >= kBetweenPresences) {
+    wire::PresenceIn message;
+    message.n = ++where_number_;
+    if (where_.cursor) message.cursor = JsonValue::of({where_.cursor->x, where_.cursor->y, where_.cursor->z});
+    message.camera = where_.camera;
+    message.holds = where_.holds;
+    message.hidden = where_.is_hidden;
+    send(wire::write_message(message));
+    is_where_sent_ = true;
+    where_at_ = now;
+  }
+}
+
+Result<void> RoomGuest::keep_up() {
+  const double now = options_.clock->now();
+  fold_.forget_past();
+  if (link_)
+    for (const Heard& heard : link_->take()) hear(heard);
+  if (!link_ && end_.empty() && now >= retry_at_) connect();
+  if (is_open_ && waits_for_pong_since_ >= 0 && now - waits_for_pong_since_ > kPongWithin) lose("the server does not answer");
+  if (is_welcome_ && waits_for_pong_since_ < 0 && now - ping_at_ >= kBetweenPings) {
+    ping_at_ = waits_for_pong_since_ = now;
+    send(wire::write_message(wire::Ping{}));
+  }
+  if (link_ && !is_welcome_ && now - began_at_ > kWelcomeWithin) lose("the server does not answer");
+  // Whatever became of it, saying it again does no harm.
+  if (is_welcome_ && !sent_.empty() && now - answer_at_ > kAnswerWithin) {
+    answer_at_ = now;
+    for (const Sent& sent : sent_) send(sent.frame);
+  }
+  if (is_welcome_ && !has_scene_ && !wants_resync_ && now - began_at_ > kWelcomeWithin)
+    resync("entry", {.tick = 0, .why = "entry", .expected = {}, .found = {}, .text = {}});
+  if (const auto difference = follower_.take_difference()) resync(difference->why, *difference);
+  if (wants_resync_ && is_welcome_ && now - resync_at_ >= kBetweenResyncs) resync(asked_why_, asked_);
+  say_due(now);
+  refresh();
+  return {};
+}
+
+double RoomGuest::next_turn() const {
+  const double now = options_.clock->now();
+  double next = now + kBetweenPings;
+  if (!link_ && end_.empty()) next = std::min(next, retry_at_);
+  if (has_waiting_values()) next = std::min(next, now + Fold::kBetweenValues);
+  if (wished_pace_) next = std::min(next, pace_at_ + kBetweenPaces);
+  if (!is_where_sent_ && is_welcome_) next = std::min(next, where_at_ + kBetweenPresences);
+  if (wants_resync_) next = std::min(next, resync_at_ + kBetweenResyncs);
+  return std::max(next, now);
+}
+
+// Once after everything that was heard: what is shown, and what the ticks' thread shows beside its state.
+void RoomGuest::refresh() {
+  if (!std::exchange(is_stale_, false)) return;
+  if (fold_.has_own()) follower_.show(fold_.shown(), fold_.placed());
+  else follower_.show_nothing_more();
+  while (entry_ticks_.size() > kKeptEntryTicks) entry_ticks_.pop_front();
+}
+
+Standing RoomGuest::standing() const {
+  return {.is_connected = is_welcome_,
+          .has_scene = has_scene_,
+          .lost_since = lost_since_,
+          .waiting = sent_.size() + fold_.waiting().size(),
+          .end = end_,
+          .takes_ticks = mode_ != "values"};
+}
+
+}  // namespace bl::guest

@@ -1,0 +1,183 @@
+// A scene that runs in a room of a server: shown at once, decided there, with the same ticks here where both programs are alike.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/guest/fold.h"
+#include "core/guest/follower.h"
+#include "core/guest/link.h"
+#include "core/guest/people.h"
+#include "core/host/running.h"
+#include "core/host/self_test.h"
+#include "core/wire/messages.h"
+
+namespace bl::guest {
+
+struct RoomGuestOptions {
+  std::string code = {};     ///< of the room
+  std::string invite = {};   ///< key of an invitation, for the first visit
+  std::string token = {};    ///< of the seat, from an earlier visit
+  std::string run = {};      ///< random; the name of the life of this window
+  std::string name = {};     ///< of the person, where they want to give it
+  host::SelfTest self = {};  ///< what this program is
+  int threads = 1;           ///< of the ticks
+  host::Clock* clock = &host::real_clock();
+  std::function<double()> random = {};  ///< 0 to 1, for the times of new attempts
+  /// Begins an attempt; `wake` may be called on any thread when there is something to take.
+  std::function<std::unique_ptr<Link>(std::function<void()> wake)> connect = {};
+  std::function<void(const std::string& token)> keep_token = {};
+};
+
+/// An operation that the room has refused, in words for people.
+struct Refused {
+  std::string what;   ///< the step, such as "Set port · Library"
+  std::string why;    ///< the reason, of the closed list
+  std::string place;  ///< such as `nodes/library`; empty where it has none
+  std::string text;
+};
+
+struct Standing {
+  bool is_connected = false;  ///< the room has said welcome on the present connection
+  bool has_scene = false;
+  double lost_since = 0;    ///< on the clock of the options [s]; where it is not connected
+  std::size_t waiting = 0;  ///< operations without an answer
+  std::string end = {};     ///< why there will be no further attempt; empty where there will
+  bool takes_ticks = true;  ///< this program computes the same as the server; else the server's values are shown
+};
+
+class RoomGuest final : public host::Running {
+ public:
+  static constexpr double kFirstRetry = 0.2, kRetryGrowth = 1.7, kLastRetry = 5, kRetryJitter = 0.4;  // [s], [s], part of it
+  static constexpr double kBetweenPings = 5, kPongWithin = 4;                                         // [s]
+  static constexpr double kBetweenPresences = 0.25, kBetweenPaces = 0.2, kBetweenValues = 1;          // [s]
+  static constexpr double kBetweenResyncs = 1;                                                        // [s]
+  static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                     // [s]
+
+  RoomGuest(const Registry& registry, RoomGuestOptions options);
+  ~RoomGuest() override;
+
+  // As Running has them.
+  const Scene& scene() const override { return fold_.shown(); }
+  const std::vector<LogEntry>& log() const override { return log_; }
+  const std::vector<host::HistoryStep>& history() const override { return history_.steps(); }
+  std::int64_t last_step() const override { return 0; }
+  std::int64_t new_gesture() override { return ++last_gesture_; }
+  Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "") override;
+  Result<void> show(const std::vector<Command>& commands, std::int64_t gesture) override;
+  Result<void> end_gesture(std::int64_t gesture) override;
+  void abandon(std::int64_t gesture) override;
+  Result<TakenBack> undo() override;
+  Result<TakenBack> redo() override;
+  Result<void> keep_up() override;
+  bool has_waiting_values() const override { return !fold_.waiting().empty(); }
+  std::shared_ptr<const host::Moment> moment() const override { return follower_.moment(); }
+  std::size_t subscribe_moments(Follower::Listener listener) override { return follower_.subscribe(std::move(listener)); }
+  void unsubscribe_moments(std::size_t number) override { follower_.unsubscribe(number); }
+  bool has_news() const override { return (link_ && link_->has_news()) || follower_.has_difference(); }
+  std::string why_no_clock() const override;
+  void play(bool is_playing) override;
+  void set_rate(double ticks_per_second) override;
+  void step(int ticks) override;
+  bool can_rewind() const override { return why_no_clock().empty() && !entry_ticks_.empty(); }
+  /// Takes back what everybody has done in the last ticks; the running state goes on.
+  void rewind(std::int64_t ticks) override;
+  void let_rest(bool) override {}
+  void watch_times(bool is_watched) override { follower_.watch_times(is_watched); }
+  std::shared_ptr<const State> coming_state() override { return follower_.state_with(scene(), fold_.placed()); }
+
+  // Of the room.
+  const std::string& code() const { return options_.code; }
+  const People& people() const { return people_; }
+  std::int64_t seat() const { return seat_; }
+  const std::string& role() const { return role_; }
+  Standing standing() const;
+  /// An event of the room, such as asking for a pen; `arguments`: an object.
+  void say_event(const std::string& event, const JsonValue& arguments);
+  /// Where this person is; sent when it changes, four times a second at most.
+  void set_whereabouts(Whereabouts where);
+  /// Refusals and notices since the last call.
+  std::vector<Refused> take_refusals() { return std::exchange(refusals_, {}); }
+  std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+  /// When keep_up() has something to do though nobody has said anything [s].
+  double next_turn() const;
+  const Fold& fold() const { return fold_; }
+  /// How many hashes of the room were the same here.
+  std::int64_t agreed() const { return follower_.agreed(); }
+  /// How often the window had another result or scene than the room, and has begun anew.
+  std::int64_t differed() const { return differed_; }
+  Follower& follower() { return follower_; }
+
+ private:
+  struct Sent {
+    std::int64_t id = 0;
+    std::string frame, what;
+  };
+  void connect();
+  void lose(const std::string& why);
+  void finish(const std::string& why) { end_ = why; }
+  void hear(const Heard& heard);
+  void hear_frame(const std::string& text);
+  void hear_welcome(const wire::Welcome& welcome);
+  void hear_snapshot(const wire::SnapshotOut& snapshot);
+  void hear_entries(const wire::Ops& ops);
+  void hear_tick(const wire::TickOut& mark);
+  void hear_answer(std::int64_t id);
+  void hear_refusal(const wire::Nack& nack);
+  void hear_view(const wire::StateOut& view);
+  void hear_say(const wire::Say& say);
+  void say_hello();
+  void say_due(double now);
+  /// A snapshot is asked for soon.
+  void miss(const std::string& why, std::int64_t tick);
+  void resync(const std::string& why, const Difference& difference);
+  Result<void> say_values(std::int64_t gesture, std::vector<Command> commands);
+  Result<void> end_gestures(std::int64_t but);
+  template <class Message>
+  void send_operation(Message message, const std::string& what);
+  void send(std::string frame);
+  void refresh();
+
+  const Registry* registry_;
+  RoomGuestOptions options_;
+  Fold fold_;
+  Follower follower_;
+  host::History history_;
+  People people_;
+  std::vector<LogEntry> log_;
+  std::deque<std::pair<std::int64_t, std::int64_t>> entry_ticks_;  // tick and number of the last entries of commands
+  std::unique_ptr<Link> link_;
+  // Of the present connection.
+  bool is_open_ = false, is_welcome_ = false;
+  double began_at_ = 0, ping_at_ = 0, answer_at_ = 0, waits_for_pong_since_ = -1;
+  // Of the room.
+  std::string role_, mode_, end_;
+  std::int64_t seat_ = 0, epoch_ = 0;
+  bool has_scene_ = false, is_stale_ = false, wants_resync_ = false;
+  Difference asked_;
+  std::string asked_why_;
+  std::int64_t differed_ = 0;
+  double resync_at_ = -1e9, values_at_ = -1e9;
+  double lost_since_ = 0, retry_at_ = 0;
+  int attempts_ = 0;
+  // What this guest says.
+  std::int64_t last_id_ = 0, last_answered_ = 0, last_gesture_ = 0;
+  std::deque<Sent> sent_;                               // without an answer
+  std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
+  double pace_at_ = -1e9;
+  Whereabouts where_;
+  std::string where_text_;
+  bool is_where_sent_ = true;
+  std::int64_t where_number_ = 0;
+  double where_at_ = -1e9;
+  std::vector<Refused> refusals_;
+  std::vector<std::string> notices_;
+};
+
+}  // namespace bl::guest

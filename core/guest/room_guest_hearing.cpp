@@ -1,0 +1,284 @@
+// What comes from the server: a scene, entries, marks of ticks, answers; and connections that come and go.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/scene_file.h"
+#include "core/guest/room_guest.h"
+#include "core/journal/packed.h"
+#include "core/room/room_state.h"
+#include "core/wire/base64.h"
+#include "core/wire/operations.h"
+
+namespace bl::guest {
+
+namespace {
+
+// Why a server closes a connection for good: nothing would change with another attempt.
+constexpr int kBadFrame = 4400, kNoSeat = 4401, kRemoved = 4403, kReplaced = 4409;
+constexpr std::int64_t kTooFarBehind = 200;  // ticks: this machine is too slow for the room
+
+}  // namespace
+
+// --- Connections ----------------------------------------------------------------------------------------------------
+
+void RoomGuest::connect() {
+  is_open_ = is_welcome_ = false;
+  began_at_ = options_.clock->now();
+  waits_for_pong_since_ = -1;
+  link_ = options_.connect([this] { follower_.nudge(); });
+}
+
+void RoomGuest::lose(const std::string&) {
+  const double now = options_.clock->now();
+  if (is_welcome_) lost_since_ = now;
+  link_.reset();
+  is_open_ = is_welcome_ = false;
+  double pause = kFirstRetry;
+  for (int k = 0; k < attempts_; ++k) pause = std::min(kLastRetry, pause * kRetryGrowth);
+  const double chance = options_.random ? options_.random() : 0.5;
+  retry_at_ = now + pause * (1 + kRetryJitter * (2 * chance - 1));
+  attempts_ = std::min(attempts_ + 1, 30);
+  follower_.nudge();
+}
+
+void RoomGuest::hear(const Heard& heard) {
+  if (heard.what == Heard::What::opened) {
+    is_open_ = true;
+    say_hello();
+  } else if (heard.what == Heard::What::frame) {
+    hear_frame(heard.text);
+  } else {
+    if (heard.code == kNoSeat && !options_.token.empty()) {
+      // The seat is no more; the invitation may still be good for another one.
+      options_.token.clear();
+      if (options_.keep_token) options_.keep_token("");
+    } else if (heard.code == kBadFrame || heard.code == kNoSeat || heard.code == kRemoved || heard.code == kReplaced) {
+      finish(heard.code == kReplaced ? "This seat is used by another connection of the same window."
+                                     : "The room has ended the connection: " + heard.text + ".");
+    }
+    lose(heard.text);
+  }
+}
+
+void RoomGuest::say_hello() {
+  wire::Hello hello;
+  hello.room = options_.code;
+  hello.run = options_.run;
+  if (options_.token.empty()) hello.invite = options_.invite;
+  else hello.token = options_.token;
+  hello.kind = "desktop";
+  hello.lang = "en";
+  hello.name = options_.name;
+  hello.build = options_.self.build;
+  hello.fingerprint = options_.self.fingerprint;
+  hello.views = {"room"};
+  hello.unacked = last_answered_;
+  if (has_scene_ && !wants_resync_) {
+    hello.have = fold_.seq();
+    hello.tick = follower_.tick();
+    hello.epoch = epoch_;
+  }
+  send(wire::write_message(hello));
+}
+
+// --- Frames ---------------------------------------------------------------------------------------------------------
+
+void RoomGuest::hear_frame(const std::string& text) {
+  const auto json = wire::read_frame(text);
+  if (!json) return;
+  const std::string t = (*json)["t"].get<std::string>();
+  const auto with = [&]<class M>(void (RoomGuest::*take)(const M&)) {
+    if (const auto message = wire::read_message<M>(*json)) (this->*take)(*message);
+  };
+  if (t == "welcome") with(&RoomGuest::hear_welcome);
+  else if (t == "snapshot") with(&RoomGuest::hear_snapshot);
+  else if (t == "ops") with(&RoomGuest::hear_entries);
+  else if (t == "tick") with(&RoomGuest::hear_tick);
+  else if (t == "nack") with(&RoomGuest::hear_refusal);
+  else if (t == "state") with(&RoomGuest::hear_view);
+  else if (t == "say") with(&RoomGuest::hear_say);
+  else if (t == "pong") waits_for_pong_since_ = -1;
+  else if (t == "ack") {
+    if (const auto message = wire::read_message<wire::Ack>(*json)) hear_answer(message->id);
+  } else if (t == "presence") {
+    const auto message = wire::read_message<wire::PresenceOut>(*json);
+    const auto seats = message ? message->seats.read() : Result<const Json*>(Error{});
+    if (seats) people_.take_presence(**seats);
+    follower_.nudge();
+  }
+}
+
+void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
+  const auto you = welcome.you.read();
+  if (!you || !(*you)->is_object()) return;
+  seat_ = (**you).value("seat", std::int64_t{0});
+  role_ = text_in(**you, "role");
+  history_.set_author({room::RoomState::author_of_seat(seat_), AuthorKind::person});
+  if (const auto room = welcome.room.read(); room && people_.title.empty()) people_.title = text_in(**room, "title");
+  if (mode_ != welcome.mode && welcome.mode == "values")
+    notices_.push_back(
+        "This program computes other results than the room's server. It shows the server's values, a second old at most, and "
+        "does "
+        "not compute them itself.");
+  mode_ = welcome.mode;
+  epoch_ = welcome.epoch;
+  people_.rate = welcome.rate;
+  if (!welcome.token.empty()) {
+    options_.token = welcome.token;
+    if (options_.keep_token) options_.keep_token(welcome.token);
+  }
+  is_welcome_ = true;
+  attempts_ = 0;
+  ping_at_ = answer_at_ = began_at_ = options_.clock->now();
+  is_where_sent_ = where_text_.empty();
+  for (const Sent& sent : sent_) send(sent.frame);
+  follower_.nudge();
+}
+
+void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
+  const auto bytes = wire::bytes_of_base64(snapshot.scene);
+  if (!bytes) return notices_.push_back("The room has sent a scene that cannot be read: " + bytes.error().text());
+  const auto text = journal::unpack({*bytes, snapshot.size, snapshot.digest});
+  if (!text) return notices_.push_back("The room has sent a scene that cannot be read: " + text.error().text());
+  SceneReading reading = read_scene(*text, *registry_);
+  if (!reading.is_usable()) return finish("This program cannot read the room's scene: " + reading.first_error().text());
+  if (auto begun = follower_.begin(reading.scene, reading.state ? &*reading.state : nullptr); !begun)
+    notices_.push_back("The running state of the room cannot be shown: " + begun.error().text());
+  fold_.begin(std::move(reading.scene), snapshot.s);
+  has_scene_ = true;
+  wants_resync_ = false;
+  is_stale_ = true;
+  // For whoever looks at what has changed: everything may have.
+  LogEntry all{.seq = snapshot.s, .tick = snapshot.k};
+  all.command = command<Batch>({});
+  log_.push_back(std::move(all));
+}
+
+void RoomGuest::hear_entries(const wire::Ops& ops) {
+  const auto list = ops.e.read();
+  if (!list || !(*list)->is_array() || !has_scene_) return;
+  if (ops.epoch != 0) epoch_ = ops.epoch;
+  bool has_changed = false;
+  for (const Json& json : **list) {
+    auto entry = entry_of(json, *registry_);
+    const auto change = entry ? fold_.take(*entry) : Result<Fold::Change>(entry.error());
+    if (!change) {
+      miss("entry", entry ? entry->tick : follower_.tick());
+      break;
+    }
+    if (!entry->is_command()) continue;
+    has_changed = true;
+    if (change->is_logic_changed && mode_ != "values") follower_.set_scene(entry->tick, fold_.confirmed(), change->placed);
+    history_.take(*entry, fold_.confirmed());
+    entry_ticks_.emplace_back(entry->tick, entry->seq);
+    log_.push_back(std::move(*entry));
+  }
+  if (!has_changed) return;
+  fold_.show_again();
+  is_stale_ = true;
+}
+
+void RoomGuest::hear_tick(const wire::TickOut& mark) {
+  if (!has_scene_) return;
+  if (mode_ == "values") {
+    if (mark.k <= follower_.tick() || wants_resync_) return;
+    return miss("values", mark.k);
+  }
+  // A tick that has read what is not here cannot be taken.
+  if (mark.s > fold_.seq()) return miss("entry", mark.k);
+  if (!mark.scene.empty() && mark.s == fold_.seq() && mark.scene != hex_digits(hash_of(fold_.confirmed()))) {
+    wants_resync_ = true;
+    asked_why_ = "scene";
+    asked_ = {
+        .tick = mark.k, .why = "scene", .expected = mark.scene, .found = hex_digits(hash_of(fold_.confirmed())), .text = {}};
+  }
+  follower_.mark({mark.k, mark.h, mark.rest});
+  if (follower_.behind() <= kTooFarBehind || follower_.moment()->tick_seconds * people_.rate <= 0.9) return;
+  mode_ = "values";
+  notices_.push_back("This computer is too slow for the ticks of this room. It shows the server's values from now on.");
+}
+
+// --- Answers --------------------------------------------------------------------------------------------------------
+
+void RoomGuest::hear_answer(std::int64_t id) {
+  const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) { return sent.id == id; });
+  if (found == sent_.end()) return;
+  sent_.erase(found);
+  answer_at_ = options_.clock->now();
+  last_answered_ = std::max(last_answered_, id);
+  if (!fold_.answered(id)) return;
+  fold_.show_again();
+  is_stale_ = true;
+}
+
+void RoomGuest::hear_refusal(const wire::Nack& nack) {
+  // Nothing was decided: the operation keeps its place, and is said again.
+  if (nack.why == "storage" || nack.why == "draining") return;
+  if (nack.why == "gap") {
+    const auto args = nack.args.read();
+    const std::int64_t next = args && (*args)->is_object() ? (**args).value("next", nack.id) : nack.id;
+    for (const Sent& sent : sent_)
+      if (sent.id >= next && sent.id <= nack.id) send(sent.frame);
+    return;
+  }
+  const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) { return sent.id == nack.id; });
+  if (found == sent_.end()) return;
+  refusals_.push_back({found->what, nack.why, nack.place, nack.text});
+  const bool is_shown = fold_.has_own();
+  hear_answer(nack.id);
+  if (!is_shown) return;
+  // What was shown of it is shown no more: everything may look different.
+  LogEntry back{.tick = follower_.tick()};
+  back.command = command<Batch>({});
+  log_.push_back(std::move(back));
+}
+
+void RoomGuest::hear_view(const wire::StateOut& view) {
+  const auto set = view.set.read();
+  if (view.view != "room" || !set) return;
+  people_.take_view(**set);
+  if (const auto own = people_.seats.find(seat_); own != people_.seats.end()) role_ = own->second.role;
+  follower_.set_pace(!people_.is_paused && !people_.is_closed, people_.rate);
+  follower_.nudge();
+}
+
+void RoomGuest::hear_say(const wire::Say& say) {
+  const auto args = say.args.read();
+  const Json& told = args ? **args : Json();
+  if (say.id == "storage") notices_.push_back("The room cannot store anything at the moment: " + text_in(told, "why"));
+  else if (say.id == "stored") notices_.push_back("The room is stored again.");
+  else if (say.id == "window_differs")
+    notices_.push_back("The window of " + text_in(told, "name") +
+                       " computed another result than the server, and has begun anew.");
+}
+
+// --- Differences ----------------------------------------------------------------------------------------------------
+
+void RoomGuest::miss(const std::string& why, std::int64_t tick) {
+  wants_resync_ = true;
+  asked_why_ = why;
+  asked_ = {.tick = tick, .why = why, .expected = {}, .found = {}, .text = {}};
+}
+
+void RoomGuest::resync(const std::string& why, const Difference& difference) {
+  const double now = options_.clock->now();
+  if (why == "hash")
+    notices_.push_back("At tick " + std::to_string(difference.tick) +
+                       " this window had another result than the server. It takes the server's state and goes on from there.");
+  else if (why == "failed") notices_.push_back(difference.text + "; the window takes the server's state and goes on from there.");
+  wants_resync_ = true;
+  asked_why_ = why;
+  asked_ = difference;
+  if (!is_welcome_ || now - resync_at_ < kBetweenResyncs) return;
+  resync_at_ = now;
+  if (why == "hash" || why == "scene") ++differed_;
+  wire::Resync message;
+  message.k = difference.tick;
+  message.expected = difference.expected;
+  message.found = difference.found;
+  message.why = why;
+  send(wire::write_message(message));
+}
+
+}  // namespace bl::guest

@@ -1,0 +1,144 @@
+// The window in a room of a real server, without a screen: two people, what one does and what the other sees.
+#include <chrono>
+#include <thread>
+
+#include "core/guest/room_guest.h"
+#include "tests/core/serve/running_server.h"
+#include "tests/support/deadline.h"
+#include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/panels/panel_memory.h"
+
+namespace bl::desktop {
+namespace {
+
+std::string address_of(const serve::RunningServer& server, const std::string& role) {
+  return "room://127.0.0.1:" + std::to_string(server.port()) + "/BKRT#k=" + server.invite(role);
+}
+
+guest::RoomGuest& room_of(NullDesktop& desktop) { return *desktop.editor().document->room(); }
+
+// Two windows on one thread: each has a context of Dear ImGui, and the one that draws makes its own the present one.
+class RoomWindow {
+ public:
+  explicit RoomWindow(const std::string& address) {
+    desktop_ = std::make_unique<NullDesktop>();
+    context_ = ImGui::GetCurrentContext();
+    EXPECT_TRUE(desktop_->editor().open(address));
+  }
+  ~RoomWindow() {
+    ImGui::SetCurrentContext(context_);
+    desktop_.reset();
+  }
+  NullDesktop& operator*() {
+    ImGui::SetCurrentContext(context_);
+    return *desktop_;
+  }
+  NullDesktop* operator->() { return &**this; }
+  Workbench& editor() { return desktop_->editor(); }
+  guest::RoomGuest& room() { return room_of(*desktop_); }
+
+ private:
+  std::unique_ptr<NullDesktop> desktop_;
+  ImGuiContext* context_ = nullptr;
+};
+
+template <class IsOver>
+bool frames_until(std::initializer_list<RoomWindow*> windows, const IsOver& is_over) {
+  for (int k = 0; k < 3000; ++k) {
+    for (RoomWindow* window : windows) (*window)->frames(1);
+    if (is_over()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+bool has_notice(Workbench& editor, const std::string& part) {
+  return std::any_of(editor.notices.begin(), editor.notices.end(),
+                     [&](const Notice& notice) { return notice.text.find(part) != std::string::npos; });
+}
+
+TEST(RoomWindows, TwoPeopleSeeEachOther) {
+  const Deadline deadline(300, "two windows in a room");
+  serve::RunningServer server;
+  RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "viewer"));
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
+  EXPECT_NE(lead->desktop().title().find("room BKRT"), std::string::npos) << lead->desktop().title();
+  EXPECT_TRUE(lead.room().standing().takes_ticks);
+
+  // What one has chosen is outlined at the other's.
+  lead.editor().picks.only_node("cafe");
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return other.editor().holder_of("cafe") != nullptr; }));
+  EXPECT_EQ(other.editor().holder_of("cafe")->name, other.room().people().seats.at(lead.room().seat()).name);
+  EXPECT_NE(other.editor().holder_of("cafe")->colour, 0u);
+
+  // A change comes to both, and the history says whose it is.
+  ASSERT_TRUE(lead.editor().submit(command<RenameNode>({"cafe", "Corner"})));
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return other.editor().name_of("cafe") == "Corner"; }));
+  ASSERT_EQ(other.editor().document->history().size(), 1u);
+  EXPECT_EQ(other.room().people().name_of(other.editor().document->history()[0].author.id),
+            other.room().people().seats.at(lead.room().seat()).name);
+
+  // A refused change goes back, and is explained.
+  ASSERT_TRUE(other.editor().submit(command<RenameNode>({"cafe", "Mine"})));
+  EXPECT_EQ(other.editor().name_of("cafe"), "Mine");
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return has_notice(other.editor(), "was refused"); }));
+  EXPECT_EQ(other.editor().name_of("cafe"), "Corner");
+
+  // The clock is the facilitator's.
+  EXPECT_FALSE(other.editor().document->running().why_no_clock().empty());
+  lead.editor().document->running().play(false);
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return !other.editor().moment->is_playing; }));
+
+  // To follow somebody is to look as they do.
+  lead.editor().document->running().play(true);
+  other.editor().followed = lead.room().seat();
+  Camera camera = lead.editor().view->camera();
+  camera.azimuth += 0.5;
+  lead.editor().view->set_camera(camera);
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return std::abs(other.editor().view->camera().azimuth - camera.azimuth) < 1e-6; }));
+  camera.azimuth += 0.5;
+  other.editor().view->set_camera(camera);
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return other.editor().followed == 0; })) << "until they look elsewhere";
+}
+
+TEST(RoomWindows, ADragOfOneGivesBothTheSameTicks) {
+  const Deadline deadline(300, "a drag in a room");
+  serve::RunningServer server;
+  RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "viewer"));
+  ASSERT_TRUE(
+      frames_until({&lead, &other}, [&] { return lead.room().standing().has_scene && other.room().standing().has_scene; }));
+  const std::int64_t gesture = lead.editor().new_gesture();
+  int k = 0;
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] {
+    ++k;
+    EXPECT_TRUE(lead.editor().show(
+        {command<SetPort>({"cafe", {"node.position"}, JsonValue::of({60 + 20 * std::sin(0.05 * k), 36, 6})})}, gesture));
+    return lead.room().agreed() >= 4 && other.room().agreed() >= 4;
+  }));
+  lead.editor().end_gesture(gesture);
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return lead.room().standing().waiting == 0; }));
+  EXPECT_EQ(lead.room().differed(), 0);
+  EXPECT_EQ(other.room().differed(), 0);
+}
+
+TEST(RoomWindows, AnAddressIsTypedAndALostServerIsSaidWithoutStoppingAnybody) {
+  const Deadline deadline(300, "a window whose server ends");
+  serve::RunningServer server;
+  RoomWindow window(address_of(server, "designer"));
+  ASSERT_TRUE(frames_until({&window}, [&] { return window.room().standing().has_scene; }));
+  window->frames(2);
+  EXPECT_TRUE(memory_of(window.editor()).places.contains("room"));
+  server.stop();
+  ASSERT_TRUE(frames_until({&window}, [&] { return !window.room().standing().is_connected; }));
+  ASSERT_TRUE(window.editor().submit(command<RenameNode>({"cafe", "Meanwhile"})));
+  EXPECT_EQ(window.editor().name_of("cafe"), "Meanwhile");
+  EXPECT_EQ(window.room().standing().waiting, 1u);
+  EXPECT_TRUE(window.editor().document->is_unsaved());
+  EXPECT_FALSE(window.editor().open("room://nobody/"));
+  EXPECT_TRUE(has_notice(window.editor(), "cannot be joined"));
+}
+
+}  // namespace
+}  // namespace bl::desktop
