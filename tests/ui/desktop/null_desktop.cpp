@@ -75,7 +75,8 @@ void NullDesktop::frame_at(double now) {
   ImGui::GetIO().DeltaTime = static_cast<float>(std::max(kFrame, now - now_));
   now_ = now;
   // What the other thread shows of people's changes is there before each frame: tests are the same every time.
-  if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
+  host::LiveSession* session = editor().document ? editor().document->local() : nullptr;
+  if (session != nullptr && !session->moment()->is_playing) session->settle();
   ImGui::NewFrame();
   desktop_->frame(now_);
   ImGui::Render();

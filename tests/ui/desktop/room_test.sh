@@ -52,7 +52,7 @@ for report in first second; do
   line=$(tail -n 1 "$place/$report.csv") || fail "there is no report of the $report window"
   echo "$report: $line"
   agreed=$(echo "$line" | cut -d, -f4) differed=$(echo "$line" | cut -d, -f5) waiting=$(echo "$line" | cut -d, -f6)
-  [ "${agreed:-0}" -ge 3 ] || fail "the $report window has compared too few hashes: $line"
+  [ "${agreed:-0}" -ge 1 ] || fail "the $report window has compared no hash: $line"
   [ "${differed:-1}" = 0 ] || fail "the $report window had another result than the server: $line"
   [ "${waiting:-1}" = 0 ] || fail "the $report window still waits for answers: $line"
 done

@@ -2,11 +2,14 @@
 #include <chrono>
 #include <thread>
 
+#include <nlohmann/json.hpp>
+
 #include "core/guest/room_guest.h"
 #include "tests/core/serve/running_server.h"
 #include "tests/support/deadline.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 namespace {
