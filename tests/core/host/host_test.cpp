@@ -57,7 +57,7 @@ TEST_F(HostTest, ADragIsShownInEachFrameWhileTheClockStands) {
   EXPECT_LE(session().log().size(), 10u);
   ASSERT_TRUE(session().end_gesture(drag).ok());
   EXPECT_LE(session().log().size(), 11u);
-  EXPECT_EQ(host_->history().steps().size(), 1u);
+  EXPECT_EQ(host_->history().size(), 1u);
   EXPECT_EQ(session().log().back().source.origin, "test");
   tick(2);
   expect_replays();
@@ -89,8 +89,8 @@ TEST_F(HostTest, AnythingElseOfTheHolderComesAfterWhatTheDragShows) {
   ASSERT_EQ(show(30, drag), "");
   ASSERT_TRUE(host_->submit({command<RenameNode>({"a", "A"})}, 0, "Call it A").ok());
   EXPECT_EQ(session().log().size(), 3u);
-  ASSERT_EQ(host_->history().steps().size(), 2u);
-  EXPECT_EQ(host_->history().steps().back().label, "Call it A");
+  ASSERT_EQ(host_->history().size(), 2u);
+  EXPECT_EQ(host_->history().back().label, "Call it A");
   ASSERT_TRUE(session().undo().ok());
   ASSERT_TRUE(session().undo().ok());
   EXPECT_TRUE(session().scene() == read_scene(kPair, full_registry()).scene);
@@ -106,7 +106,7 @@ TEST_F(HostTest, AnAbandonedDragLeavesNoStep) {
   tick(1);
   session().abandon(drag);
   EXPECT_TRUE(session().scene() == before);
-  EXPECT_TRUE(host_->history().steps().empty());
+  EXPECT_TRUE(host_->history().empty());
   EXPECT_FALSE(session().can_redo());
   tick(1);
   expect_replays();
@@ -123,7 +123,7 @@ TEST_F(HostTest, ARewindIsAnEntryOfTheSameLog) {
   ASSERT_EQ(session().log().size(), 2u);
   EXPECT_EQ(session().log().back().rewinds_to, 4);
   EXPECT_EQ(session().log().back().tick, 9);
-  EXPECT_EQ(host_->history().steps().size(), 1u);
+  EXPECT_EQ(host_->history().size(), 1u);
   expect_replays();
   tick(4);
   ASSERT_TRUE(host_->submit({command<RemoveLink>({"l"})}).ok());
@@ -175,7 +175,7 @@ TEST_F(HostTest, SubscribersHearOfEntriesAndOfMoments) {
   EXPECT_TRUE(std::is_sorted(ticks.begin(), ticks.end()));
   EXPECT_EQ(ticks.back(), 3);
   EXPECT_EQ(entries, (std::vector<std::int64_t>{1}));
-  EXPECT_TRUE(host_->history().steps().empty()) << "what others do is no step of the holder";
+  EXPECT_TRUE(host_->history().empty()) << "what others do is no step of the holder";
 }
 
 // A save leaves the running state as it is, and what is saved is what the next tick begins with.

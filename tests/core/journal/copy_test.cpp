@@ -74,7 +74,9 @@ TEST(Copy, HoldsWhatTheOriginalHolds) {
         ASSERT_TRUE(copy) << why(copy);
       }
       for (const std::string& change : changes)
-        if (round >= 5) ASSERT_EQ(why((*copy)->repeat(change)), "");
+        if (round >= 5) {
+          ASSERT_EQ(why((*copy)->repeat(change)), "");
+        }
       changes.clear();
     }
     EXPECT_TRUE((*copy)->is_of_use());
