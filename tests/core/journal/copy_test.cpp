@@ -25,13 +25,6 @@ std::string rows_in(const std::string& path) {
   return rows.text() + all->chain + std::to_string(all->hashes.size()) + (all->snapshot ? all->snapshot->scene.digest : "");
 }
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 // Law: whole file, then each change: the copy is the file, also after it was closed and begun again in between.
 TEST(Copy, HoldsWhatTheOriginalHolds) {
   const Folder folder;

@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "core/journal/journal.h"
@@ -42,6 +44,13 @@ inline RoomRow a_room() {
 inline const Scene& its_scene() {
   static const Scene kScene = read_scene(a_room().scene, full_registry()).scene;
   return kScene;
+}
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
 /// "" or the error's text.
