@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "core/geometry/inside/lane_pair.h"
 
@@ -88,8 +87,8 @@ void Reaches::measure(const VertexLanes& vertices) {
   // Each direction with its opposite.
   constexpr std::array<std::uint32_t, 13> kPlaces{22, 16, 14, 25, 19, 23, 21, 17, 15, 26, 24, 20, 8};
   LanePair most[kPlaces.size()], least[kPlaces.size()];
-  std::fill(std::begin(most), std::end(most), in_both_lanes(-1e300));
-  std::fill(std::begin(least), std::end(least), in_both_lanes(1e300));
+  for (LanePair& lanes : most) lanes = in_both_lanes(-1e300);
+  for (LanePair& lanes : least) lanes = in_both_lanes(1e300);
   for (std::uint32_t v = 0; v < vertices.count; v += 2) {
     const LanePair x = lanes_at(vertices.x + v), y = lanes_at(vertices.y + v), z = lanes_at(vertices.z + v), sum = x + y,
                    difference = x - y;
