@@ -50,9 +50,9 @@ TEST(MinutesCommand, WhatCannotBeReadIsSaid) {
   EXPECT_EQ(place.run({"minutes", "none.blsession", "--out", "a"}).code, 2);
   EXPECT_EQ(place.run({"minutes", "s.blsession"}).code, 2);
   std::string bytes = place.text("s.blsession");
-  const std::size_t at = bytes.find("Look around");
+  const std::size_t at = bytes.find("1772400000000");  // when a phase ends
   ASSERT_NE(at, std::string::npos);
-  place.write("damaged.blsession", bytes.replace(at, 4, "Kool"));
+  place.write("damaged.blsession", bytes.replace(at, 4, "1882"));
   const Outcome damaged = place.run({"minutes", "damaged.blsession", "--out", "a"});
   EXPECT_EQ(damaged.code, 2);
   EXPECT_NE(damaged.err.find("it is not what was stored"), std::string::npos) << damaged.err;
