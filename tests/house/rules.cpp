@@ -326,12 +326,13 @@ std::vector<Finding> check_functions(std::string_view path, std::string_view tex
     if (c == '{') {
       const std::string_view declaration = std::string_view(code).substr(head, at - head);
       const bool is_inner = std::any_of(open.begin(), open.end(), [](const Block& b) { return b.is_function; });
-      const bool is_scope = holds_word(declaration, "namespace") || holds_word(declaration, "class") ||
-                            holds_word(declaration, "struct") || holds_word(declaration, "enum") ||
-                            holds_word(declaration, "union");
+      // Conditions of the preprocessor before it may hold brackets.
+      const bool is_namespace = holds_word(declaration, "namespace");
+      const bool is_scope = holds_word(declaration, "class") || holds_word(declaration, "struct") ||
+                            holds_word(declaration, "enum") || holds_word(declaration, "union");
       const char last = trimmed(declaration).empty() ? '=' : trimmed(declaration).back();
       const bool is_value = last == '(' || last == ',' || last == '=';  // the brace of a table
-      const bool has_brackets = !is_value && declaration.find('(') != std::string_view::npos;
+      const bool has_brackets = !is_value && !is_namespace && declaration.find('(') != std::string_view::npos;
       open.push_back({!is_inner && has_brackets && (!is_scope || declaration.find(')') != std::string_view::npos), head_line});
     } else if (c == '}' && !open.empty()) {
       const Block block = open.back();

@@ -88,8 +88,7 @@ void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMea
     const auto loop = cell.loop(face);
     std::uint32_t from = loop[face.count - 1];
     for (const std::uint32_t to : loop) {
-      const bool is_forward = from < to;
-      sum.add_edge(places[is_forward ? from : to], places[is_forward ? to : from], is_forward ? 1 : -1);
+      sum.add_edge(places[std::min(from, to)], places[std::max(from, to)], from < to ? 1 : -1);
       from = to;
     }
     if (sum.has_disc()) sum.close();

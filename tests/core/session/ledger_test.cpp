@@ -117,7 +117,7 @@ TEST(Ledger, ARewindIsNoStepAndCannotBeUndone) {
   ASSERT_TRUE(world.session().rewind(1, "anna").ok());
   Ledger& ledger = world.session().ledger();
   const std::int64_t gesture = ledger.log().back().gesture;
-  EXPECT_EQ(ledger.undo("anna", 1, gesture).error().text(), "a rewind cannot be undone: the later states were discarded");
+  EXPECT_EQ(ledger.undo("anna", 1, gesture).error().text(), "a return cannot be undone: the later states were discarded");
   ASSERT_TRUE(ledger.undo("anna", 1).ok());
   EXPECT_EQ(world.session().scene().nodes.at("a").name, "");
 }
