@@ -58,6 +58,7 @@ export interface Welcome {
   done: number;
   resume: string;
   token?: string;
+  addresses?: string[];
   room: { code: string; title: string };
 }
 export interface Nack {
@@ -269,6 +270,7 @@ export interface Views {
   comments: Record<string, Comment>;
   proposals: Record<string, Proposal>;
   drafts: Record<string, Draft>;
+  keys: Partial<Record<Role, string>>; ///< of invitations; empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
 }
 export type ViewName = keyof Views;
