@@ -83,6 +83,26 @@ void tell_renewal(const ServeOptions& options, const serve::Rooms& rooms, const 
   if (auto written = write_invites(options.invites, rooms); !written) print_error(options.invites, written.error());
 }
 
+// One for each source. False where one cannot be opened, which it has said.
+bool open_rooms(const ServeOptions& options, serve::RoomHostOptions how, serve::Rooms& rooms) {
+  for (const std::string& source : options.sources) {
+    std::string code = new_code();
+    while (rooms.contains(code)) code = new_code();
+    if (options.is_live) how.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
+    auto room = serve::RoomHost::open(journal_of(options, source), code, source, how);
+    if (!room) {
+      print_error(source, room.error());
+      return false;
+    }
+    code = (*room)->code();
+    if (!rooms.emplace(code, std::move(*room)).second) {
+      print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 int serve_command(ServeOptions options) {
@@ -115,21 +135,7 @@ int serve_command(ServeOptions options) {
   if (options.proxy.empty()) room_options.addresses = addresses;  // else people know the proxy's
   room_options.keys_renewed = [&](const serve::RoomHost& room) { tell_renewal(options, rooms, room, addresses.front()); };
   room_options.on_own_thread = [&server](std::function<void()> task) { (*server)->post(std::move(task)); };
-  for (const std::string& source : options.sources) {
-    std::string code = new_code();
-    while (rooms.contains(code)) code = new_code();
-    if (options.is_live) room_options.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
-    auto room = serve::RoomHost::open(journal_of(options, source), code, source, room_options);
-    if (!room) {
-      print_error(source, room.error());
-      return kBadInput;
-    }
-    code = (*room)->code();
-    if (!rooms.emplace(code, std::move(*room)).second) {
-      print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
-      return kBadInput;
-    }
-  }
+  if (!open_rooms(options, std::move(room_options), rooms)) return kBadInput;
   if (!options.invites.empty())
     if (auto written = write_invites(options.invites, rooms); !written) {
       print_error(options.invites, written.error());
