@@ -232,7 +232,8 @@ export interface TrialFigure {
 }
 /// What has come of a draft beside the room. A server that tries no drafts leaves it out; null: not tried yet.
 export interface Trial {
-  state: "waiting" | "running" | "settled" | "restless" | "old";
+  state: "waiting" | "running" | "done" | "old";
+  is_settled?: boolean; ///< nothing moves any more, with the draft and without it
   line?: number;
   figures: TrialFigure[];
 }
