@@ -133,6 +133,7 @@ Json to_json(const RoomState& state) {
   json["layout"] = state.layout;
   json["rate"] = state.rate;
   if (state.epoch != 1) json["epoch"] = state.epoch;
+  if (state.key_renewals != 0) json["key_renewals"] = state.key_renewals;
   json["door"] = kDoorNames[static_cast<std::size_t>(state.door)];
   json["paused"] = state.is_paused;
   json["closed"] = state.is_closed;

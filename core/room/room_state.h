@@ -115,6 +115,7 @@ struct RoomState {
   std::string layout = {};                          ///< of the beamer
   double rate = 10;                                 ///< ticks a second
   std::int64_t epoch = 1;                           ///< grows with each return to a scenario: the ticks go back
+  std::int64_t key_renewals = 0;                    ///< how often the keys of invitations were made anew
   Door door = Door::open;
   bool is_paused = false, is_closed = false;
   bool operator==(const RoomState&) const = default;

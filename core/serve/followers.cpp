@@ -2,11 +2,11 @@
 #include "core/serve/followers.h"
 
 #include <algorithm>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/serve/following.h"
+#include "core/serve/gate.h"
 #include "core/serve/room_frames.h"
 #include "core/wire/base64.h"
 #include "core/wire/operations.h"
@@ -26,7 +26,34 @@ Followers::Followers(journal::Writer& writer, OnOwnThread on_own_thread, host::C
 
 Followers::~Followers() { is_alive_.reset(); }
 
-void Followers::add(const std::shared_ptr<Guest>& guest) { followers_[guest.get()].guest = guest; }
+void Followers::add(const std::shared_ptr<Guest>& guest, bool is_by_key) {
+  Follower& follower = followers_[guest.get()];
+  follower.guest = guest;
+  follower.is_by_key = is_by_key;
+}
+
+void Followers::send_away_by_key(const std::string& why) {
+  std::vector<std::shared_ptr<Guest>> all;
+  for (const auto& [key, follower] : followers_)
+    if (follower.is_by_key) all.push_back(follower.guest);
+  for (const auto& guest : all) {
+    guest->close(CloseCode::no_seat, why);
+    leave(*guest);
+  }
+}
+
+// Pages make links of it, so it is no more than a protocol, a host and a port.
+bool Followers::note_address(const std::string& address) {
+  static constexpr std::size_t kMostAddresses = 8, kLongestAddress = 120;
+  if (address.empty()) return true;
+  const std::size_t end = address.find("://");
+  const bool is_web = end != std::string::npos && (address.substr(0, end) == "http" || address.substr(0, end) == "https");
+  if (!is_web || address.size() > kLongestAddress || plain_host(std::string_view(address).substr(end + 3)).empty()) return false;
+  if (std::find(addresses_.begin(), addresses_.end(), address) != addresses_.end()) return true;
+  if (addresses_.size() == kMostAddresses) addresses_.erase(addresses_.begin());
+  addresses_.push_back(address);
+  return true;
+}
 
 bool Followers::leave(Guest& guest) {
   if (followers_.erase(&guest) == 0) return false;
@@ -62,6 +89,7 @@ bool Followers::hear(Guest& guest, std::string_view text) {
   } else if (t == "follow" && !follower.is_asked) {
     const auto follow = wire::read_message<Follow>(*frame);
     if (!follow) return guest.close(CloseCode::bad_frame, follow.error().text()), true;
+    if (!note_address(follow->address)) return guest.close(CloseCode::bad_frame, "this is no address of a laptop"), true;
     follower.is_safe = follow->is_safe;
     follower.is_asked = true;
     ask_for_copy(follower.guest);

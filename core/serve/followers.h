@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/host/clock.h"
 #include "core/journal/writer.h"
@@ -24,7 +25,10 @@ class Followers {
   Followers(const Followers&) = delete;
   Followers& operator=(const Followers&) = delete;
 
-  void add(const std::shared_ptr<Guest>& guest);
+  /// `is_by_key`: it came by the key of the room, and not by the token of a seat.
+  void add(const std::shared_ptr<Guest>& guest, bool is_by_key);
+  /// Those that came by the key of the room, because it is no longer valid.
+  void send_away_by_key(const std::string& why);
   /// False where this guest is no follower.
   bool hear(Guest& guest, std::string_view frame);
   bool leave(Guest& guest);
@@ -36,6 +40,8 @@ class Followers {
   /// In the order of the calls.
   void when_kept(std::function<void()> tell);
   std::size_t count() const { return followers_.size(); }
+  /// Where those who have followed would serve the room. A page needs them when nobody can be asked any more, so they stay.
+  const std::vector<std::string>& addresses() const { return addresses_; }
   /// Those that answers wait for.
   std::size_t safe_count() const;
   /// So long an answer waits for a follower that says nothing; afterwards the room goes on without it [s].
@@ -44,7 +50,7 @@ class Followers {
  private:
   struct Follower {
     std::shared_ptr<Guest> guest;
-    bool is_safe = false, is_asked = false;
+    bool is_by_key = false, is_safe = false, is_asked = false;
     std::string packed = {}, digest = {};  // the copy that is on its way
     std::int64_t size = 0, copied = 0;     // `copied`: the last change that is in it
     std::size_t sent = 0;                  // of `packed`
@@ -59,6 +65,7 @@ class Followers {
     double since;
     std::function<void()> tell;
   };
+  bool note_address(const std::string& address);
   void ask_for_copy(const std::shared_ptr<Guest>& guest);
   void take_copy(Guest& guest, const Result<journal::Packed>& packed);
   void changed(const Result<std::string>& changes);
@@ -70,6 +77,7 @@ class Followers {
   host::Clock* clock_;
   std::map<Guest*, Follower> followers_;
   std::deque<Held> held_;
+  std::vector<std::string> addresses_;
   std::int64_t last_ = 0;  // number of the last change
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
 };

@@ -6,6 +6,8 @@ namespace bl::serve {
 void Follow::declare(wire::MessageBuilder<Follow>& m) {
   m.from_page().id("follow").doc("The laptop is ready for a copy of the session file.");
   m.field(&Follow::is_safe, "safe").doc("Answers wait until this laptop has stored them, too.");
+  m.field(&Follow::address, "address")
+      .doc("Where pages find the room once this laptop has it, such as `http://192.168.1.7:8080`.");
 }
 void CopyPart::declare(wire::MessageBuilder<CopyPart>& m) {
   m.id("copy").doc("A part of the packed session file.");

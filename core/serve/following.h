@@ -11,6 +11,7 @@ namespace bl::serve {
 /// From the follower, after its hello: the copy may begin.
 struct Follow {
   bool is_safe = false;  ///< answers wait for this laptop as well
+  std::string address;   ///< where pages find the room once this laptop has taken it over; empty: it does not know
   static void declare(wire::MessageBuilder<Follow>& m);
 };
 /// From the server: a part of the session file.

@@ -108,9 +108,10 @@ void Gate::turn(double now) {
   });
 }
 
+// A try needs room for a whole failure: else whoever is at the limit could go on at once.
 bool Gate::may_try(const std::string& address, double now) {
   const auto found = state_->addresses.find(address);
-  return found == state_->addresses.end() || state_->failures_of(found->second, now) < state_->limits.failures;
+  return found == state_->addresses.end() || state_->failures_of(found->second, now) + 1 <= state_->limits.failures;
 }
 
 void Gate::note_failure(const std::string& address, double now) {

@@ -30,6 +30,7 @@ room::Answer RoomHost::ask(std::int64_t seat, const room::Operation& operation) 
   room::Answer answer;
   if (!is_about_state(operation)) {
     say([&](room::Now now) { answer = room_->submit(seat, operation, now); });
+    follow_renewals();
     return answer;
   }
   session_->say_between_ticks([&](Ledger&, const std::shared_ptr<const State>& coming) -> std::shared_ptr<const State> {

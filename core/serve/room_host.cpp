@@ -48,7 +48,8 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
     const auto invited = std::find_if(invites_.begin(), invites_.end(),
                                       [&](const auto& one) { return room::is_same_secret(one.second, hello.invite); });
     if (!hello.invite.empty() && invited == invites_.end()) {
-      guest->close(CloseCode::no_seat, "this invitation is not one of this room");
+      guest->close(CloseCode::no_seat, was_invite(hello.invite) ? "the facilitator has renewed the keys: ask for a new invitation"
+                                                                : "this invitation is not one of this room");
       return false;
     }
     if (hello.invite.empty()) {
@@ -113,6 +114,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
     message.rate = room_->state().rate;
     message.done = room_->greet(who.seat, who.run, 0);
     message.token = token;
+    message.addresses = addresses();
     if (who.is_window) message.mode = who.is_ticking ? "ticks" : "values";
     who.guest->send(frame_of_message(message));
     who.is_welcome = true;
@@ -126,7 +128,7 @@ void RoomHost::welcome(Visitor& visitor, const std::string& token, std::int64_t 
 
 void RoomHost::hear(Guest& guest, std::string_view text) {
   const auto found = visitors_.find(&guest);
-  if (found == visitors_.end()) return (void)followers_->hear(guest, text);
+  if (found == visitors_.end()) return hear_follower(guest, text);
   Visitor& visitor = found->second;
   const auto frame = wire::read_frame(text);
   if (!frame) return guest.close(CloseCode::bad_frame, frame.error().text());

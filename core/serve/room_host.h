@@ -24,6 +24,8 @@
 
 namespace bl::serve {
 
+class RoomHost;
+
 struct RoomHostOptions {
   room::Allowances allowances = {};
   room::RandomBytes random = room::system_random_bytes;
@@ -31,6 +33,9 @@ struct RoomHostOptions {
   std::optional<live::LiveOptions> live = {};                ///< how sensors and actuators are connected; none: they are not
   std::function<std::int64_t()> wall_time;                   ///< [ms since 1970]
   std::function<void(std::function<void()>)> on_own_thread;  ///< runs a task on the thread that uses the host; from any thread
+  std::vector<std::string> addresses = {};                   ///< where pages find this server, such as `http://192.168.1.5:8080`
+  /// The keys of invitations, and that of a second laptop, were made anew, and this is stored.
+  std::function<void(const RoomHost&)> keys_renewed = {};
   bool takes_over = false;  ///< another laptop had the room, and may have had more of it: its windows begin anew
 };
 
@@ -46,7 +51,8 @@ class RoomHost {
 
   const std::string& code() const { return code_; }
   const std::string& title() const { return title_; }
-  /// By role: keys that give a seat of that role; the same ones for as long as the session file exists.
+  /// By role: keys that give a seat of that role. They stay until the facilitator renews them, also in a server that is started
+  /// again.
   const std::map<std::string, std::string>& invites() const { return invites_; }
   /// The key by which a second laptop follows the room. A facilitator's token does so, too.
   const std::string& follow_key() const { return follow_key_; }
@@ -108,6 +114,11 @@ class RoomHost {
   Result<SavedState> state_after(const journal::Loaded& loaded, const Scene& beginning);
   Result<void> follow_return(Session& session, const LogEntry& entry);
   void make_invites(const std::vector<room::TokenRecord>& tokens);
+  std::map<std::string, std::string> invites_after(std::int64_t renewals) const;
+  bool was_invite(std::string_view invite) const;
+  void follow_renewals();
+  void hear_follower(Guest& guest, std::string_view frame);
+  std::vector<std::string> addresses() const;
   bool greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello);
   void submit(Visitor& visitor, const room::Operation& operation);
   void say(const std::function<void(room::Now now)>& words);
@@ -153,7 +164,7 @@ class RoomHost {
   bool hear_window(Visitor& visitor, const std::string& t, const Json& frame, std::size_t size);
   void forget_presence(std::int64_t seat);
   void tell_presences();
-  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown()}; }
+  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown(), &invites_}; }
 
   std::string code_, title_;
   RoomHostOptions options_;
@@ -167,6 +178,8 @@ class RoomHost {
   static constexpr std::int64_t kMostReturns = 1000000;
 
   std::int64_t base_ = 0, epoch_ = 1;
+  std::string invite_secret_;                   // what all keys are made from
+  std::int64_t renewals_ = 0;                   // those that `invites_` knows
   std::map<std::string, std::string> invites_;  // by role
   std::string follow_key_;
   std::map<Guest*, Visitor> visitors_;

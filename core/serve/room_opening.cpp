@@ -6,6 +6,7 @@
 
 #include "core/file/file_io.h"
 #include "core/file/scene_file.h"
+#include "core/serve/room_frames.h"
 #include "core/serve/room_host.h"
 #include "core/session/session.h"
 
@@ -14,6 +15,9 @@ namespace bl::serve {
 namespace {
 
 constexpr std::int64_t kInviteSeat = 0;  // the row of tokens that holds the key of all invitations
+
+// What makes the keys of a renewal others than those before it. The first ones have none, as in files of earlier programs.
+std::string mark_of(std::int64_t renewals) { return renewals == 0 ? "" : " " + std::to_string(renewals); }
 
 Result<Scene> usable_scene(const std::string& text, const std::string& place) {
   SceneReading reading = read_scene(text, full_registry());
@@ -174,34 +178,84 @@ Result<void> RoomHost::follow_return(Session& session, const LogEntry& entry) {
   return session.replay(back);
 }
 
+// --- Keys -----------------------------------------------------------------------------------------------------------
+
 // All keys follow from one, which is stored: whoever was invited before a crash is invited after it.
 void RoomHost::make_invites(const std::vector<room::TokenRecord>& tokens) {
-  std::string key;
+  invite_secret_.clear();
   for (const room::TokenRecord& token : tokens)
-    if (token.seat == kInviteSeat) key = token.hash;
-  if (key.empty()) {
-    key = room::hex_of(options_.random(32));
+    if (token.seat == kInviteSeat) invite_secret_ = token.hash;
+  if (invite_secret_.empty()) {
+    invite_secret_ = room::hex_of(options_.random(32));
     room::Record record;
-    record.tokens.push_back({kInviteSeat, key});
+    record.tokens.push_back({kInviteSeat, invite_secret_});
     writer_->submit(std::move(record), [](const Result<void>&) {});
   }
+  renewals_ = room_->state().key_renewals;
+  invites_ = invites_after(renewals_);
+  follow_key_ = room::keyed_digest_of(invite_secret_, "follow" + mark_of(renewals_), 32);
+}
+
+std::map<std::string, std::string> RoomHost::invites_after(std::int64_t renewals) const {
+  std::map<std::string, std::string> invites;
   for (const Role role :
        {Role::facilitator, Role::designer, Role::stakeholder, Role::participant, Role::viewer, Role::recorder}) {
     const std::string name(kRoleNames[static_cast<std::size_t>(role)]);
-    invites_[name] = room::keyed_digest_of(key, name, 16);
+    invites[name] = room::keyed_digest_of(invite_secret_, name + mark_of(renewals), 16);
   }
-  follow_key_ = room::keyed_digest_of(key, "follow", 32);
+  return invites;
 }
+
+bool RoomHost::was_invite(std::string_view invite) const {
+  for (std::int64_t renewals = 0; renewals < renewals_; ++renewals)
+    for (const auto& [role, key] : invites_after(renewals))
+      if (room::is_same_secret(key, invite)) return true;
+  return false;
+}
+
+// Old keys are void at once. The new ones are told when the renewal is stored: a crash before would take it back. A laptop that
+// follows by the old key is sent away, because it has no seat that could be taken from it.
+void RoomHost::follow_renewals() {
+  if (renewals_ == room_->state().key_renewals) return;
+  make_invites({{kInviteSeat, invite_secret_}});
+  tellings_.push_back([this, is_alive = std::weak_ptr<bool>(is_alive_)] {
+    options_.on_own_thread([this, is_alive] {  // afterwards: sending somebody away lets others be told
+      if (is_alive.expired()) return;
+      followers_->send_away_by_key("the facilitator has renewed the keys");
+      if (options_.keys_renewed) options_.keys_renewed(*this);
+    });
+  });
+}
+
+// --- Other laptops --------------------------------------------------------------------------------------------------
 
 // A laptop gets all that this one has, so it comes in by a facilitator's key only.
 bool RoomHost::greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello) {
   const room::Seat* seat = room_->state().seat(room_->seat_of_token(hello.token));
-  if ((seat == nullptr || seat->role != Role::facilitator) && !room::is_same_secret(follow_key_, hello.token)) {
+  const bool is_lead = seat != nullptr && seat->role == Role::facilitator;
+  if (!is_lead && !room::is_same_secret(follow_key_, hello.token)) {
     guest->close(CloseCode::no_seat, "a room is followed by the token that its server has printed, or by a facilitator's");
     return false;
   }
-  followers_->add(guest);
+  followers_->add(guest, !is_lead);
   return true;
+}
+
+// Pages that are here already learn where else the room may be.
+void RoomHost::hear_follower(Guest& guest, std::string_view frame) {
+  const auto known = followers_->addresses();
+  followers_->hear(guest, frame);
+  if (followers_->addresses() == known) return;
+  const auto notice = frame_of_message(wire::Say{"addresses", JsonValue::of({{"addresses", addresses()}})});
+  for (auto& [key, visitor] : visitors_)
+    if (visitor.is_welcome && visitor.kind != "desktop") visitor.guest->send(notice);
+}
+
+std::vector<std::string> RoomHost::addresses() const {
+  std::vector<std::string> all = options_.addresses;
+  for (const std::string& address : followers_->addresses())
+    if (std::find(all.begin(), all.end(), address) == all.end()) all.push_back(address);
+  return all;
 }
 
 RoomHost::~RoomHost() { close(); }

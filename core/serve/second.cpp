@@ -81,7 +81,7 @@ class Second {
     hello.kind = "follower";
     hello.token = options_.token;
     client_->send(wire::write_message(hello));
-    client_->send(wire::write_message(Follow{options_.is_safe}));
+    client_->send(wire::write_message(Follow{options_.is_safe, options_.address}));
   }
 
   void wait() {
@@ -158,10 +158,16 @@ class Second {
     if (closed.code == static_cast<int>(CloseCode::no_seat) && !has_followed_)
       return Error{ErrorCode::conflict, options_.first.host_and_port(), closed.why};
     const bool was_following = is_connected();
-    if (was_following) heard_ = options_.clock->now();
+    const bool is_refused = closed.code == static_cast<int>(CloseCode::no_seat);
+    if (was_following || is_refused) heard_ = options_.clock->now();  // whoever refuses is there
     has_said_goodbye_ = has_said_goodbye_ || (was_following && closed.code == static_cast<int>(CloseCode::draining));
     if (was_following || told_ == 0) {
       told_ = options_.clock->now();
+      if (is_refused) {
+        options_.say("The first laptop refuses this one (" + closed.why +
+                     "). Start this one again with the key that the first has printed.");
+        return again();
+      }
       options_.say("The first laptop is away (" + closed.why + "). This one goes on trying.");
       if (copy_->is_of_use())
         options_.say("To go on with the room here: switch the first laptop off, then press Enter, or send SIGUSR1.");

@@ -15,6 +15,7 @@ struct SecondOptions {
   RoomAddress first;
   std::string token;           ///< the key that the first has printed, or a facilitator's token
   std::string path;            ///< of the copy
+  std::string address = {};    ///< where pages find the room once this laptop has it; empty: nobody knows
   std::string authorities;     ///< as Client has them
   bool is_safe = false;        ///< people get an answer only once this laptop has stored it, too
   double take_over_after = 0;  ///< so long after the first was heard last [s]; 0: only when somebody says so

@@ -109,8 +109,10 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
   void upgrade(http::request<http::string_body> request, const Asking& asking) {
     const std::string_view origin = text_of(request[http::field::origin]);
     if (request.target() != "/ws") return refuse(http::status::not_found, "Connections go to /ws.");
-    // By which protocol a page has come is known where nobody stands between, or the proxy says so.
-    if (!origin.empty() && !is_own_origin(origin, asking.host, shared_.proxy.empty() ? "" : asking.scheme))
+    // By which protocol a page has come is known where this server encrypts by itself, or the proxy says so. Else somebody may
+    // have put a proxy before it that encrypts, and has not named it.
+    const bool is_known = shared_.tls.has_value() || !shared_.proxy.empty();
+    if (!origin.empty() && !is_own_origin(origin, asking.host, is_known ? asking.scheme : ""))
       return refuse(http::status::forbidden, "This page is not one of this server.");
     beast::get_lowest_layer(stream_).expires_never();
     begin_visit(std::move(stream_), shared_, {std::move(pass_), asking.address, !origin.empty()}, request);

@@ -80,7 +80,7 @@ void Want::declare(MessageBuilder<Want>& m) {
       .required()
       .doc(
           "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, "
-          "`draft_plans`.");
+          "`draft_plans`, `keys`.");
   m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }
 void Seen::declare(MessageBuilder<Seen>& m) {
@@ -120,6 +120,8 @@ void Welcome::declare(MessageBuilder<Welcome>& m) {
   m.field(&Welcome::resume, "resume").doc("`none` or `snapshot`: all views come anew.");
   m.field(&Welcome::mode, "mode")
       .doc("For windows that have sent their self-test: `ticks` where it equals the server's, else `values`.");
+  m.field(&Welcome::addresses, "addresses")
+      .doc("Where the room can be found: the addresses of this server, and of the laptops that follow it and have said theirs.");
   m.field(&Welcome::token, "token").doc("Opens the seat again; only on the first visit.");
 }
 void SceneOut::declare(MessageBuilder<SceneOut>& m) {

@@ -81,6 +81,7 @@ struct Welcome {
   std::int64_t epoch = 0, seq = 0, tick = 0, done = 0;
   double rate = 0;
   std::string resume = "snapshot", token, mode;
+  std::vector<std::string> addresses;
   static void declare(MessageBuilder<Welcome>& m);
 };
 struct SceneOut {

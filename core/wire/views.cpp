@@ -373,6 +373,15 @@ View draft_plans_view(const ViewSources& sources, std::int64_t seat) {
   return view;
 }
 
+// The keys of invitations: who has one can give seats away, so only who leads sees them.
+View keys_view(const ViewSources& sources, std::int64_t number) {
+  View view;
+  const room::Seat* seat = sources.room.state().seat(number);
+  if (seat == nullptr || seat->role != Role::facilitator || sources.invites == nullptr) return view;
+  for (const auto& [role, key] : *sources.invites) put(view, role, key);
+  return view;
+}
+
 }  // namespace
 
 bool is_view(std::string_view name) {
@@ -380,7 +389,7 @@ bool is_view(std::string_view name) {
 }
 
 bool is_of_seat(std::string_view view) {
-  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_plans"};
+  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_plans", "keys"};
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
@@ -394,6 +403,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "proposals") return proposals_view(sources);
   if (name == "drafts") return drafts_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
+  if (name == "keys") return keys_view(sources, seat);
   return {};
 }
 

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import signal
+import socket
 import sqlite3
 import subprocess
 import sys
@@ -20,13 +21,19 @@ SCENE = os.path.join(ROOT, "scenes/start/quarter.json")
 class Laptop:
     """`serve --follow`, and what it says."""
 
-    def __init__(self, first, folder, *more):
+    def __init__(self, first, folder, *more, port=0):
         self.journal = os.path.join(folder, "copy.blsession")
         self.log = os.path.join(folder, "second.log")
         with open(self.log, "ab") as log:
             self.process = subprocess.Popen(
                 [PROGRAM, "serve", "--follow", f"room://127.0.0.1:{first.port}/{first.code}", "--token", first.invites["follow"],
-                 "--journal", self.journal, "--port", "0", "--bind", "127.0.0.1", *more], stdout=subprocess.PIPE, stderr=log, text=True)
+                 "--journal", self.journal, "--port", str(port), "--bind", "127.0.0.1", *more], stdout=subprocess.PIPE, stderr=log, text=True)
+
+    def end(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        self.process.stdout.close()
 
     def said(self):
         with open(self.log) as log:
@@ -51,9 +58,10 @@ class Follow(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         first = Server(PROGRAM, SCENE, folder.name).start()
+        self.addCleanup(first.process.stdout.close)
         self.addCleanup(lambda: first.process.poll() is None and first.kill())
         second = Laptop(first, folder.name, *more)
-        self.addCleanup(lambda: second.process.poll() is None and second.process.kill())
+        self.addCleanup(second.end)
         second.until("follows room " + first.code)
 
         async def go():
@@ -102,6 +110,73 @@ class Follow(unittest.TestCase):
 
     def test_it_takes_over_by_itself(self):
         self.take_over("time", "--take-over", "5")
+
+    def test_pages_learn_where_the_room_would_go_on(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        first = Server(PROGRAM, SCENE, folder.name).start()
+        self.addCleanup(first.process.stdout.close)
+        self.addCleanup(lambda: first.process.poll() is None and first.kill())
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        own, other = f"http://127.0.0.1:{first.port}", f"http://127.0.0.1:{port}"
+
+        async def go():
+            early = await Page(first, views=[], seed=1).connect()
+            self.assertEqual(early.welcome["addresses"], [own])
+            second = Laptop(first, folder.name, port=port)
+            self.addCleanup(second.end)
+            await early.until(lambda: "addresses" in early.says)
+            late = await Page(first, views=[], seed=2).connect()
+            self.assertEqual(late.welcome["addresses"], [own, other])
+            await asyncio.get_running_loop().run_in_executor(None, second.until, "follows room " + first.code)
+            first.kill()
+            await asyncio.get_running_loop().run_in_executor(None, second.until, "is away")
+            second.process.send_signal(signal.SIGUSR1)
+            await asyncio.get_running_loop().run_in_executor(None, second.serving)
+            # The address that was told is the one at which the same key opens the same seat.
+            self.assertEqual(f"http://127.0.0.1:{second.port}", other)
+            seat, late.server = late.you["seat"], second
+            await late.connect()
+            self.assertEqual((late.you["seat"], late.welcome["addresses"]), (seat, [other]))
+            await late.close()
+            second.process.send_signal(signal.SIGINT)
+            self.assertEqual(second.process.wait(timeout=20), 0)
+
+        asyncio.run(asyncio.wait_for(go(), 100))
+
+    def test_renewed_keys_send_the_second_laptop_away_and_it_does_not_take_over(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        first = Server(PROGRAM, SCENE, folder.name).start()
+        self.addCleanup(first.process.stdout.close)
+        self.addCleanup(lambda: first.process.poll() is None and first.kill())
+        second = Laptop(first, folder.name, "--take-over", "5")
+        self.addCleanup(second.end)
+        second.until("follows room " + first.code)
+
+        async def go():
+            lead = await Page(first, first.invites["facilitator"]).connect()
+            self.assertEqual((await lead.event("renew_keys"))["t"], "ack")
+            await lead.close()
+
+        asyncio.run(asyncio.wait_for(go(), 60))
+        second.until("refuses this one")
+        time.sleep(8)
+        self.assertNotIn("takes the room over", second.said())
+        self.assertNotIn("followers", first.health()["rooms"][0])
+        second.process.send_signal(signal.SIGINT)
+        self.assertEqual(second.process.wait(timeout=20), 0)
+        with open(first.invites_file) as file:
+            first.invites = json.load(file)[first.code]
+        again = Laptop(first, folder.name)
+        self.addCleanup(again.end)
+        end = time.monotonic() + 20
+        while "followers" not in first.health()["rooms"][0]:
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
+        again.process.send_signal(signal.SIGINT)
+        self.assertEqual(again.process.wait(timeout=20), 0)
 
     def test_it_says_what_it_lacks(self):
         for arguments, words in ((["--follow", "room://127.0.0.1:1/BKRT"], "--token"), (["--follow", "nowhere", "--token", "x", "--journal", "f"], "room://"), ([], "--follow")):

@@ -8,6 +8,7 @@ import os
 import re
 import socket
 import sqlite3
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -88,9 +89,11 @@ class Joining(RoomCase):
                     with self.assertRaises(websockets.ConnectionClosed):
                         await connection.recv()
                     self.assertEqual(connection.close_code, code, change)
-            with self.assertRaises(websockets.InvalidStatusCode) as refused:
-                await websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin="http://elsewhere.example")
-            self.assertEqual(refused.exception.status_code, 403)
+            # Another site, another port, and a page that hides where it comes from.
+            for origin in ("http://elsewhere.example", f"http://127.0.0.1:{self.server.port + 1}", "null"):
+                with self.assertRaises(websockets.InvalidStatusCode) as refused:
+                    await websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin=origin)
+                self.assertEqual(refused.exception.status_code, 403, origin)
             # A page without the address of its server is none.
             async with websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws") as connection:
                 await connection.send(json.dumps({"t": "hello", "room": self.server.code, "run": "r"}))
@@ -105,6 +108,90 @@ class Joining(RoomCase):
         wait(go())
         self.assertEqual(self.server.health()["rooms"][0]["seats"], 0)
 
+    async def why_refused(self, **who):
+        """The code and the sentence with which a page is sent away."""
+        async with websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin=self.server.url("")) as connection:
+            await connection.send(json.dumps({"t": "hello", "room": self.server.code, "run": "stranger", **who}))
+            with self.assertRaises(websockets.ConnectionClosed):
+                await connection.recv()
+            return connection.close_code, connection.close_reason
+
+    def test_renewed_keys_void_old_invitations_and_no_token(self):
+        old = dict(self.server.invites)
+
+        def of_file():
+            with open(self.server.invites_file) as file:
+                return json.load(file)[self.server.code]
+
+        async def go():
+            lead = await self.page("facilitator", views=["keys"]).connect()
+            ben = await self.page("designer", views=["keys"]).connect()
+            await lead.until(lambda: lead.view.get("keys"))
+            self.assertEqual((await ben.event("renew_keys"))["why"], "right")
+            self.assertEqual((await lead.event("renew_keys"))["t"], "ack")
+            await lead.until(lambda: lead.view["keys"]["designer"] != old["designer"])
+            await ben.until(lambda: "keys" in ben.view)
+            self.assertEqual(ben.view["keys"], {}, "only who leads sees keys")
+            await lead.until(lambda: of_file() != old)
+            new = of_file()
+            self.assertEqual(lead.view["keys"], {role: key for role, key in new.items() if role != "follow"})
+            self.assertFalse(set(new.values()) & set(old.values()))
+            with open(os.path.join(self.folder.name, "server.log")) as log:
+                said = log.read()
+            self.assertIn("#k=" + new["facilitator"], said)
+            self.assertIn("--token " + new["follow"], said)
+            seat = ben.you["seat"]
+            for again in range(2):
+                # An old address, said once more.
+                self.assertEqual(await self.why_refused(invite=old["designer"]),
+                                 (4401, "the facilitator has renewed the keys: ask for a new invitation"))
+                anna = await Page(self.server, new["stakeholder"], seed=10 + again).connect()
+                self.assertEqual(anna.you["role"], "stakeholder")
+                await anna.close()
+                await ben.close()
+                await ben.connect()
+                self.assertEqual(ben.you["seat"], seat)
+                if again == 0:
+                    await lead.close()
+                    self.assertEqual(self.server.stop(), 0)
+                    self.server.process.stdout.close()
+                    self.server.start()
+                    self.assertEqual(self.server.invites, new)
+            await ben.close()
+
+        wait(go())
+        self.assertEqual(self.server.stop(), 0)
+        self.replay()
+
+    def test_a_token_opens_its_own_room_only(self):
+        journals = os.path.join(self.folder.name, "two")
+        os.mkdir(journals)
+        keys = os.path.join(journals, "keys.json")
+        process = subprocess.Popen([PROGRAM, "serve", QUARTER, VOTE, "--port", "0", "--bind", "127.0.0.1", "--journal", journals, "--invites", keys],
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        try:
+            lines = [re.fullmatch(r"room ([A-Z]+) at http://[^:]+:([0-9]+)/.*", process.stdout.readline().strip()) for _ in range(2)]
+            with open(keys) as file:
+                invites = json.load(file)
+            rooms = [type("Room", (), {"code": line[1], "port": int(line[2]), "invites": invites[line[1]]})() for line in lines]
+
+            async def go():
+                pages = [await Page(room, room.invites["facilitator"], seed=k).connect() for k, room in enumerate(rooms)]
+                for page, other in zip(pages, reversed(rooms)):
+                    for who in ({"token": page.token}, {"invite": page.server.invites["facilitator"]}):
+                        async with websockets.connect(f"ws://127.0.0.1:{other.port}/ws", origin=f"http://127.0.0.1:{other.port}") as connection:
+                            await connection.send(json.dumps({"t": "hello", "room": other.code, "run": "stranger", **who}))
+                            with self.assertRaises(websockets.ConnectionClosed):
+                                await connection.recv()
+                            self.assertEqual(connection.close_code, 4401, who)
+                    await page.close()
+
+            wait(go())
+        finally:
+            process.terminate()
+            process.wait(timeout=20)
+            process.stdout.close()
+
     def test_a_newer_connection_of_the_same_page_replaces_the_older(self):
         async def go():
             one = await self.page("facilitator").connect()
@@ -115,6 +202,33 @@ class Joining(RoomCase):
             self.assertEqual(one.closed[0], 4409)
             await two.close()
         wait(go())
+
+
+class Encrypted(unittest.TestCase):
+    def test_a_page_that_came_unencrypted_gets_no_connection(self):
+        """Whoever reads along could have put something into such a page."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        certificate, key = (os.path.join(folder.name, name) for name in ("certificate.pem", "key.pem"))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", key, "-out", certificate, "-days", "1",
+                        "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1"], check=True, capture_output=True, timeout=60)
+        server = Server(PROGRAM, QUARTER, folder.name, "--certificate", certificate, "--key", key).start()
+        self.addCleanup(server.process.stdout.close)
+        self.addCleanup(lambda: server.process.poll() is None and server.kill())
+        context = ssl.create_default_context(cafile=certificate)
+
+        async def go():
+            there = f"127.0.0.1:{server.port}"
+            with self.assertRaises(websockets.InvalidStatusCode) as refused:
+                await websockets.connect(f"wss://{there}/ws", origin=f"http://{there}", ssl=context)
+            self.assertEqual(refused.exception.status_code, 403)
+            async with websockets.connect(f"wss://{there}/ws", origin=f"https://{there}", ssl=context) as connection:
+                await connection.send(json.dumps({"t": "hello", "room": server.code, "run": "r"}))
+                welcome = json.loads(await connection.recv())
+                self.assertEqual((welcome["t"], welcome["addresses"]), ("welcome", [f"https://{there}"]))
+
+        wait(go())
+        self.assertEqual(server.stop(), 0)
 
 
 class Operations(RoomCase):

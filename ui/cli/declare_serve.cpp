@@ -44,7 +44,9 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
        "The session file, or the folder for it. A file that is there is continued. Default: NAME.blsession in the present "
        "folder, after the scene.")
       ->type_name("FILE|DIR");
-  c.add_option("--invites", o.invites, "Writes the keys of all roles as JSON: {\"CODE\": {\"facilitator\": \"...\", ...}}.")
+  c.add_option("--invites", o.invites,
+               "Writes the keys of all roles as JSON: {\"CODE\": {\"facilitator\": \"...\", ...}}. "
+               "They are written again when the facilitator renews the keys.")
       ->type_name("FILE");
   c.add_option(
        "--page", o.page,
@@ -53,7 +55,8 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
   auto* certificate = c.add_option("--certificate", o.certificate, "Certificate chain for TLS, as PEM.")->type_name("FILE");
   auto* key = c.add_option("--key", o.key, "Its private key, as PEM.")->type_name("FILE")->needs(certificate);
   certificate->needs(key);
-  c.add_flag("--live", o.is_live, "Connects sensors and actuators, and lets facilitators set their addresses and names of files.");
+  c.add_flag("--live", o.is_live,
+             "Connects sensors and actuators, and lets facilitators set their addresses and names of files.");
   c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
   c.add_option("--behind-proxy", o.proxy,
                "The address of a proxy in front of the server. What it says in X-Forwarded-For, -Host and -Proto is believed.")

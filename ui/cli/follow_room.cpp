@@ -9,6 +9,7 @@
 #include "core/serve/second.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/own_addresses.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -53,6 +54,7 @@ std::optional<int> follow_room(ServeOptions& options) {
   second.first = *first;
   second.token = options.token;
   second.path = options.journal;
+  if (options.port != 0) second.address = own_addresses(options, options.port).front();
   second.authorities = options.trust;
   second.is_safe = options.is_safe;
   second.take_over_after = options.take_over;

@@ -1,8 +1,4 @@
 // `serve`: opens rooms for scenes and session files, and serves them until it is stopped.
-#include <ifaddrs.h>
-#include <net/if.h>
-#include <netdb.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -19,6 +15,7 @@
 #include "core/serve/server.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/own_addresses.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -38,24 +35,6 @@ std::string new_code() {
   std::string code;
   for (const char byte : room::system_random_bytes(4)) code += kLetters[static_cast<unsigned char>(byte) % kLetters.size()];
   return code;
-}
-
-// The first address of this machine that others can reach; 127.0.0.1 where there is none.
-std::string own_address() {
-  ifaddrs* all = nullptr;
-  std::string found = "127.0.0.1";
-  if (getifaddrs(&all) != 0) return found;
-  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
-    const bool is_usable = one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET && (one->ifa_flags & IFF_UP) != 0 &&
-                           (one->ifa_flags & IFF_LOOPBACK) == 0;
-    char text[NI_MAXHOST] = "";
-    if (is_usable && getnameinfo(one->ifa_addr, sizeof(sockaddr_in), text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0) {
-      found = text;
-      break;
-    }
-  }
-  freeifaddrs(all);
-  return found;
 }
 
 bool is_session_file(const std::string& path) { return fs::path(path).extension() == ".blsession"; }
@@ -79,18 +58,49 @@ Result<void> write_invites(const std::string& path, const serve::Rooms& rooms) {
   return write_file(path, write_json(all) + "\n");
 }
 
-// One line for scripts, the code for phones, and what only the facilitator should see.
-void tell_addresses(const ServeOptions& options, const serve::Rooms& rooms, int port) {
-  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
-  const std::string scheme = options.certificate.empty() ? "http" : "https";
+// What only the facilitator should see.
+void tell_keys(const serve::RoomHost& room, const std::string& address) {
+  complain(room.title() + ": the facilitator comes in by " + address + "#k=" + room.invites().at("facilitator"));
+  complain(room.title() + ": a second laptop follows by --follow " + address + " --token " + room.follow_key());
+}
+
+// One line for scripts, the code for phones, and the keys.
+void tell_addresses(const serve::Rooms& rooms, const std::string& server) {
   for (const auto& [code, room] : rooms) {
-    const std::string address =
-        scheme + "://" + (is_everywhere ? own_address() : options.bind) + ":" + std::to_string(port) + "/" + code;
+    const std::string address = server + "/" + code;
     print_line("room " + code + " at " + address);
     if (const auto code_picture = serve::qr_text(address); code_picture && isatty(STDOUT_FILENO) != 0) print_page(*code_picture);
-    complain(room->title() + ": the facilitator comes in by " + address + "#k=" + room->invites().at("facilitator"));
-    complain(room->title() + ": a second laptop follows by --follow " + address + " --token " + room->follow_key());
+    tell_keys(*room, address);
   }
+}
+
+// Whoever reads the file of keys finds the new ones there.
+void tell_renewal(const ServeOptions& options, const serve::Rooms& rooms, const serve::RoomHost& room,
+                  const std::string& server) {
+  complain(room.title() + ": the facilitator has renewed the keys. Invitations of before open no seat any more.");
+  tell_keys(room, server + "/" + room.code());
+  if (options.invites.empty()) return;
+  if (auto written = write_invites(options.invites, rooms); !written) print_error(options.invites, written.error());
+}
+
+// One for each source. False where one cannot be opened, which it has said.
+bool open_rooms(const ServeOptions& options, serve::RoomHostOptions how, serve::Rooms& rooms) {
+  for (const std::string& source : options.sources) {
+    std::string code = new_code();
+    while (rooms.contains(code)) code = new_code();
+    if (options.is_live) how.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
+    auto room = serve::RoomHost::open(journal_of(options, source), code, source, how);
+    if (!room) {
+      print_error(source, room.error());
+      return false;
+    }
+    code = (*room)->code();
+    if (!rooms.emplace(code, std::move(*room)).second) {
+      print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -121,28 +131,17 @@ int serve_command(ServeOptions options) {
   room_options.allowances = {.scripts = options.scripts, .live = options.is_live};
   room_options.wall_time = wall_time;
   room_options.takes_over = has_followed;
+  const std::vector<std::string> addresses = own_addresses(options, (*server)->port());
+  if (options.proxy.empty()) room_options.addresses = addresses;  // else people know the proxy's
+  room_options.keys_renewed = [&](const serve::RoomHost& room) { tell_renewal(options, rooms, room, addresses.front()); };
   room_options.on_own_thread = [&server](std::function<void()> task) { (*server)->post(std::move(task)); };
-  for (const std::string& source : options.sources) {
-    std::string code = new_code();
-    while (rooms.contains(code)) code = new_code();
-    if (options.is_live) room_options.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
-    auto room = serve::RoomHost::open(journal_of(options, source), code, source, room_options);
-    if (!room) {
-      print_error(source, room.error());
-      return kBadInput;
-    }
-    code = (*room)->code();
-    if (!rooms.emplace(code, std::move(*room)).second) {
-      print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
-      return kBadInput;
-    }
-  }
+  if (!open_rooms(options, std::move(room_options), rooms)) return kBadInput;
   if (!options.invites.empty())
     if (auto written = write_invites(options.invites, rooms); !written) {
       print_error(options.invites, written.error());
       return kBadInput;
     }
-  tell_addresses(options, rooms, (*server)->port());
+  tell_addresses(rooms, addresses.front());
   if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");
   catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a disk that is full, and no reason to end

@@ -272,6 +272,7 @@ const std::map<std::string, std::string> kEvents = {{"join", "......."},
                                                     {"set_pace", "x......"},
                                                     {"step_clock", "x......"},
                                                     {"set_door", "x......"},
+                                                    {"renew_keys", "x......"},
                                                     {"close_room", "x......"},
                                                     {"forget", "x......"}};
 

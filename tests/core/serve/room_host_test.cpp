@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
+#include "core/journal/export.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/world.h"
 
@@ -55,6 +56,8 @@ class RoomHosts : public ::testing::Test {
   void open() {
     RoomHostOptions options;
     options.wall_time = [this] { return at_ += 10; };
+    options.addresses = addresses_;
+    options.keys_renewed = [this](const RoomHost&) { ++renewals_; };
     options.on_own_thread = [this](std::function<void()> task) {
       const std::lock_guard lock(mutex_);
       tasks_.push_back(std::move(task));
@@ -90,8 +93,36 @@ class RoomHosts : public ::testing::Test {
     return guest;
   }
 
+  // With the next number of that run.
+  void renew(FakeGuest& lead, int id) {
+    const int before = renewals_;
+    host_->hear(lead, R"({"t": "room", "id": )" + std::to_string(id) + R"(, "e": {"event": "renew_keys"}})");
+    run_until([&] { return renewals_ > before; });
+  }
+  // Why nobody gets a seat by this key.
+  std::string refusal_of(const std::string& invite) {
+    const auto stranger = std::make_shared<FakeGuest>();
+    wire::Hello hello;
+    hello.run = "stranger";
+    hello.invite = invite;
+    EXPECT_FALSE(host_->greet(stranger, hello));
+    EXPECT_EQ(stranger->closed, 4401);
+    return stranger->reason;
+  }
+  std::shared_ptr<FakeGuest> follow(const std::string& key) {
+    auto laptop = std::make_shared<FakeGuest>();
+    wire::Hello hello;
+    hello.run = "second laptop";
+    hello.kind = "follower";
+    hello.token = key;
+    host_->greet(laptop, hello);
+    return laptop;
+  }
+
   std::filesystem::path folder_, path_;
   std::unique_ptr<RoomHost> host_;
+  std::vector<std::string> addresses_;
+  int renewals_ = 0;  // that the host has told of
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<std::function<void()>> tasks_;
@@ -182,6 +213,98 @@ TEST_F(RoomHosts, ARoomAtRestLetsTheTicksSleep) {
     quiet = lead->frames.size() == sent ? quiet + 1 : 0;
     ASSERT_LT(++before, 200) << "it never comes to rest";
   }
+}
+
+// --- Keys -----------------------------------------------------------------------------------------------------------
+
+TEST_F(RoomHosts, RenewedKeysVoidTheInvitationsOfBeforeAndNothingElse) {
+  const auto lead = join("a", "facilitator", {"keys"}), guest = join("b", "designer", {"keys"});
+  const std::string token = (*guest->last("welcome"))["token"], follow = host_->follow_key();
+  const auto first = host_->invites();
+  const auto is_shown = [&](const std::map<std::string, std::string>& keys) {
+    const Json* state = lead->last("state");
+    return state != nullptr && (*state)["set"] == Json(keys);
+  };
+  run_until([&] { return is_shown(first); });
+  host_->hear(*guest, R"({"t": "room", "id": 1, "e": {"event": "renew_keys"}})");
+  run_until([&] { return guest->last("nack") != nullptr; });
+  EXPECT_EQ((*guest->last("nack"))["why"], "right");
+  EXPECT_EQ(host_->invites(), first);
+
+  renew(*lead, 1);
+  const auto second = host_->invites();
+  for (const auto& [role, key] : second)
+    for (const auto& [other, old] : first) EXPECT_NE(key, old) << role << " " << other;
+  EXPECT_NE(host_->follow_key(), follow);
+  EXPECT_EQ(renewals_, 1) << "told once, when it is stored";
+  run_until([&] { return is_shown(second); });
+  for (const Json& frame : guest->frames)
+    if (frame["t"] == "state") { EXPECT_EQ(frame["set"], Json::object()) << "only who leads sees keys"; }
+
+  EXPECT_EQ(refusal_of(first.at("designer")), "the facilitator has renewed the keys: ask for a new invitation");
+  EXPECT_EQ(refusal_of("0123456789abcdef"), "this invitation is not one of this room");
+  EXPECT_EQ((*join("c", "designer", {})->last("welcome"))["you"]["role"], "designer");
+  EXPECT_EQ((*join("d", "", {}, token)->last("welcome"))["you"]["seat"], 2);
+
+  // Another server on the same file has the same keys, and the next ones differ from all before.
+  const std::string followed = host_->follow_key();
+  host_.reset();
+  open();
+  EXPECT_EQ(host_->invites(), second);
+  EXPECT_EQ(host_->follow_key(), followed);
+  EXPECT_EQ(refusal_of(first.at("facilitator")), "the facilitator has renewed the keys: ask for a new invitation");
+  renew(*join("e", "facilitator", {}), 1);
+  EXPECT_EQ(refusal_of(first.at("viewer")), refusal_of(second.at("viewer")));
+  EXPECT_EQ(renewals_, 2);
+}
+
+TEST_F(RoomHosts, KeysStandInNoLog) {
+  const auto lead = join("a", "facilitator", {"keys"});
+  renew(*lead, 1);
+  const auto invites = host_->invites();
+  host_.reset();
+  const auto journal = journal::Journal::open_to_read(path_, full_registry());
+  ASSERT_TRUE(journal.ok()) << journal.error().text();
+  const auto loaded = (*journal)->load();
+  ASSERT_TRUE(loaded.ok());
+  const std::string log = journal::log_text((*journal)->room(), *loaded, full_registry());
+  EXPECT_NE(log.find("renew_keys"), std::string::npos);
+  for (const auto& [role, key] : invites) EXPECT_EQ(log.find(key), std::string::npos) << role;
+}
+
+TEST_F(RoomHosts, ALaptopThatFollowsByTheOldKeyIsSentAway) {
+  addresses_ = {"http://192.168.1.5:8080"};
+  host_.reset();
+  open();
+  const auto lead = join("a", "facilitator", {"room"});
+  EXPECT_EQ((*lead->last("welcome"))["addresses"], Json(addresses_));
+  const auto by_key = follow(host_->follow_key()), by_token = follow((*lead->last("welcome"))["token"]);
+  host_->hear(*by_key, R"({"t": "follow", "address": "http://192.168.1.7:8080"})");
+  host_->hear(*by_token, R"({"t": "follow"})");
+  const Json all = {"http://192.168.1.5:8080", "http://192.168.1.7:8080"};
+  ASSERT_NE(lead->last("say"), nullptr) << "who is here already learns the address";
+  EXPECT_EQ((*lead->last("say"))["args"]["addresses"], all);
+  run_until([&] { return by_key->last("copy") != nullptr && by_token->last("copy") != nullptr; });
+  const std::string old = host_->follow_key();
+  renew(*lead, 1);
+  EXPECT_EQ(by_key->closed, 4401);
+  EXPECT_EQ(by_key->reason, "the facilitator has renewed the keys");
+  EXPECT_EQ(by_token->closed, 0);
+  EXPECT_EQ(host_->health().followers, 1u);
+  EXPECT_EQ(follow(old)->closed, 4401);
+  EXPECT_EQ(follow(host_->follow_key())->closed, 0);
+  EXPECT_EQ((*join("b", "", {})->last("welcome"))["addresses"], all) << "also of a laptop that is away";
+}
+
+TEST_F(RoomHosts, AnAddressOfALaptopIsNothingElse) {
+  for (const char* bad :
+       {"javascript:alert(1)", "http://a b", "http://x/y", "http://a@b", "ftp://x", "http://", "x", "http://x\"y"}) {
+    const auto laptop = follow(host_->follow_key());
+    host_->hear(*laptop, write_json_line({{"t", "follow"}, {"address", bad}}));
+    EXPECT_EQ(laptop->closed, 4400) << bad;
+    host_->leave(*laptop);
+  }
+  EXPECT_FALSE(join("a", "", {})->last("welcome")->contains("addresses"));
 }
 
 }  // namespace

@@ -48,6 +48,21 @@ TEST(Views, DifferencesAddUpToTheWhole) {
   EXPECT_GT(sent, 100);
 }
 
+TEST(Views, KeysAreForWhoLeads) {
+  World world = World::from_file("scenes/start/quarter.json");
+  room::Room room(world.session().ledger(), {});
+  const std::map<std::string, std::string> invites = {{"designer", "0123"}, {"viewer", "4567"}};
+  for (std::size_t role = 0; role < kRoleCount; ++role)
+    ASSERT_TRUE(
+        std::holds_alternative<room::Admission>(room.admit({.role = static_cast<Role>(role), .areas = {}, .card = {}}, {0, 0})));
+  for (std::int64_t seat = 0; seat <= static_cast<std::int64_t>(kRoleCount) + 1; ++seat) {
+    const View keys = make_view("keys", {world.state(), room, "", "", nullptr, &invites}, seat);
+    const View expected = {{"designer", "\"0123\""}, {"viewer", "\"4567\""}};
+    EXPECT_EQ(keys, seat == 1 ? expected : View()) << "seat " << seat;
+    EXPECT_TRUE(make_view("keys", {world.state(), room, "", ""}, seat).empty());
+  }
+}
+
 TEST(Views, ThePlanHasEveryVolumeAndItsBoxHoldsThem) {
   World world = World::from_file("scenes/start/quarter.json");
   world.settle();

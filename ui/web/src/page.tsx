@@ -3,7 +3,7 @@ import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { browser_world, keep, kept, socket_address, tab_keep, tab_kept } from "./browser";
-import { Announcer, Avatar, Icon, IconName, Notices, Refusals, Sheet, StatusLine } from "./parts";
+import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine } from "./parts";
 import { Plan } from "./plan";
 import { Beamer } from "./screens/beamer";
 import { Card } from "./screens/card";
@@ -22,20 +22,23 @@ import { Key, Language, best_language, language_now, locale, set_language, t } f
 interface Address {
   code: string;
   invite: string | null;
+  token: string | null; ///< of a seat that was taken at another address of the room
   isBeamer: boolean;
   language: Language | null;
 }
 
-// The fragment never leaves the browser. It goes from the address bar at once, so that nobody passes an invitation on by showing it.
+// The fragment never leaves the browser. It goes from the address bar at once, so that nobody passes an invitation or the key of
+// their seat on by showing it.
 function read_address(): Address {
   const code = decodeURIComponent(window.location.pathname.split("/")[1] ?? "").toUpperCase();
   const parts = window.location.hash.replace(/^#/, "").split("&");
   const value = (name: string): string | null => parts.find((part) => part.startsWith(`${name}=`))?.slice(name.length + 1) ?? null;
   const language = value("lang"),
-    invite = value("k");
+    invite = value("k"),
+    token = value("t");
   const isBeamer = parts.includes("beamer");
-  if (invite !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
-  return { code, invite, isBeamer, language: language === null ? null : best_language([language]) };
+  if (invite !== null || token !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
+  return { code, invite, token, isBeamer, language: language === null ? null : best_language([language]) };
 }
 
 const kIconOf: Partial<Record<Tab, IconName>> = { now: "now", plan: "plan", card: "card", votes: "votes", ideas: "ideas", lead: "lead" };
@@ -115,6 +118,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
         </aside>
       ) : null}
       <main key={ui.tab}>
+        <Moved s={s} />
         <Notices s={s} />
         <Refusals s={s} />
         {s.views.room.closed ? (
@@ -152,7 +156,7 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   if (stage === "removed") return <Message title={t("removed_title")} text={t("removed")} />;
   if (stage === "old")
     return <Message title={t("old_title")} text={t("old")} action={t("reload")} onAction={() => window.location.reload()} />;
-  if (stage === "door") return <Message title={t("door_title")} text={t("door")} s={s} />;
+  if (stage === "door") return <Message title={t("door_title")} text={t(s.isInvited ? "door_invite" : "door")} s={s} />;
   const go = (): void => {
     keep(`joined/${address.code}`, "1");
     ui.tab = s.you?.role === "facilitator" ? "lead" : "now";
@@ -191,6 +195,9 @@ function start(): void {
     tab_keep(`${base}invite`, invite);
     world.store.set(`${base}invite`, invite);
   }
+  // A link of this page at another address brings the seat along. A seat that is here already stays.
+  const tokenKey = `${prefix}token`;
+  if (address.token !== null && world.store.get(tokenKey) === null) world.store.set(tokenKey, address.token);
   const session = new Session(
     world,
     {
@@ -200,6 +207,7 @@ function start(): void {
       lang: locale(),
       views,
       invite,
+      here: window.location.origin,
       isBeamer: address.isBeamer,
     },
     (run) => tab_keep(runKey, run),

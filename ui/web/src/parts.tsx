@@ -65,6 +65,22 @@ export function StatusLine({ s }: { s: Session }): JSX.Element {
   );
 }
 
+/// Where the room may be found instead, while this page has no connection.
+export function Moved({ s }: { s: Session }): JSX.Element | null {
+  useClock(1000);
+  const places = s.places();
+  if (places.length === 0) return null;
+  return (
+    <div class="notice moved" role="status">
+      {places.map(({ address, link }) => (
+        <p key={address}>
+          {t("moved")} <a href={link}>{address}</a>
+        </p>
+      ))}
+    </div>
+  );
+}
+
 /// What to do about a connection that is gone for longer, and notices of the room.
 export function Notices({ s }: { s: Session }): JSX.Element | null {
   useClock(1000);

@@ -1,5 +1,6 @@
 // What the page knows of its room: the views that the server sends, and how each own change stands.
 import { Connection } from "./connection";
+import { link_to, other_places } from "./places";
 import type { Item } from "./queue";
 import type { Ballot, Deed, Json, PlanItem, Presence, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
 import { whole } from "./whole";
@@ -34,8 +35,10 @@ const kEmpty = (): Views => ({
   proposals: {},
   drafts: {},
   draft_plans: {},
+  keys: {},
 });
 const kMostLooked = 4; // drafts
+const kMoved = 10000; // after so long without a connection, other addresses are offered
 const kNoticeTime = 20000,
   kMarkTime = 6000;
 
@@ -158,6 +161,33 @@ export class Session {
     return `${kind}_${this.you?.seat ?? 0}_${number}`;
   }
 
+  // --- Other addresses ----------------------------------------------------------------------------------------------
+
+  private get placesKey(): string {
+    return `${this.options.prefix}addresses`;
+  }
+
+  // Beside the key of the seat, because they are needed when no server can be asked any more.
+  private keepPlaces(told: Json | undefined): void {
+    this.world.store.set(this.placesKey, JSON.stringify(other_places(told, this.options.here)));
+  }
+
+  /// Where the room may be, if the server has been gone for some time: links that open the same seat there. A page cannot look
+  /// there by itself, because servers talk only to pages of their own.
+  places(): { address: string; link: string }[] {
+    const { stage, since, token } = this.connection;
+    const isGone = (stage === "waiting" || stage === "connecting") && this.now() - since >= kMoved;
+    if (!isGone || token === null) return [];
+    const { room, invite, isBeamer, here } = this.options;
+    const told = JSON.parse(this.world.store.get(this.placesKey) ?? "[]") as Json;
+    return other_places(told, here).map((place) => ({ address: `${place}/${room}`, link: link_to(place, room, { token, invite, isBeamer }) }));
+  }
+
+  /// The person has come by an invitation.
+  get isInvited(): boolean {
+    return this.options.invite !== null;
+  }
+
   // --- Views --------------------------------------------------------------------------------------------------------
 
   /// The things of the plan by node, in the order of the server's keys.
@@ -200,6 +230,7 @@ export class Session {
       this.views = { ...this.views, room: { ...this.views.room, title: welcome.room.title, code: welcome.room.code } };
     for (const view of Object.keys(this.views) as ViewName[]) this.stale.add(view);
     this.keepRun(this.connection.queue.run);
+    this.keepPlaces(welcome.addresses ?? []);
     this.touch();
   }
 
@@ -207,6 +238,7 @@ export class Session {
     if (message.t === "state") this.merge(message as unknown as StateMessage);
     else if (message.t === "say") {
       const id = String(message.id);
+      if (id === "addresses") return this.keepPlaces((message.args as { addresses?: Json } | undefined)?.addresses);
       if (id === "stored") this.notices = this.notices.filter((notice) => notice.id !== "storage");
       this.notices = [...this.notices.filter((notice) => notice.id !== id), { id, at: this.now() }];
     } else if (message.t === "presence") this.meet(message.seats as Record<string, Presence | null>);

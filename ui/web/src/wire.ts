@@ -58,6 +58,7 @@ export interface Welcome {
   done: number;
   resume: string;
   token?: string;
+  addresses?: string[];
   room: { code: string; title: string };
 }
 export interface Nack {
@@ -231,7 +232,8 @@ export interface TrialFigure {
 }
 /// What has come of a draft beside the room. A server that tries no drafts leaves it out; null: not tried yet.
 export interface Trial {
-  state: "waiting" | "running" | "settled" | "restless" | "old";
+  state: "waiting" | "running" | "done" | "old";
+  is_settled?: boolean; ///< nothing moves any more, with the draft and without it
   line?: number;
   figures: TrialFigure[];
 }
@@ -269,6 +271,7 @@ export interface Views {
   comments: Record<string, Comment>;
   proposals: Record<string, Proposal>;
   drafts: Record<string, Draft>;
+  keys: Partial<Record<Role, string>>; ///< of invitations; empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
 }
 export type ViewName = keyof Views;

@@ -45,5 +45,6 @@ export interface Options {
   lang: string;
   views: ViewName[];
   invite: string | null;
+  here: string; ///< the origin of the page, such as `http://192.168.1.5:8080`
   isBeamer?: boolean;
 }

@@ -28,7 +28,7 @@ class Page {
         name: () => `name${++names}`,
         isVisible: () => this.isVisible,
       },
-      { room: "BCDF", prefix: "bl1/BCDF/", run, lang: "en", views: ["room"], invite },
+      { room: "BCDF", prefix: "bl1/BCDF/", run, lang: "en", views: ["room"], invite, here: "http://192.168.1.5:8080" },
       {
         changed: () => {},
         welcomed: () => this.welcomes++,

@@ -14,6 +14,8 @@ export class MockRoom {
   ballots = new Map(); // vote -> seat -> ballot
   ratings = new Map();
   presences = {};
+  renewals = 0; // of keys
+  addresses = []; // where else the room can be found
   mute = false; // swallows everything, as a network that hangs
   busy = null;
   constructor() {
@@ -84,8 +86,14 @@ export class MockRoom {
           return [id, one.state === "proposed" ? one : rest];
         }),
       );
+    if (name === "keys") return this.seats[seat]?.role === "facilitator" ? this.keys() : {};
     if (name === "drafts") return Object.fromEntries(Object.entries(this.drafts).filter(([, one]) => one.seat === seat));
     return {};
+  }
+
+  keys() {
+    const roles = ["facilitator", "designer", "stakeholder", "participant", "viewer", "recorder"];
+    return Object.fromEntries(roles.map((role) => [role, `${role}-${this.renewals}`]));
   }
 
   result(id) {
@@ -212,6 +220,7 @@ export class MockRoom {
       resume: "snapshot",
       ...(token ? { token } : {}),
       room: { code: this.room.code, title: this.room.title },
+      addresses: this.addresses,
       limits: {},
     });
     this.tell(link, { t: "presence", seats: this.presences });
@@ -325,6 +334,7 @@ export class MockRoom {
     else if (event === "set_phase") this.room.phase = { name: a.name, activities: a.activities, forms: a.forms, ends_at: a.ends_at };
     else if (event === "set_pace") Object.assign(this.room, { rate: a.rate, paused: a.is_paused });
     else if (event === "show") this.room.layout = a.layout;
+    else if (event === "renew_keys") this.renewals += 1;
     else if (event === "set_door") this.room.door = a.door;
     else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
     else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas });

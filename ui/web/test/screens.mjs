@@ -25,11 +25,11 @@ const faults = [];
 // A name that is no "localhost" has no secure context, like a laptop in a Wi-Fi.
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1"],
+  args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1, MAP other.test 127.0.0.1"],
 });
 
 /// A browser of its own for one person. Every request elsewhere, error and breach of the policy is a fault.
-async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB" } = {}) {
+async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB", others = [] } = {}) {
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
     colorScheme: scheme,
@@ -41,7 +41,7 @@ async function person(server, { size = [390, 844], scheme = "light", fragment = 
     home = `http://room.test:${server.port}`;
   page.on("request", (request) => {
     counts.requests += 1;
-    if (!request.url().startsWith(home) && !request.url().startsWith("data:")) faults.push(`a request to ${request.url()}`);
+    if (![home, ...others].some((one) => request.url().startsWith(one)) && !request.url().startsWith("data:")) faults.push(`a request to ${request.url()}`);
   });
   page.on("pageerror", (error) => faults.push(`an error: ${error.message}`));
   page.on("console", (message) => {
@@ -264,6 +264,30 @@ async function lost_connection(server) {
   await page.context().close();
 }
 
+/// The server is gone for longer: the page leads to the other laptop, where the same seat is opened.
+async function moved_room(server) {
+  const { room } = server,
+    other = `http://other.test:${server.port}`;
+  room.addresses = [other, "javascript:alert(1)", `http://room.test:${server.port}`];
+  const page = await joined(server, { others: [other] });
+  const [{ seat }] = room.links;
+  room.mute = true;
+  await page.waitForSelector(".moved a", { timeout: 40000 });
+  const links = await page.$$eval(".moved a", (all) => all.map((one) => one.href));
+  assert.equal(links.length, 1);
+  assert.match(links[0], new RegExp(`^${other}/BCDF#t=token-${seat}-`));
+  await look(page, "moved_390x844_light");
+  await page.click(".moved a");
+  room.mute = false;
+  await page.waitForSelector(".self", { timeout: 20000 });
+  assert.equal(page.url(), `${other}/BCDF`, "the key of the seat does not stay in the address bar");
+  assert.ok([...room.links].every((link) => link.seat === seat));
+  await page.reload();
+  await page.waitForSelector(".self");
+  assert.ok([...room.links].every((link) => link.seat === seat));
+  await page.context().close();
+}
+
 async function stale_change(server) {
   const { room } = server;
   room.phase("Exploring", ["change"]);
@@ -306,6 +330,15 @@ async function leads(server) {
   await page.click('.segments button:has-text("Code")');
   await page.waitForTimeout(200);
   assert.equal(room.room.layout, "code");
+  await page.click('summary:has-text("Show the addresses")');
+  const designer = page.locator('.keys label:has-text("Designer") input');
+  assert.equal(await designer.inputValue(), `http://room.test:${server.port}/BCDF#k=designer-0`);
+  await page.click('.keys button[aria-label="Copy: Designer"]');
+  await page.waitForSelector('.keys button:has-text("Copied")');
+  await look(page, "keys_1280x800_light");
+  await page.click('button:has-text("New keys")');
+  await page.click('.sure button:has-text("New keys")');
+  await page.waitForFunction(() => [...document.querySelectorAll(".keys input")].every((one) => one.value.endsWith("-1")));
   await page.click(".people summary >> nth=0");
   await page.click('.people details[open] button:has-text("Mute")');
   await page.waitForTimeout(200);
@@ -513,6 +546,7 @@ const parts = {
   beamer,
   first_load,
   lost_connection,
+  moved_room,
   stale_change,
   leads,
   people_and_cards,

@@ -25,7 +25,7 @@ function played(store = new MemoryStore()) {
   };
   const session = new Session(
     world,
-    { room: "BCDF", prefix: "p/", run: null, lang: "en", views: ["room", "votes"], invite: null },
+    { room: "BCDF", prefix: "p/", run: null, lang: "en", views: ["room", "votes"], invite: null, here: "http://192.168.1.5:8080" },
     () => {},
     () => {},
   );

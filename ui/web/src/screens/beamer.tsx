@@ -1,7 +1,7 @@
 // The beamer: the plan, a vote, comments or the code, as the facilitator chooses. It never asks and never complains.
 import type { JSX } from "preact";
 import { amount, countdown, duration } from "../format";
-import { StatusWord } from "../parts";
+import { Moved, StatusWord } from "../parts";
 import { Plan } from "../plan";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
@@ -145,6 +145,7 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
         )}
       </header>
       {stage}
+      <Moved s={s} />
       {isOld ? <p class="old">{t("beamer_old", { time: duration(age) })}</p> : null}
     </main>
   );

@@ -1,7 +1,7 @@
 // The first screen: which room this is, how its plan looks, and who one is in it.
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
-import { Avatar, Icon, Sheet, StatusLine, Title } from "../parts";
+import { Avatar, Icon, Moved, Sheet, StatusLine, Title } from "../parts";
 import { Plan } from "../plan";
 import type { Session } from "../session";
 import { Language, kLanguages, kTables, t } from "../words";
@@ -39,6 +39,7 @@ export function Join({
             <p class="faint">{t("connecting")}</p>
           )}
         </div>
+        <Moved s={s} />
         <button class="main" disabled={!you} onClick={onGo}>
           {t("go")}
           <Icon name="right" />

@@ -1,8 +1,9 @@
 // The facilitator's page: the phase and its clock, votes, proposals, people, and what the beamer shows.
 import type { JSX } from "preact";
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { typed_number } from "../format";
 import { Avatar, Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
+import { is_local } from "../places";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
 import { useLook } from "../ui";
@@ -387,7 +388,7 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <p>{t("lead_code_text")}</p>
       <p class="bigcode">{room.code}</p>
       <p class="small">{join_address(s)}</p>
-      {is_local() ? (
+      {is_local(window.location.hostname) ? (
         <p class="notice" role="status">
           {t("lead_local")}
         </p>
@@ -427,8 +428,53 @@ export function join_address(s: Session): string {
   return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
 }
 
-// An address of this computer alone, which no phone can open.
-const is_local = (): boolean => /^(localhost|127\..*|\[::1\])$/.test(window.location.hostname);
+// A page without TLS may not use the clipboard itself, so the text is selected and copied as by hand.
+function KeyRow({ role, address }: { role: Role; address: string }): JSX.Element {
+  const field = useRef<HTMLInputElement>(null),
+    [isCopied, set] = useState("");
+  const copy = (): void => {
+    field.current?.select();
+    if (document.execCommand("copy")) set(address);
+  };
+  const name = t(`role_${role}` as Key),
+    said = t(isCopied === address ? "lead_copied" : "lead_copy");
+  return (
+    <li class="pick">
+      <label class="field">
+        <span>{name}</span>
+        <input ref={field} readOnly value={address} autocomplete="off" spellcheck={false} onFocus={(event) => event.currentTarget.select()} />
+      </label>
+      <button class="quiet" aria-label={`${said}: ${name}`} onClick={copy}>
+        {said}
+      </button>
+    </li>
+  );
+}
+
+function KeysPart({ s }: { s: Session }): JSX.Element {
+  useEffect(() => s.want("keys"), []);
+  const { keys } = s.views;
+  return (
+    <section class="panel">
+      <header class="row spread">
+        <h2>{t("lead_keys")}</h2>
+        <MarkState s={s} mark="lead/keys" />
+      </header>
+      <p class="small">{t("lead_keys_text")}</p>
+      <details>
+        <summary>{t("lead_keys_show")}</summary>
+        <ul class="rows keys">
+          {kRoles.map((role) =>
+            keys[role] === undefined ? null : <KeyRow key={role} role={role} address={`${join_address(s)}#k=${keys[role]}`} />,
+          )}
+        </ul>
+      </details>
+      <Sure text={t("lead_keys_sure")} yes={t("lead_keys_new")} onYes={() => s.event("renew_keys", {}, { mark: "lead/keys" })}>
+        {t("lead_keys_new")}
+      </Sure>
+    </section>
+  );
+}
 
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
@@ -490,6 +536,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         </section>
       ) : null}
       <RoomPart s={s} ui={ui} />
+      <KeysPart s={s} />
       <People s={s} />
     </>
   );

@@ -6,11 +6,12 @@ import { extent_of, points_of } from "../outline";
 import { StatusWord } from "../parts";
 import type { Session } from "../session";
 import type { PlanItem, Proposal, Trial, TrialFigure } from "../wire";
-import { Key, t } from "../words";
+import { t } from "../words";
 
 function state_words(trial: Trial): string {
   if (trial.state === "waiting") return t("trial_waiting", { n: Math.max(1, trial.line ?? 1) });
-  return t(`trial_${trial.state}` as Key);
+  if (trial.state === "done") return t(trial.is_settled ? "trial_settled" : "trial_restless");
+  return t(trial.state === "old" ? "trial_old" : "trial_running");
 }
 
 const signed = (value: number, unit: string): string => `${value > 0 ? "+" : value < 0 ? "−" : "±"}${amount(Math.abs(value), unit)}`;

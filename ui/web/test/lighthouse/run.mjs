@@ -1,6 +1,6 @@
 // What Lighthouse says of the page: accessibility of every screen, and the first load on a slow phone. It needs a built page.
 //
-// usage: npm install --ignore-scripts; node run.mjs
+// usage: npm install --ignore-scripts --no-package-lock; node run.mjs
 import { createRequire } from "node:module";
 import { loadavg } from "node:os";
 import lighthouse, { snapshot } from "lighthouse";
