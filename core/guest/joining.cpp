@@ -58,6 +58,7 @@ Result<std::unique_ptr<RoomGuest>> join_room(const Registry& registry, std::stri
   how.invite = read->invite;
   how.token = std::move(options.token);
   how.name = std::move(options.name);
+  how.page = (read->is_secure ? "https://" : "http://") + read->host_and_port() + "/" + read->code;
   how.run = room::hex_of(room::system_random_bytes(16));
   how.self = host::self_test();
   how.threads = options.threads;

@@ -8,6 +8,7 @@
 #include "core/define/codec.h"
 #include "core/define/registry.h"
 #include "core/host/step_labels.h"
+#include "core/room/room_state.h"
 
 namespace bl::guest {
 
@@ -258,12 +259,21 @@ void RoomGuest::refresh() {
   while (entry_ticks_.size() > kKeptEntryTicks) entry_ticks_.pop_front();
 }
 
+const std::map<std::string, JsonValue>& RoomGuest::view(const std::string& name) const {
+  static const std::map<std::string, JsonValue> kNothing;
+  const auto found = views_.find(name);
+  return found == views_.end() ? kNothing : found->second;
+}
+
+std::string RoomGuest::author() const { return room::RoomState::author_of_seat(seat_); }
+
 Standing RoomGuest::standing() const {
   return {.is_connected = is_welcome_,
           .has_scene = has_scene_,
           .lost_since = lost_since_,
           .waiting = sent_.size() + fold_.waiting().size(),
           .end = end_,
+          .can_store = can_store_,
           .takes_ticks = mode_ != "values"};
 }
 

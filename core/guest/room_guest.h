@@ -26,6 +26,7 @@ struct RoomGuestOptions {
   std::string token = {};    ///< of the seat, from an earlier visit
   std::string run = {};      ///< random; the name of the life of this window
   std::string name = {};     ///< of the person, where they want to give it
+  std::string page = {};     ///< the address that phones open to join this room
   host::SelfTest self = {};  ///< what this program is
   int threads = 1;           ///< of the ticks
   host::Clock* clock = &host::real_clock();
@@ -49,6 +50,7 @@ struct Standing {
   double lost_since = 0;    ///< on the clock of the options [s]; where it is not connected
   std::size_t waiting = 0;  ///< operations without an answer
   std::string end = {};     ///< why there will be no further attempt; empty where there will
+  bool can_store = true;    ///< the room has not said that its disk takes nothing
   bool takes_ticks = true;  ///< this program computes the same as the server; else the server's values are shown
 };
 
@@ -94,9 +96,16 @@ class RoomGuest final : public host::Running {
 
   // Of the room.
   const std::string& code() const { return options_.code; }
+  const std::string& page() const { return options_.page; }
   const People& people() const { return people_; }
+  /// What the room shows of a view (`room`, `votes`, `comments`, `proposals`), by key; nothing until it has come.
+  const std::map<std::string, JsonValue>& view(const std::string& name) const;
+  /// Grows with each change of a view.
+  std::uint64_t views_revision() const { return views_revision_; }
   std::int64_t seat() const { return seat_; }
   const std::string& role() const { return role_; }
+  /// The author of what this guest says, in the log and in ballots.
+  std::string author() const;
   Standing standing() const;
   /// An event of the room, such as asking for a pen; `arguments`: an object.
   void say_event(const std::string& event, const JsonValue& arguments);
@@ -159,7 +168,9 @@ class RoomGuest final : public host::Running {
   // Of the room.
   std::string role_, mode_, end_;
   std::int64_t seat_ = 0, epoch_ = 0;
-  bool has_scene_ = false, is_stale_ = false, wants_resync_ = false;
+  bool has_scene_ = false, is_stale_ = false, wants_resync_ = false, can_store_ = true;
+  std::map<std::string, std::map<std::string, JsonValue>> views_;
+  std::uint64_t views_revision_ = 0;
   Difference asked_;
   std::string asked_why_;
   std::int64_t differed_ = 0;

@@ -72,7 +72,7 @@ void RoomGuest::say_hello() {
   hello.name = options_.name;
   hello.build = options_.self.build;
   hello.fingerprint = options_.self.fingerprint;
-  hello.views = {"room"};
+  hello.views = {"room", "votes", "comments", "proposals"};
   hello.unacked = last_answered_;
   if (has_scene_ && !wants_resync_) {
     hello.have = fold_.seq();
@@ -129,6 +129,9 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
     if (options_.keep_token) options_.keep_token(welcome.token);
   }
   is_welcome_ = true;
+  can_store_ = true;  // else it says so
+  views_.clear();     // the first message of each has all of it
+  ++views_revision_;
   attempts_ = 0;
   ping_at_ = answer_at_ = began_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
@@ -236,16 +239,22 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
 
 void RoomGuest::hear_view(const wire::StateOut& view) {
   const auto set = view.set.read();
-  if (view.view != "room" || !set) return;
+  if (!set || !(*set)->is_object()) return;
+  std::map<std::string, JsonValue>& known = views_[view.view];
+  for (const auto& [key, content] : (*set)->items()) known[key] = JsonValue::of(content);
+  for (const std::string& key : view.drop) known.erase(key);
+  ++views_revision_;
+  follower_.nudge();
+  if (view.view != "room") return;
   people_.take_view(**set);
   if (const auto own = people_.seats.find(seat_); own != people_.seats.end()) role_ = own->second.role;
   follower_.set_pace(!people_.is_paused && !people_.is_closed, people_.rate);
-  follower_.nudge();
 }
 
 void RoomGuest::hear_say(const wire::Say& say) {
   const auto args = say.args.read();
   const Json& told = args ? **args : Json();
+  if (say.id == "storage" || say.id == "stored") can_store_ = say.id == "stored";
   if (say.id == "storage") notices_.push_back("The room cannot store anything at the moment: " + text_in(told, "why"));
   else if (say.id == "stored") notices_.push_back("The room is stored again.");
   else if (say.id == "window_differs")

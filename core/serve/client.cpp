@@ -49,6 +49,7 @@ class Connection {
 struct Client::Core {
   RoomAddress address;
   std::string authorities;
+  ConnectsAs as = ConnectsAs::window;
   asio::ssl::context tls{asio::ssl::context::tls_client};
   asio::io_context context{1};
   std::shared_ptr<Connection> connection;
@@ -149,8 +150,12 @@ class SocketConnection : public Connection, public std::enable_shared_from_this<
     timeouts.idle_timeout = kIdle;
     timeouts.keep_alive_pings = true;
     socket_.set_option(timeouts);
-    socket_.set_option(websocket::stream_base::decorator(
-        [](websocket::request_type& request) { request.set(beast::http::field::sec_websocket_protocol, "bl1"); }));
+    const std::string origin =
+        core_.as == ConnectsAs::page ? (core_.address.is_secure ? "https://" : "http://") + core_.address.host_and_port() : "";
+    socket_.set_option(websocket::stream_base::decorator([origin](websocket::request_type& request) {
+      request.set(beast::http::field::sec_websocket_protocol, "bl1");
+      if (!origin.empty()) request.set(beast::http::field::origin, origin);
+    }));
     socket_.read_message_max(kLargestFrame);
     socket_.text(true);
     socket_.async_handshake(response_, core_.address.host_and_port(), "/ws",
@@ -246,10 +251,11 @@ std::shared_ptr<Connection> connection_of(Core& core) {
 
 }  // namespace
 
-Client::Client(const RoomAddress& address, std::function<void()> wake, std::string authorities)
+Client::Client(const RoomAddress& address, std::function<void()> wake, std::string authorities, ConnectsAs as)
     : core_(std::make_shared<Core>()), finish_(std::make_unique<Finish>()) {
   core_->address = address;
   core_->authorities = std::move(authorities);
+  core_->as = as;
   core_->wake = std::move(wake);
   std::promise<void> promise;
   finish_->over = promise.get_future();

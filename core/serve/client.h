@@ -23,12 +23,17 @@ struct Closed {
 };
 using Happening = std::variant<Opened, Arrived, Closed>;
 
+/// Who connects, as servers see it: a page says which site it is from (Origin). A server lets pages in by the code of a room
+/// alone.
+enum class ConnectsAs { window, page };
+
 /// One connection, on a thread of its own. Whoever wants to come back makes another one.
 class Client {
  public:
   /// `wake` is called on that thread after something has happened, and never after the destructor has returned. `authorities` is
   /// a PEM file of those whose certificates are believed; empty: the system's.
-  Client(const RoomAddress& address, std::function<void()> wake, std::string authorities = {});
+  Client(const RoomAddress& address, std::function<void()> wake, std::string authorities = {},
+         ConnectsAs as = ConnectsAs::window);
   /// Sends what waits, says goodbye, and gives both a second.
   ~Client();
   Client(const Client&) = delete;

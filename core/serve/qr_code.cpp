@@ -4,7 +4,6 @@
 #include <qrencode.h>
 
 #include <memory>
-#include <vector>
 
 namespace bl::serve {
 
@@ -12,8 +11,9 @@ namespace {
 
 constexpr int kQuiet = 4;  // modules around the code (ISO/IEC 18004)
 
-// With its quiet zone; true is dark.
-Result<std::vector<std::vector<bool>>> modules_of(const std::string& text) {
+}  // namespace
+
+Result<std::vector<std::vector<bool>>> qr_modules(const std::string& text) {
   const std::unique_ptr<QRcode, decltype(&QRcode_free)> code(QRcode_encodeString(text.c_str(), 0, QR_ECLEVEL_M, QR_MODE_8, 1),
                                                              QRcode_free);
   if (!code) return Error{ErrorCode::out_of_range, "", "the text is too long for a QR code"};
@@ -26,10 +26,8 @@ Result<std::vector<std::vector<bool>>> modules_of(const std::string& text) {
   return modules;
 }
 
-}  // namespace
-
 Result<std::string> qr_text(const std::string& text) {
-  const auto modules = modules_of(text);
+  const auto modules = qr_modules(text);
   if (!modules) return modules.error();
   std::string lines;
   for (std::size_t y = 0; y < modules->size(); y += 2) {
@@ -44,7 +42,7 @@ Result<std::string> qr_text(const std::string& text) {
 }
 
 Result<std::string> qr_svg(const std::string& text) {
-  const auto modules = modules_of(text);
+  const auto modules = qr_modules(text);
   if (!modules) return modules.error();
   const std::string width = std::to_string(modules->size());
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + width +

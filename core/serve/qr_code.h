@@ -1,7 +1,8 @@
-// Addresses as QR codes, for phones: on a terminal, and as SVG for pages.
+// Addresses as QR codes, for phones: on a terminal, and as SVG for pages, and in a window.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 
@@ -9,6 +10,8 @@ namespace bl::serve {
 
 /// Half blocks of a terminal, two rows a line, dark on light, with the quiet zone of four modules that readers want.
 Result<std::string> qr_text(const std::string& text);
+/// By row: true is dark. With the quiet zone.
+Result<std::vector<std::vector<bool>>> qr_modules(const std::string& text);
 /// One SVG element.
 Result<std::string> qr_svg(const std::string& text);
 

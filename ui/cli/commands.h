@@ -74,6 +74,14 @@ int serve_command(ServeOptions options);
 /// Follows a room until it is to be taken over: then there is no exit code, and the options name the copy as what to serve.
 std::optional<int> follow_room(ServeOptions& options);
 
+struct RehearseOptions {
+  std::string room, trust;
+  int bots = 20;
+  double seconds = 60;
+  long long seed = 1;
+};
+int rehearse_command(const RehearseOptions& options);
+
 struct CompareOptions {
   std::string first, second;
   long long ticks = -1;        ///< -1: until settled

@@ -16,6 +16,7 @@ void declare_place(CLI::App& app, PlaceOptions& o);
 void declare_script(CLI::App& app, ScriptOptions& o);
 
 void declare_serve(CLI::App& app, ServeOptions& o);
+void declare_rehearse(CLI::App& app, RehearseOptions& o);
 
 void declare_cells(CLI::App& app, CellsOptions& o);
 void declare_fit(CLI::App& app, FitFileOptions& o);

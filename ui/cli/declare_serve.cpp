@@ -1,4 +1,4 @@
-// Declares `serve` with its options: where it listens, what it stores, and what it lets people do.
+// Declares `serve` with its options: where it listens, what it stores, and what it lets people do; and `rehearse`.
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 
@@ -76,6 +76,30 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
       "Examples:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n"
       "  behaviourlinks serve --follow room://192.168.1.5:8080/BKRT --token KEY --journal copy.blsession\n\n"
       "Exit codes: 0 closed in order; 2 bad input, or the port or the file is in use.");
+}
+
+void declare_rehearse(CLI::App& app, RehearseOptions& o) {
+  CLI::App& c =
+      *app.add_subcommand("rehearse", "Fills a room with bots that act as people do, and says how fast the room answers them.");
+  c.add_option("room", o.room, "The address of the room: room://HOST[:PORT]/CODE, or that of its page. Bots come by the code.")
+      ->type_name("URL")
+      ->required();
+  c.add_option("--bots", o.bots, "How many bots take part. Default: 20.")->type_name("N")->check(CLI::Range(1, 199));
+  c.add_option("--seconds", o.seconds, "How long they take part. Default: 60.")->type_name("S")->check(CLI::Range(1.0, 86400.0));
+  c.add_option("--seed", o.seed, "Another number gives other bots. Default: 1.")->type_name("K");
+  c.add_option("--trust", o.trust, "Whose certificates are believed, as PEM. Default: the system's authorities.")
+      ->type_name("FILE");
+  files_of(c).reads({"--trust"});
+  c.footer(
+      "Bots comment, vote, move the controls of their role cards, and propose. What they say stays in the room, so rehearse in "
+      "a\n"
+      "room that is thrown away: serve a copy of the scene with another --journal. With the facilitator's key in the address\n"
+      "(#k=KEY), one more bot begins a phase, deals out the role cards of the scene, and opens its votes. With the key of "
+      "another\n"
+      "role, the bots come in by that key.\n\n"
+      "Example:\n  behaviourlinks rehearse room://192.168.1.5:8080/BKRT#k=KEY --bots 30 --seconds 120\n\n"
+      "Exit codes: 0 everything got an answer; 2 bad input; 3 something got no answer, or a bot did not come in; 130 stopped by\n"
+      "Ctrl-C.");
 }
 
 }  // namespace bl::cli

@@ -182,6 +182,7 @@ struct Options {
   EraseOptions erase;
   MinutesOptions minutes;
   ServeOptions serve;
+  RehearseOptions rehearse;
   CompareOptions compare;
   DocsOptions docs;
   SchemaOptions schema;
@@ -201,6 +202,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_papers(app, o.docs, o.schema);
   declare_replay(app, o.replay);
   declare_serve(app, o.serve);
+  declare_rehearse(app, o.rehearse);
   declare_erase(app, o.erase);
   declare_minutes(app, o.minutes);
   declare_compare(app, o.compare);
@@ -220,6 +222,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("schema")) return schema_command(o.schema);
   if (app.got_subcommand("replay")) return replay_command(o.replay);
   if (app.got_subcommand("serve")) return serve_command(o.serve);
+  if (app.got_subcommand("rehearse")) return rehearse_command(o.rehearse);
   if (app.got_subcommand("erase")) return erase_command(o.erase);
   if (app.got_subcommand("minutes")) return minutes_command(o.minutes);
   if (app.got_subcommand("compare")) return compare_command(o.compare);

@@ -37,6 +37,19 @@ TEST(Client, TalksWithARoomAndLeaves) {
   ASSERT_TRUE(again.wait([&] { return again.is_open; }));
 }
 
+TEST(Client, ComesAsAPageByTheCodeAlone) {
+  const Deadline deadline(120, "a client that is a page");
+  RunningServer server;
+  const std::string by_code = R"({"t": "hello", "room": "BKRT", "run": "a run of a page", "kind": "page"})";
+  Talk page(address_of(server), "", ConnectsAs::page), window(address_of(server));
+  page.client.send(by_code);
+  window.client.send(by_code);
+  ASSERT_TRUE(page.wait_for("welcome")) << (page.closed ? page.closed->why : "");
+  EXPECT_EQ((*page.last("welcome"))["you"]["role"], "participant");
+  ASSERT_TRUE(window.wait_for_end());
+  EXPECT_EQ(window.closed->code, 4401);
+}
+
 TEST(Client, IsToldWhyItIsClosed) {
   const Deadline deadline(120, "clients that are sent away");
   RunningServer server;

@@ -15,7 +15,8 @@ namespace bl::serve {
 using namespace std::chrono_literals;
 
 struct Talk {
-  explicit Talk(const RoomAddress& address, const std::string& authorities = "") : client(address, bell.ring(), authorities) {}
+  explicit Talk(const RoomAddress& address, const std::string& authorities = "", ConnectsAs as = ConnectsAs::window)
+      : client(address, bell.ring(), authorities, as) {}
 
   template <class IsOver>
   bool wait(const IsOver& is_over, std::chrono::seconds most = 20s) {

@@ -54,6 +54,10 @@ void draw_bottom(Workbench& editor) {
     draw_imports(editor);
     ImGui::EndTabItem();
   }
+  if (editor.document && editor.document->room() != nullptr && ImGui::BeginTabItem("Room", nullptr, flags("Room"))) {
+    draw_room_panel(editor);
+    ImGui::EndTabItem();
+  }
   memory.wanted_tab.clear();
   ImGui::EndTabBar();
 }

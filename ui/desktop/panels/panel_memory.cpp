@@ -4,6 +4,7 @@
 #include "ui/desktop/panels/import_list.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/room_agenda.h"
 #include "ui/desktop/panels/statistics_record.h"
 #include "ui/desktop/panels/time_list.h"
 

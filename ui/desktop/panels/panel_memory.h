@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 
 #include <imgui.h>
@@ -13,6 +15,7 @@
 
 namespace bl::desktop {
 
+struct Agenda;
 class ImportList;
 class InspectorView;
 class ProblemList;
@@ -60,6 +63,10 @@ struct PanelMemory {
   std::unique_ptr<ImportList> imports;    ///< of the reports, as they are shown
   std::unique_ptr<TimeList> times;        ///< of the ticks, as they are shown
   int times_frame = -1;                   ///< the last frame in which somebody saw them
+  std::unique_ptr<Agenda> agenda;         ///< of the room, as its views were at `agenda_revision`
+  std::uint64_t agenda_revision = 0;
+  std::map<std::string, std::string> room_texts;         ///< what is being typed in the tab Room, by field
+  std::optional<std::set<std::string>> room_activities;  ///< of the next phase; none: nothing was chosen yet
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.

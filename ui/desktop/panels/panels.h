@@ -11,6 +11,8 @@ void watch_run(Workbench& editor);
 void draw_clock(Workbench& editor);
 /// At the end of the toolbar: the room that the scene runs in, if it is one.
 void draw_room(Workbench& editor);
+/// Tab Room of a scene that runs in a room: who is here and what may be done now; facilitators lead from it.
+void draw_room_panel(Workbench& editor);
 /// What is chosen, with all of its ports; several nodes are edited together.
 void draw_inspector(Workbench& editor);
 /// Tabs below: problems and conflicts, statistics with charts, times, history, imports.

@@ -8,6 +8,7 @@
 #include "core/reading/figures.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
+#include "ui/desktop/panels/room_panel.h"
 
 namespace bl::desktop {
 
@@ -65,6 +66,8 @@ void draw_people(Workbench& editor, const guest::RoomGuest& room) {
   }
 }
 
+}  // namespace
+
 void draw_pens(Workbench& editor, guest::RoomGuest& room) {
   if (room.people().areas.empty()) return;
   ImGui::Separator();
@@ -92,8 +95,6 @@ void draw_pens(Workbench& editor, guest::RoomGuest& room) {
     ImGui::PopID();
   }
 }
-
-}  // namespace
 
 void draw_room(Workbench& editor) {
   guest::RoomGuest* room = editor.document->room();
@@ -124,6 +125,12 @@ void draw_room(Workbench& editor) {
     ImGui::TextUnformatted(
         "This program computes other results than the room's server.\nIt shows the server's values, a second old at most.");
   draw_people(editor, *room);
+  if (ImGui::SmallButton("Show the tab Room")) {
+    editor.person.shows_bottom = true;
+    memory_of(editor).wanted_tab = "Room";
+    ImGui::CloseCurrentPopup();
+  }
+  note_place(editor, "room/tab");
   draw_pens(editor, *room);
   ImGui::EndPopup();
 }

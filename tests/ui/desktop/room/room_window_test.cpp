@@ -9,6 +9,7 @@
 #include "tests/support/deadline.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/room_agenda.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -141,6 +142,117 @@ TEST(RoomWindows, AnAddressIsTypedAndALostServerIsSaidWithoutStoppingAnybody) {
   EXPECT_TRUE(window.editor().document->is_unsaved());
   EXPECT_FALSE(window.editor().open("room://nobody/"));
   EXPECT_TRUE(has_notice(window.editor(), "cannot be joined"));
+}
+
+std::string notices_of(Workbench& editor) {
+  std::string all;
+  for (const Notice& notice : editor.notices) all += notice.text + "\n";
+  return all;
+}
+
+// --- The tab Room ---------------------------------------------------------------------------------------------------
+
+void open_tab(RoomWindow& window) {
+  memory_of(window.editor()).wanted_tab = "Room";
+  window->frames(3);
+}
+
+bool has_place(RoomWindow& window, const std::string& key) { return memory_of(window.editor()).places.contains(key); }
+
+void press(RoomWindow& window, const std::string& key) {
+  NullDesktop& desktop = *window;
+  desktop.frames(2);
+  ASSERT_TRUE(has_place(window, key)) << key;
+  const ImVec4 place = memory_of(window.editor()).places.at(key);
+  desktop.click({(place.x + place.z) / 2, (place.y + place.w) / 2});
+}
+
+TEST(RoomPanel, AFacilitatorLeadsFromItAndOthersAreOfferedNoneOfThat) {
+  const Deadline deadline(300, "the tab Room");
+  serve::RunningServer server({}, "/scenes/nodes/vote.json");
+  RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "participant"));
+  lead.editor().person.bottom_height = other.editor().person.bottom_height = 800;
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] {
+    return lead.room().standing().has_scene && other.room().standing().has_scene && agenda_of(lead.room()).seats.size() == 2 &&
+           !agenda_of(other.room()).votes.empty();
+  }));
+  open_tab(lead);
+  open_tab(other);
+  EXPECT_TRUE(has_place(lead, "roompanel/code"));
+  EXPECT_TRUE(has_place(other, "roompanel/code"));
+  for (const char* key : {"roompanel/pause", "roompanel/begin", "roompanel/end", "roompanel/door/shut"}) {
+    EXPECT_TRUE(has_place(lead, key)) << key;
+    EXPECT_FALSE(has_place(other, key)) << key;
+  }
+
+  press(lead, "roompanel/pause");
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return other.room().people().is_paused; }));
+  press(lead, "roompanel/door/shut");
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return agenda_of(other.room()).door == "shut"; }));
+  press(lead, "roompanel/show/code");
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return agenda_of(other.room()).layout == "code"; }));
+
+  // A phase without a title is not begun; with one it is, and says what may be done.
+  press(lead, "roompanel/begin");
+  EXPECT_EQ(agenda_of(lead.room()).phase, "");
+  memory_of(lead.editor()).room_texts["phase"] = "Talk";
+  memory_of(lead.editor()).room_texts["minutes"] = "10";
+  press(lead, "roompanel/may/change");
+  press(lead, "roompanel/begin");
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return agenda_of(other.room()).phase == "Talk"; }));
+  EXPECT_FALSE(agenda_of(other.room()).may.contains("change"));
+  EXPECT_TRUE(agenda_of(other.room()).may.contains("vote"));
+  EXPECT_GT(agenda_of(other.room()).ends_at, 0);
+
+  // What is refused is explained as elsewhere.
+  lead.room().say_event("close_vote", JsonValue::of({{"vote", "nowhere"}}));
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return has_notice(lead.editor(), "is not open"); }));
+
+  // A comment waits in the queue until it is answered.
+  other.room().say_event("comment", JsonValue::of({{"id", "one"}, {"text", "More trees"}}));
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return agenda_of(lead.room()).comments.size() == 1; }));
+  press(lead, "roompanel/comment/one/follow");
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return agenda_of(lead.room()).comments.empty(); }));
+}
+
+TEST(RoomPanel, AVoteIsOpenedVotedOnAndClosed) {
+  const Deadline deadline(300, "a vote in the tab Room");
+  serve::RunningServer server({}, "/scenes/nodes/vote.json");
+  RoomWindow lead(address_of(server, "facilitator")), other(address_of(server, "participant"));
+  lead.editor().person.bottom_height = other.editor().person.bottom_height = 800;
+  const auto vote_at = [](RoomWindow& window, const std::string& id) {
+    const Agenda agenda = agenda_of(window.room());
+    const auto found = std::find_if(agenda.votes.begin(), agenda.votes.end(), [&](const AgendaVote& v) { return v.id == id; });
+    return found == agenda.votes.end() ? AgendaVote{} : *found;
+  };
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] {
+    return lead.room().standing().has_scene && other.room().standing().has_scene && !agenda_of(lead.room()).votes.empty();
+  }));
+  const std::string id = "height";  // a slider
+  // Ballots are counted by a tick, and the scene has two of them.
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return vote_at(lead, id).count == 2; }));
+  open_tab(lead);
+  open_tab(other);
+  EXPECT_FALSE(has_place(other, "roompanel/cast/" + id));
+  EXPECT_FALSE(has_place(other, "roompanel/open/" + id));
+  press(lead, "roompanel/open/" + id);
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return vote_at(other, id).is_open; }));
+  // The room sets in the scene that the vote is open; until that is here, the window cannot take a ballot.
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] {
+    const PortValues& vote = other.editor().scene().nodes.at(id).types.at("vote");
+    return lead.room().standing().waiting == 0 && vote.contains("is_open") && std::get<bool>(vote.at("is_open"));
+  }));
+  (*other).frames(20);
+  // What is no number of the range is not offered.
+  memory_of(other.editor()).room_texts["ballot/height"] = "5";
+  press(other, "roompanel/cast/" + id);
+  EXPECT_EQ(other.room().standing().waiting, 0u);
+  memory_of(other.editor()).room_texts["ballot/height"] = "20";
+  press(other, "roompanel/cast/" + id);
+  EXPECT_FALSE(has_notice(other.editor(), "vote")) << notices_of(other.editor());
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return vote_at(lead, id).count == 3; })) << notices_of(other.editor());
+  press(lead, "roompanel/close/" + id);
+  EXPECT_TRUE(frames_until({&lead, &other}, [&] { return !vote_at(other, id).is_open; }));
 }
 
 }  // namespace

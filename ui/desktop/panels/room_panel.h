@@ -1,0 +1,43 @@
+// The parts of the tab Room.
+#pragma once
+
+#include <string>
+
+#include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/room_agenda.h"
+
+namespace bl::desktop {
+
+/// What the parts of the tab share in a frame.
+struct RoomDesk {
+  Workbench& editor;
+  guest::RoomGuest& room;
+  const Agenda& agenda;
+  bool leads = false;   ///< this person is a facilitator
+  std::string why_not;  ///< why nothing can be said now; empty where it can
+
+  /// A button, greyed with the reason where `why` is not empty, or where nothing can be said. `key`: for note_place.
+  bool button(const std::string& label, const std::string& key, const std::string& why = "") const;
+  /// A button that asks before: whether people have said yes.
+  bool sure_button(const std::string& label, const std::string& key, const std::string& question, const std::string& yes) const;
+  /// A line to type into; its text lives as long as the document is open.
+  std::string& text(const std::string& field) const;
+  void heading(const char* words) const;
+  void quiet(const std::string& words) const;
+  std::string seat_name(std::int64_t seat) const;
+  void say(const std::string& event, const JsonValue& arguments) const { room.say_event(event, arguments); }
+};
+
+/// Who has which pen, and what one can do about it.
+void draw_pens(Workbench& editor, guest::RoomGuest& room);
+/// Of facilitators: phase and pace; what waits for a decision; door, beamer, minutes and the end.
+void draw_leading(const RoomDesk& desk);
+void draw_queue(const RoomDesk& desk);
+void draw_house(const RoomDesk& desk);
+/// Of facilitators, below somebody's name.
+void draw_seat_menu(const RoomDesk& desk, const AgendaSeat& seat);
+void draw_votes(const RoomDesk& desk);
+/// The address with its QR code.
+void draw_address(const RoomDesk& desk);
+
+}  // namespace bl::desktop
