@@ -73,7 +73,7 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
       "What a second laptop needs to follow is printed, too. When the first is gone, the second takes over at Enter, at SIGUSR1, "
       "or\n"
       "after --take-over seconds; then it serves the room as the first did.\n\n"
-      "Examples:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n"
+      "Example:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n"
       "  behaviourlinks serve --follow room://192.168.1.5:8080/BKRT --token KEY --journal copy.blsession\n\n"
       "Exit codes: 0 closed in order; 2 bad input, or the port or the file is in use.");
 }
