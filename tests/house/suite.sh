@@ -6,7 +6,7 @@
 tsan_tests='*hread*:*ick*:*arallel*:*Law*:*law*:*nalysis*:Host*:LiveSession*:Writer*'
 # The programs that hold them; the window is left out, because it is half of all code and one of its classes has a thread.
 tsan_programs='base_tests geometry_tests graph_tests script_tests session_tests live_tests host_tests laws_tests journal_tests'
-short_fuzzing=20    # seconds for each fuzzer within ./bl test --deep
+short_fuzzing=12    # seconds for each fuzzer within ./bl test --deep
 
 passed=0
 failed=0
