@@ -68,6 +68,9 @@ TEST(RoomGuests, WhatOneSaysIsShownAtOnceAndComesToAll) {
   ASSERT_TRUE(room.turn_until([&] { return ben.scene().nodes.find("cafe")->second.name == "Anna's"; }));
   ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }));
   ASSERT_EQ(ben.history().size(), 1u);
+  // Views come when they are made, scenes and entries at once.
+  ASSERT_TRUE(
+      room.turn_until([&] { return anna.people().seats.contains(anna.seat()) && ben.people().seats.contains(anna.seat()); }));
   EXPECT_EQ(ben.people().name_of(ben.history()[0].author.id), anna.people().seats.at(anna.seat()).name);
   // Each takes back what is their own.
   ASSERT_TRUE(ben.undo().ok());
