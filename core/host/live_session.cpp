@@ -80,13 +80,7 @@ void LiveSession::say_between_ticks(
     const std::function<std::shared_ptr<const State>(Ledger& ledger, const std::shared_ptr<const State>& coming)>& words) {
   std::unique_lock lock(shared_->mutex);
   Shared& shared = *shared_;
-  shared.end_rest();
-  shared.wait_between_ticks(lock);
-  shared.call_off_failed_rewind();
-  (void)gestures_.say_due(shared.next_tick, kFarAhead);
-  shared.gather_changes();
-  const auto coming =
-      shared.pending ? shared.simulation.with_scene(*shared.pending, shared.pending_placed) : shared.simulation.state();
+  const auto coming = shared.coming(lock);
   auto earlier = words(ledger_, coming);
   if (!earlier) return;
   shared.gather_changes();
@@ -261,13 +255,7 @@ void LiveSession::rewind(std::int64_t ticks) {
 
 std::shared_ptr<const State> LiveSession::coming_state() {
   std::unique_lock lock(shared_->mutex);
-  Shared& shared = *shared_;
-  shared.end_rest();
-  shared.wait_between_ticks(lock);
-  shared.call_off_failed_rewind();
-  (void)gestures_.say_due(shared.next_tick, kFarAhead);
-  shared.gather_changes();
-  return shared.pending ? shared.simulation.with_scene(*shared.pending, shared.pending_placed) : shared.simulation.state();
+  return shared_->coming(lock);
 }
 
 void LiveSession::settle() {

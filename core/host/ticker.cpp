@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -80,6 +81,15 @@ void LiveSession::Shared::wait_between_ticks(std::unique_lock<std::mutex>& lock)
   done.wait(lock, [this] { return !is_ticking && !rewinds_to; });
   --holds;
   wake.notify_all();
+}
+
+std::shared_ptr<const State> LiveSession::Shared::coming(std::unique_lock<std::mutex>& lock) {
+  end_rest();
+  wait_between_ticks(lock);
+  call_off_failed_rewind();
+  (void)gestures.say_due(next_tick, std::numeric_limits<double>::infinity());
+  gather_changes();
+  return pending ? simulation.with_scene(*pending, pending_placed) : simulation.state();
 }
 
 std::optional<std::int64_t> LiveSession::Shared::tick_before(std::int64_t ticks) const {

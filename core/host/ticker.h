@@ -107,6 +107,8 @@ struct LiveSession::Shared {
   void show(std::shared_ptr<const State> seen) { preview = seen == simulation.state() ? nullptr : std::move(seen); }
   void gather_changes();
   void wait_between_ticks(std::unique_lock<std::mutex>& lock);
+  /// The state with which the next tick begins, with everything that is said until now; waits for the end of a running tick.
+  std::shared_ptr<const State> coming(std::unique_lock<std::mutex>& lock);
   void publish();
   void follow_times();
   std::shared_ptr<const TimeTable> table_of_now();

@@ -10,7 +10,7 @@ import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
 import { comment_pins } from "./ideas";
-import { join_address } from "./lead";
+import { join_address } from "./invitations";
 import { CompareTable } from "./proposals";
 import { ResultOf, Turnout } from "./votes";
 

@@ -1,15 +1,16 @@
 // The facilitator's page: the phase and its clock, votes, proposals, people, and what the beamer shows.
 import type { JSX } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { typed_number } from "../format";
-import { Avatar, Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
+import { Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
 import { is_local } from "../places";
-import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
 import { useLook } from "../ui";
 import type { Ui } from "../ui";
-import type { Activity, Door, Json, Layout, Proposal, Role, Seat, Vote } from "../wire";
+import type { Activity, Door, Json, Layout, Proposal, Vote } from "../wire";
 import { Key, t } from "../words";
+import { join_address, KeysPart } from "./invitations";
+import { People } from "./people";
 import { ProposalEntry } from "./proposals";
 import { TrialFigures } from "./trials";
 import { ResultOf, Turnout } from "./votes";
@@ -262,97 +263,6 @@ function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.
   );
 }
 
-const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "recorder"];
-
-// Somebody is away without a connection. With one, the page may still lie in a pocket.
-function presence_words(s: Session, number: string, seat: Seat): string {
-  if (!seat.here) return t("lead_away");
-  const presence = s.presences[number];
-  if (!presence) return t("lead_here");
-  if (presence.hidden) return t("lead_hidden");
-  const [node] = presence.holds ?? [];
-  return node ? t("lead_looks_at", { what: s.nameOf(node) }) : t("lead_active");
-}
-
-/// Gives a role, and keeps the card and the areas that somebody has.
-function set_role(s: Session, n: number, seat: Seat, change: { role?: string; card?: string }): void {
-  // A card makes a participant a stakeholder: others may not use its values.
-  const role = change.role ?? (change.card && seat.role === "participant" ? "stakeholder" : seat.role);
-  s.event("set_role", { seat: n, role, areas: seat.areas ?? [], card: change.card ?? seat.card ?? "" }, { mark: `lead/seat${n}` });
-}
-
-function People({ s }: { s: Session }): JSX.Element {
-  const seats = Object.entries(s.views.room.seats ?? {}).sort((a, b) => Number(b[1].here) - Number(a[1].here));
-  const cards = s.views.room.cards ?? {};
-  const here = seats.filter(([, seat]) => seat.here).length;
-  return (
-    <section class="panel">
-      <h2>{t("lead_people")}</h2>
-      <p>{t("lead_people_n", { n: here })}</p>
-      <ul class="people">
-        {seats.map(([number, seat]) => {
-          const n = Number(number),
-            mark = `lead/seat${n}`;
-          return (
-            <li key={number}>
-              <details>
-                <summary>
-                  <Avatar name={seat.name} colour={seat.colour} />
-                  <span class="grow">
-                    <b>{seat.name}</b>
-                    <span class="faint">
-                      {t(`role_${seat.role}` as Key)}
-                      {seat.card ? ` · ${cards[seat.card]?.name ?? seat.card}` : ""} · {presence_words(s, number, seat)}
-                    </span>
-                  </span>
-                  <MarkState s={s} mark={mark} />
-                </summary>
-                <div class="row">
-                  <label class="field">
-                    <span>{t("lead_role", { name: seat.name })}</span>
-                    <select value={seat.role} onChange={(event) => set_role(s, n, seat, { role: event.currentTarget.value })}>
-                      {kRoles.map((role) => (
-                        <option key={role} value={role}>
-                          {t(`role_${role}` as Key)}
-                        </option>
-                      ))}
-                    </select>
-                  </label>
-                  {Object.keys(cards).length > 0 ? (
-                    <label class="field">
-                      <span>{t("lead_card", { name: seat.name })}</span>
-                      <select value={seat.card ?? ""} onChange={(event) => set_role(s, n, seat, { card: event.currentTarget.value })}>
-                        <option value="">{t("lead_card_none")}</option>
-                        {Object.entries(cards).map(([id, card]) => (
-                          <option key={id} value={id}>
-                            {card.name}
-                          </option>
-                        ))}
-                      </select>
-                    </label>
-                  ) : null}
-                  <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
-                    {t(seat.muted ? "lead_unmute" : "lead_mute")}
-                  </button>
-                  {n === s.you?.seat ? null : (
-                    <Sure
-                      text={t("lead_remove_sure", { name: seat.name })}
-                      yes={t("lead_remove")}
-                      onYes={() => s.event("remove_seat", { seat: n }, { mark })}
-                    >
-                      {t("lead_remove")}
-                    </Sure>
-                  )}
-                </div>
-              </details>
-            </li>
-          );
-        })}
-      </ul>
-    </section>
-  );
-}
-
 function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const { room } = s.views,
     [decision, set] = useState("");
@@ -420,72 +330,6 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         {t("lead_end")}
       </Sure>
     </section>
-  );
-}
-
-/// The address that people open to join.
-export function join_address(s: Session): string {
-  return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
-}
-
-// A page without TLS may not use the clipboard itself, so the text is selected and copied as by hand.
-function KeyRow({ role, address }: { role: Role; address: string }): JSX.Element {
-  const field = useRef<HTMLInputElement>(null),
-    [isCopied, set] = useState("");
-  const copy = (): void => {
-    field.current?.select();
-    if (document.execCommand("copy")) set(address);
-  };
-  const name = t(`role_${role}` as Key),
-    said = t(isCopied === address ? "lead_copied" : "lead_copy");
-  return (
-    <li class="pick">
-      <label class="field">
-        <span>{name}</span>
-        <input ref={field} readOnly value={address} autocomplete="off" spellcheck={false} onFocus={(event) => event.currentTarget.select()} />
-      </label>
-      <button class="quiet" aria-label={`${said}: ${name}`} onClick={copy}>
-        {said}
-      </button>
-    </li>
-  );
-}
-
-function KeysPart({ s }: { s: Session }): JSX.Element {
-  useEffect(() => s.want("keys"), []);
-  const { keys } = s.views;
-  return (
-    <section class="panel">
-      <header class="row spread">
-        <h2>{t("lead_keys")}</h2>
-        <MarkState s={s} mark="lead/keys" />
-      </header>
-      <p class="small">{t("lead_keys_text")}</p>
-      <details>
-        <summary>{t("lead_keys_show")}</summary>
-        <ul class="rows keys">
-          {kRoles.map((role) =>
-            keys[role] === undefined ? null : <KeyRow key={role} role={role} address={`${join_address(s)}#k=${keys[role]}`} />,
-          )}
-        </ul>
-      </details>
-      <Sure text={t("lead_keys_sure")} yes={t("lead_keys_new")} onYes={() => s.event("renew_keys", {}, { mark: "lead/keys" })}>
-        {t("lead_keys_new")}
-      </Sure>
-    </section>
-  );
-}
-
-export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
-  return (
-    <main class="largecode">
-      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
-      <h1 class="bigcode">{s.views.room.code}</h1>
-      <p>{join_address(s)}</p>
-      <button class="quiet" onClick={onClose}>
-        {t("close")}
-      </button>
-    </main>
   );
 }
 
