@@ -81,7 +81,7 @@ void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> 
     if (shapes[k].is_empty) continue;
     shapes[k].lowest = lowest;
     shapes[k].highest = highest;
-    out.floor_area += floor_area(parts[k], site.weight, shapes[k], storey);
+    out.floor_area += floor_area(parts[k], site.weight, storey, shapes[k]);
   }
   out.footprint = plan_cover(parts, shapes, site.weight);
 }

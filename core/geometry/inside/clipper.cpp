@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <utility>
+#include "core/geometry/inside/wide_registers.h"
 
 namespace bl::geometry {
 
@@ -316,7 +317,7 @@ void Clipper::remove_taken(std::uint32_t fresh) {
   }
 }
 
-bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index) {
+BL_WIDE_REGISTERS bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index) {
   if (size_ == 0) return false;
   if (offset > 0 && offset * offset > reach_squared_) return true;
   const double tolerance = this->tolerance();

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/geometry/inside/clipper.h"
+#include "core/geometry/inside/wide_registers.h"
 
 namespace bl::geometry {
 
@@ -118,7 +119,7 @@ bool Clipper::write_vertices(Polyhedron& out, bool is_exact) const {
 bool Clipper::finish(Polyhedron& out, double limit) { return write(out, true, limit); }
 void Clipper::finish_as_cut(Polyhedron& out) { write(out, false, std::numeric_limits<double>::infinity()); }
 
-bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
+BL_WIDE_REGISTERS bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
   out.clear();
   if (size_ == 0) return true;
   rank_sides();

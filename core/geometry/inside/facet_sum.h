@@ -53,6 +53,12 @@ struct Place {
   static Place flat(const Point3& at, double squared_radius) { return {at, 0, squared_norm(at) <= squared_radius}; }
 };
 
+// A direction in a facet's plane: from the foot of the centre to a place. No direction where the place is the foot.
+struct Spoke {
+  Vector3 unit;
+  bool is_there = false;
+};
+
 // One facet with unit normal n on the plane n·x = h: what its edges add up to. With q = h n the foot of the centre and ρ the
 // radius of the facet's disc, an edge piece a→b inside the ball contributes twice the area n·(a×b) of the triangle q a b. A
 // piece outside contributes a sector of the disc: with θ the angle of (a-q)·(b-q) + i n·(a×b), the area ρ²θ/2; and to the solid
@@ -70,35 +76,47 @@ class FacetSum {
         squared_radius_(squared_radius),
         radius_(std::sqrt(squared_radius)),
         squared_disc_(squared_radius - offset * offset),
+        rim_moment_(squared_disc_ > 0 ? squared_disc_ * std::sqrt(squared_disc_) / 3 : 0),
         inner_solid_(counts_inside ? solid : nullptr),
         outer_solid_(counts_inside ? nullptr : solid) {}
 
   /// Does the plane cut the ball at all?
   bool has_disc() const { return squared_disc_ > 0; }
 
+  Spoke spoke_to(const Place& place) const {
+    const Vector3 way = place.at - offset_ * normal_;
+    const double length = norm(way);
+    return length > 0 ? Spoke{way / length, true} : Spoke{};
+  }
+
   /// The edge is worked out from `low` to `high` whichever way the facet's loop goes along it (`turn` is 1, or -1 against it):
-  /// both of its facets get the same bits.
-  void add_edge(const Place& low, const Place& high, double turn) {
+  /// both of its facets get the same bits. The spokes count only for a moment, and only to places outside the ball.
+  void add_edge(const Place& low, const Place& high, double turn, const Spoke& to_low = {}, const Spoke& to_high = {}) {
     if (low.is_inside && high.is_inside) return inside(low, high, turn);
-    if (!has_disc()) return outside(low, high, turn);
+    if (!has_disc()) return outside(low, high, turn, to_low, to_high);
+    const auto spoke_on_rim = [&](const Place& place) { return with_moment ? spoke_to(place) : Spoke{}; };
     const Vector3 along = high.at - low.at;
     const double squared_length = squared_norm(along), t = dot(low.at, along);
     const double rest = t * t + squared_length * (squared_radius_ - squared_norm(low.at));
     const bool is_chord = !low.is_inside && !high.is_inside;
-    if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(low, high, turn);
+    if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) {
+      // A place on the sphere may come here as one inside.
+      return outside(low, high, turn, low.is_inside ? spoke_on_rim(low) : to_low, high.is_inside ? spoke_on_rim(high) : to_high);
+    }
     const double root = std::sqrt(rest);
     const auto pierced = [&](double numerator) {
       return Place{low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along, radius_, true};
     };
     if (is_chord) {
       const Place entry = pierced(-t - root), exit = pierced(-t + root);
-      outside(low, entry, turn);
+      outside(low, entry, turn, to_low, spoke_on_rim(entry));
       inside(entry, exit, turn);
-      outside(exit, high, turn);
+      outside(exit, high, turn, spoke_on_rim(exit), to_high);
     } else {
       const Place pierce = pierced(low.is_inside ? -t + root : -t - root);
-      low.is_inside ? inside(low, pierce, turn) : outside(low, pierce, turn);
-      low.is_inside ? outside(pierce, high, turn) : inside(pierce, high, turn);
+      const Spoke to_pierce = spoke_on_rim(pierce);
+      low.is_inside ? inside(low, pierce, turn) : outside(low, pierce, turn, to_low, to_pierce);
+      low.is_inside ? outside(pierce, high, turn, to_pierce, to_high) : inside(pierce, high, turn);
     }
   }
 
@@ -131,20 +149,17 @@ class FacetSum {
     if (with_moment) moment += (area_twice / 6) * (a.at + b.at - (2 * offset_) * normal_);
   }
 
-  void outside(const Place& a, const Place& b, double turn) {
+  void outside(const Place& a, const Place& b, double turn, const Spoke& to_a, const Spoke& to_b) {
     const double area_twice = turn * dot(normal_, cross(a.at, b.at)), cosine = dot(a.at, b.at);
     if (outer_solid_ != nullptr) add_triangle(outer_solid_, area_twice, a.norm, b.norm, cosine);
     if (!has_disc()) return;
     outer_.add((cosine - offset_ * offset_) / squared_radius_, area_twice / squared_radius_);
-    if (!with_moment) return;
-    const Vector3 p = a.at - offset_ * normal_, q = b.at - offset_ * normal_;
-    const double p_norm = norm(p), q_norm = norm(q);
-    if (!(p_norm > 0) || !(q_norm > 0)) return;
-    moment += (turn * (squared_disc_ * std::sqrt(squared_disc_) / 3)) * cross(q / q_norm - p / p_norm, normal_);
+    if (!with_moment || !to_a.is_there || !to_b.is_there) return;
+    moment += (turn * rim_moment_) * cross(to_b.unit - to_a.unit, normal_);
   }
 
   Vector3 normal_;
-  double offset_, squared_radius_, radius_, squared_disc_;
+  double offset_, squared_radius_, radius_, squared_disc_, rim_moment_;
   AngleSum *inner_solid_, *outer_solid_;
   AngleSum outer_;
   double doubled_ = 0;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/geometry/inside/lane_pair.h"
+#include "core/geometry/inside/wide_registers.h"
 
 namespace bl::geometry {
 
@@ -83,7 +84,7 @@ PlaneSides find_plane_sides(const VertexLanes& vertices, const Vector3& normal, 
   return sides_in_pairs(vertices, normal, offset, tolerance, beyond, taken);
 }
 
-void Reaches::measure(const VertexLanes& vertices) {
+BL_WIDE_REGISTERS void Reaches::measure(const VertexLanes& vertices) {
   // Each direction with its opposite.
   constexpr std::array<std::uint32_t, 13> kPlaces{22, 16, 14, 25, 19, 23, 21, 17, 15, 26, 24, 20, 8};
   LanePair most[kPlaces.size()], least[kPlaces.size()];
@@ -106,7 +107,7 @@ void Reaches::measure(const VertexLanes& vertices) {
 }
 
 // Without branches, because nobody can foretell how the coordinates of a plane are ordered.
-double Reaches::bound(const Vector3& along) const {
+BL_WIDE_REGISTERS double Reaches::bound(const Vector3& along) const {
   const double x = std::abs(along.x), y = std::abs(along.y), z = std::abs(along.z);
   const double largest = std::max(std::max(x, y), z), least = std::min(std::min(x, y), z),
                middle = std::max(std::min(x, y), std::min(std::max(x, y), z));

@@ -23,8 +23,8 @@ struct PlaneSides {
   double nearest;      ///< least distance of a vertex from the plane [m]
 };
 /// Writes the signed distance of each vertex from normal·x = offset [m], and a bit for each that lies beyond by more than the
-/// tolerance, in words of 64. The same bits on every processor, because each lane is computed by itself; a test compares both ways,
-/// with and without registers for four.
+/// tolerance, in words of 64. The same bits on every processor, because each lane is computed by itself; a test compares both
+/// ways, with and without registers for four.
 PlaneSides find_plane_sides(const VertexLanes& vertices, const Vector3& normal, double offset, double tolerance, double* beyond,
                             std::uint64_t* taken, bool may_use_fours = true);
 /// How far vertices reach along 26 directions, those of a cube's faces, edges and corners: enough to see of most planes that no

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "core/geometry/inside/wide_registers.h"
+
 namespace bl::geometry {
 
-double volume_and_centroid(const Polyhedron& shape, Point3& centroid) {
+BL_WIDE_REGISTERS double volume_and_centroid(const Polyhedron& shape, Point3& centroid) {
   if (shape.is_empty()) return 0;
   Point3 middle;
   for (const Point3& v : shape.vertices) middle += v;

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "core/geometry/inside/facet_sum.h"
 #include "core/geometry/inside/shape_measure.h"
+#include "core/geometry/inside/wide_registers.h"
 #include "core/geometry/power_cells.h"
 
 namespace bl::geometry {
@@ -17,7 +19,8 @@ namespace {
 // on an edge must not be lost, and the height it may be wrong by is of the same size.
 constexpr double kTouchOfExtent = 1e-12;
 
-// Lines this share of the radius beyond the ball miss it, whatever rounding says of edges up to a million radii away.
+// Lines and circles this share of the radius beyond what is looked for miss it, whatever rounding says of edges up to a million
+// radii away.
 constexpr double kSureMiss = 1e-9;
 
 // Is `point`, which lies in the face's plane, in the face or within `tolerance` of it?
@@ -57,15 +60,17 @@ double highest_of_edge(const Point3& a, const Point3& b, double squared_radius, 
 // Highest point of the shape in direction `up` (+1 or -1), as up * z. The point is the pole of the ball, a vertex, the top of a
 // facet's circle, or where an edge leaves the ball; the largest of those that belong to the shape. Edges come last: most of them
 // lie below what is known by then.
-double highest_point(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double up) {
+BL_WIDE_REGISTERS double highest_point(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double up) {
   const double radius = std::sqrt(squared_radius), tolerance = kTouchOfExtent * radius;
   bool pole_inside = true;
   for (const PolyhedronFace& face : cell.faces)
     pole_inside = pole_inside && up * face.normal.z * radius <= face.offset + tolerance;
   if (pole_inside) return radius;
-  double best = up * shape.point_inside.z;
-  for (const Point3& v : cell.vertices)
+  double best = up * shape.point_inside.z, highest_vertex = best;
+  for (const Point3& v : cell.vertices) {
+    highest_vertex = std::max(highest_vertex, up * v.z);
     if (up * v.z > best && squared_norm(v) <= squared_radius) best = up * v.z;
+  }
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     const PolyhedronFace& face = cell.faces[k];
     const double rho2 = squared_radius - face.offset * face.offset;
@@ -73,11 +78,17 @@ double highest_point(const Polyhedron& cell, double squared_radius, const ShapeM
     const Vector3 foot = face.offset * face.normal;
     // What is left of `up` in the facet's plane, without a difference of nearly equal numbers: level facets have none.
     const Vector3& n = face.normal;
-    const Vector3 rise = up * Vector3{-n.z * n.x, -n.z * n.y, n.x * n.x + n.y * n.y};
+    const double level = n.x * n.x + n.y * n.y;
+    // The top of the circle lies √(ρ² level) above the foot. Most lie lower than what is known, which needs no root.
+    const double gap = best - up * foot.z - kSureMiss * radius;
+    if (gap > 0 && gap * gap > (1 + kSureMiss) * rho2 * level) continue;
+    const Vector3 rise = up * Vector3{-n.z * n.x, -n.z * n.y, level};
     const double steepness = norm(rise);
     const Point3 top = steepness > 0 ? foot + (std::sqrt(rho2) / steepness) * rise : foot;
     if (up * top.z > best && (steepness == 0 || is_in_face(cell, face, top, tolerance))) best = up * top.z;
   }
+  // No edge rises above its vertices.
+  if (!(highest_vertex > best)) return best;
   for (const PolyhedronFace& face : cell.faces) {
     Point3 a = cell.vertices[cell.loops[face.first + face.count - 1]];
     for (const std::uint32_t to : cell.loop(face)) {
@@ -95,23 +106,9 @@ struct FaceCrossing {
   std::uint32_t down_in = 0, rise_in = 0;  // the face that it belongs to, counted from 1
 };
 
-}  // namespace
-
-void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape) {
-  if (cell.reach_squared <= squared_radius) {
-    shape.lowest = shape.highest = cell.vertices.front().z;
-    for (const Point3& v : cell.vertices) {
-      shape.lowest = std::min(shape.lowest, v.z);
-      shape.highest = std::max(shape.highest, v.z);
-    }
-    return;
-  }
-  shape.highest = highest_point(cell, squared_radius, shape, 1);
-  shape.lowest = std::min(shape.highest, -highest_point(cell, squared_radius, shape, -1));
-}
-
 // All sections are cut in one pass over the edges. Their heights ascend.
-double section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights) {
+BL_WIDE_REGISTERS void section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights,
+                                     std::vector<double>& areas) {
   thread_local std::vector<std::uint32_t> below;     // per vertex: how many of the heights
   thread_local std::vector<FaceCrossing> crossings;  // per height
   thread_local std::vector<FacetSum> sums;           // per height
@@ -150,18 +147,31 @@ double section_areas(const Polyhedron& cell, double squared_radius, std::span<co
       sums[k].add_edge(place(crossing.down), place(crossing.rise), 1);
     }
   }
-  double area = 0;
+  areas.clear();
   for (FacetSum& sum : sums) {
-    if (!sum.has_disc()) continue;
-    sum.close();
-    area += sum.area;
+    if (sum.has_disc()) sum.close();
+    areas.push_back(sum.area);
   }
-  return area;
 }
 
-double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double storey_height) {
+}  // namespace
+
+void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape) {
+  if (cell.reach_squared <= squared_radius) {
+    shape.lowest = shape.highest = cell.vertices.front().z;
+    for (const Point3& v : cell.vertices) {
+      shape.lowest = std::min(shape.lowest, v.z);
+      shape.highest = std::max(shape.highest, v.z);
+    }
+    return;
+  }
+  shape.highest = highest_point(cell, squared_radius, shape, 1);
+  shape.lowest = std::min(shape.highest, -highest_point(cell, squared_radius, shape, -1));
+}
+
+double floor_area(const Polyhedron& cell, double squared_radius, double storey_height, ShapeMeasure& shape) {
   const double height = shape.highest - shape.lowest;
-  thread_local std::vector<double> heights;
+  thread_local std::vector<double> heights, areas;
   heights.clear();
   if (height < storey_height) {
     heights.push_back(shape.lowest + 0.5 * height);
@@ -172,12 +182,17 @@ double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeas
       heights.push_back(shape.lowest + above);
     }
   }
-  return section_areas(cell, squared_radius, heights);
+  // The footprint asks for one more, which comes with the same pass.
+  const auto own = std::lower_bound(heights.begin(), heights.end(), 0.0) - heights.begin();
+  heights.insert(heights.begin() + own, 0.0);
+  section_areas(cell, squared_radius, heights, areas);
+  shape.own_section = areas[static_cast<std::size_t>(own)];
+  areas.erase(areas.begin() + own);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape) {
-  constexpr double kOwnHeight = 0;
-  double sum = section_areas(cell, squared_radius, {&kOwnHeight, 1});
+BL_WIDE_REGISTERS double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape) {
+  double sum = shape.own_section;
   thread_local std::vector<Point3> part;
   for (std::size_t k = 0; k < cell.faces.size(); ++k) {
     const PolyhedronFace& face = cell.faces[k];

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/geometry/inside/facet_sum.h"
+#include "core/geometry/inside/wide_registers.h"
 
 namespace bl::geometry {
 
@@ -28,6 +29,24 @@ double polygon_area(const Polyhedron& cell, const PolyhedronFace& face) {
     before = at;
   }
   return std::max(0.0, 0.5 * dot(face.normal, sum));
+}
+
+// All edges of a facet. Each place has two of them: where a moment is asked for, its spoke is worked out once.
+void add_loop(FacetSum& sum, std::span<const std::uint32_t> loop, std::span<const Place> places) {
+  thread_local std::vector<Spoke> spokes;
+  spokes.clear();
+  spokes.resize(loop.size());
+  if (sum.with_moment && sum.has_disc())
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Place& place = places[loop[k]];
+      if (!place.is_inside) spokes[k] = sum.spoke_to(place);
+    }
+  std::size_t last = loop.size() - 1;
+  for (std::size_t k = 0; k < loop.size(); last = k++) {
+    const std::uint32_t from = loop[last], to = loop[k];
+    from < to ? sum.add_edge(places[from], places[to], 1, spokes[last], spokes[k])
+              : sum.add_edge(places[to], places[from], -1, spokes[k], spokes[last]);
+  }
 }
 
 // The ball holds the whole polyhedron.
@@ -59,8 +78,8 @@ WholeMeasure measure_whole(const Polyhedron& cell) {
   return whole;
 }
 
-void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMeasure& whole, bool with_centroid,
-                   ShapeMeasure& out) {
+BL_WIDE_REGISTERS void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMeasure& whole, bool with_centroid,
+                                     ShapeMeasure& out) {
   out.areas.clear();
   out.volume = out.spherical_area = 0;
   out.is_empty = true;
@@ -85,12 +104,7 @@ void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMea
       out.areas.push_back(0);
       continue;
     }
-    const auto loop = cell.loop(face);
-    std::uint32_t from = loop[face.count - 1];
-    for (const std::uint32_t to : loop) {
-      sum.add_edge(places[std::min(from, to)], places[std::max(from, to)], from < to ? 1 : -1);
-      from = to;
-    }
+    add_loop(sum, cell.loop(face), places);
     if (sum.has_disc()) sum.close();
     out.areas.push_back(sum.area);
     if (face.offset != 0) sectors += face.offset < 0 ? -sum.sectors : sum.sectors;

@@ -15,6 +15,7 @@ struct ShapeMeasure {
   Point3 centroid;
   std::vector<double> areas;  ///< per face of the polyhedron: its area inside the ball
   double lowest = 0, highest = 0;
+  double own_section = 0;  ///< area of the horizontal section at the centre's height [m²]
   bool is_empty = true;
   /// A point of the shape, inside or on its surface: the weighted mean of the centroids of its facets.
   Point3 point_inside;
@@ -37,14 +38,12 @@ void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMea
 /// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
 void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape);
 
-/// Sum of the areas of the horizontal sections at these heights, which ascend.
-double section_areas(const Polyhedron& cell, double squared_radius, std::span<const double> heights);
-
 /// Sum of sections at mid-storey heights, from `lowest` on; at least one, at mid-height, where there is less than a storey.
-double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double storey_height);
+/// Fills `own_section`. After measure_extent.
+double floor_area(const Polyhedron& cell, double squared_radius, double storey_height, ShapeMeasure& shape);
 
 /// Exact area of the projection onto the plan: the section at the centre's height, plus the projections of upward facets
-/// below it and of downward facets above it (all other surface is covered by these, seen from above).
+/// below it and of downward facets above it (all other surface is covered by these, seen from above). After floor_area.
 double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape);
 
 }  // namespace bl::geometry
