@@ -21,8 +21,9 @@ Durations durations_of(std::vector<double> seconds);
 /// Commits so often into a session file of its own in that folder, each with what a room writes after a tick, and removes the
 /// file.
 Result<Durations> measure_commits(const std::string& folder, int count = 50);
-/// Ticks the scene from its beginning until it has settled, or so much time has passed [s]; three times at least. A scene that
-/// has settled takes next to no time, and in a session it moves. The first tick sets everything up, and does not count.
+/// Ticks the scene for so long [s], three times at least, while one of its volumes is moved to and fro: a scene that has settled
+/// takes next to no time, and in a session somebody always moves something. The first tick sets everything up, and does not
+/// count.
 Result<Durations> measure_ticks(const Scene& scene, double seconds = 1.5);
 
 }  // namespace bl::serve

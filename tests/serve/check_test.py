@@ -85,6 +85,8 @@ class Check(unittest.TestCase):
         _, found = self.check("--journal", os.path.join(self.folder, "nowhere", "room.blsession"))
         self.assertEqual(found["disk"][0][0], "bad")
         self.assertIn("nowhere", found["disk"][0][1])
+        _, found = self.check("--journal", "/proc/room.blsession")
+        self.assertEqual(found["disk"][0][0], "bad", "nobody may write there, not even root")
         _, found = self.check(scene=os.path.join(self.folder, "missing.json"))
         self.assertEqual(found["scene"][0][0], "bad")
         broken = os.path.join(self.folder, "broken.json")

@@ -35,7 +35,11 @@ std::string program_of(const Workbench& editor) {
 
 }  // namespace
 
-HostDialog::HostDialog(Workbench& editor) : editor_(&editor) {}
+HostDialog::HostDialog(Workbench& editor) : editor_(&editor) {
+  plan_.phases = phase_templates().front().phases;
+  plan_.people = {{"designer", 0}, {"stakeholder", 0}, {"participant", 0}, {"viewer", 0}};
+}
+
 HostDialog::~HostDialog() = default;
 
 void HostDialog::begin() {
@@ -44,8 +48,6 @@ void HostDialog::begin() {
   told_.clear();
   findings_.clear();
   addresses_ = serve::network_addresses();
-  if (plan_.phases.empty()) plan_.phases = phase_templates().front().phases;
-  if (plan_.people.empty()) plan_.people = {{"designer", 0}, {"stakeholder", 0}, {"participant", 0}, {"viewer", 0}};
 }
 
 void HostDialog::stop() {
@@ -153,7 +155,9 @@ bool HostDialog::turn_opening() {
   (void)write_person_settings(editor_->person);  // a plan that is not kept is made anew
   write_sheet(*opening_);
   editor_->hosting = std::move(opening_);
+  constexpr float kHighEnough = 320;  // for the address with its code, the phases and the health [points]
   editor_->person.shows_bottom = true;
+  editor_->person.bottom_height = std::max(editor_->person.bottom_height, kHighEnough);
   memory_of(*editor_).wanted_tab = "Room";
   return true;
 }
@@ -199,7 +203,7 @@ void begin_phase(guest::RoomGuest& room, const PlannedPhase& phase, const std::v
 
 // --- The frame of the pages -----------------------------------------------------------------------------------------
 
-bool HostDialog::draw() {
+bool HostDialog::draw(bool takes_enter) {
   turn_check();
   if (turn_opening()) return true;
   draw_steps();
@@ -207,7 +211,7 @@ bool HostDialog::draw() {
   ImGui::BeginChild("page", {0, -foot});
   draw_page();
   ImGui::EndChild();
-  return draw_foot();
+  return draw_foot(takes_enter);
 }
 
 void HostDialog::draw_steps() {
@@ -225,7 +229,7 @@ void HostDialog::draw_steps() {
   ImGui::Dummy({0, editor_->theme.px(4)});
 }
 
-bool HostDialog::draw_foot() {
+bool HostDialog::draw_foot(bool takes_enter) {
   const Theme& theme = editor_->theme;
   ImGui::Separator();
   ImGui::PushStyleColor(ImGuiCol_Text, theme.colours().bad);
@@ -240,7 +244,8 @@ bool HostDialog::draw_foot() {
   note_place(*editor_, "host/back");
   ImGui::SameLine();
   ImGui::BeginDisabled(!why.empty());
-  const bool is_next = chief_button(theme, page_ == Page::check ? "Open the room" : "Next", {theme.px(150), 0});
+  const bool is_entered = takes_enter && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const bool is_next = chief_button(theme, page_ == Page::check ? "Open the room" : "Next", {theme.px(150), 0}) || is_entered;
   note_place(*editor_, "host/next");
   ImGui::EndDisabled();
   ImGui::SameLine();

@@ -22,8 +22,9 @@ class HostDialog {
   ~HostDialog();
   /// Begins anew for the open scene. What was chosen before for this scene stays.
   void begin();
-  /// Inside the modal window. True once the dialog is over: the room is open and joined, or people want no room.
-  bool draw();
+  /// Inside the modal window; `takes_enter`: the key means the chief button. True once the dialog is over: the room is open and
+  /// joined, or people want no room.
+  bool draw(bool takes_enter);
   /// Gives up what is under way.
   void stop();
   HostingPlan& plan() { return plan_; }
@@ -37,7 +38,7 @@ class HostDialog {
  private:
   void draw_steps();
   void draw_page();
-  bool draw_foot();
+  bool draw_foot(bool takes_enter);
   void draw_scene();
   void draw_people();
   void draw_phases();

@@ -34,7 +34,7 @@ void Dialogs::draw_host() {
     if (kind_ != Kind::host) host_->stop();
     return;
   }
-  const bool is_over = host_->draw();
+  const bool is_over = host_->draw(!is_fresh_ && !chooser_.is_open());
   if (const auto path = chooser_.draw(*editor_)) {
     const auto chosen = chosen_;
     chosen(*path);
@@ -50,7 +50,7 @@ void Dialogs::ask_leave(std::function<void()> then) {
 }
 
 void Dialogs::draw_leave() {
-  if (!begin("The room is open", 560, 270)) return;
+  if (!begin("The room is open", 560, 220)) return;
   const Theme& theme = editor_->theme;
   Hosting* hosting = editor_->hosting.get();  // watch_hosting drops one that has ended
   if (hosting == nullptr) {

@@ -281,8 +281,8 @@ void draw_room_panel(Workbench& editor) {
   column("now", [](const RoomDesk& all) {
     draw_now(all);
     if (all.leads) {
-      draw_leading(all);
       draw_plan(all);
+      draw_leading(all);
     } else {
       draw_votes(all);
     }
@@ -295,8 +295,8 @@ void draw_room_panel(Workbench& editor) {
     column("queue", draw_queue);
     column("health", draw_health);
     column("house", [](const RoomDesk& all) {
-      draw_house(all);
       draw_address(all);
+      draw_house(all);
     });
   } else {
     column("address", draw_address);
