@@ -9,7 +9,6 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -51,9 +50,7 @@ struct Shared {
   std::string proxy;
   Gate gate;
   std::optional<MachineWatch> machine;
-  /// By own address: who has come by it from elsewhere. In memory only, and of each address only so many.
-  std::map<std::string, std::set<std::string>> reached;
-  static constexpr std::size_t kMostReached = 1000;
+  Reach reach;
   /// Outlives the connections, which leave it.
   std::shared_ptr<std::set<Watched*>> watched = std::make_shared<std::set<Watched*>>();
   bool is_stopping = false;

@@ -149,6 +149,18 @@ std::optional<bool> is_clock_set() {
   return state != TIME_ERROR && (asked.status & STA_UNSYNC) == 0;
 }
 
+void Reach::note(const std::string& own, const std::string& other) {
+  if (other == own || is_own_address(other)) return;
+  std::set<std::string>& others = others_[own];
+  if (others.size() < kMost) others.insert(other);
+}
+
+std::map<std::string, std::size_t> Reach::counts() const {
+  std::map<std::string, std::size_t> counts;
+  for (const auto& [own, others] : others_) counts[own] = others.size();
+  return counts;
+}
+
 MachineWatch::MachineWatch(std::string folder, std::string root)
     : latest_(read_machine(root, folder)), thread_([this, folder = std::move(folder), root = std::move(root)] {
         std::unique_lock lock(mutex_);

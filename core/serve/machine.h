@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -40,6 +41,19 @@ bool is_private_address(const std::string& address);
 bool is_own_address(const std::string& address);
 /// Does the clock follow a time server? Missing: the system does not say.
 std::optional<bool> is_clock_set();
+
+/// Who has come to a server from elsewhere, by own address. In memory only, and of each address only so many.
+class Reach {
+ public:
+  static constexpr std::size_t kMost = 1000;
+  /// A connection to the address `own`. Those of this computer itself show nothing of the network, and do not count.
+  void note(const std::string& own, const std::string& other);
+  /// By own address: how many other devices.
+  std::map<std::string, std::size_t> counts() const;
+
+ private:
+  std::map<std::string, std::set<std::string>> others_;
+};
 
 /// What a room hears of where it runs.
 struct Surroundings {

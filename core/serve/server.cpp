@@ -211,7 +211,7 @@ class BeastServer : public Server {
   Surroundings surroundings() const override {
     Surroundings around;
     if (shared_.machine) around.machine = shared_.machine->latest();
-    for (const auto& [address, peers] : shared_.reached) around.reached[address] = peers.size();
+    around.reached = shared_.reach.counts();
     return around;
   }
   void post(std::function<void()> task) override { asio::post(context_, std::move(task)); }
@@ -273,10 +273,8 @@ class BeastServer : public Server {
   // Of connections within this computer and of a proxy's nobody learns whether phones reach it.
   void note_reach(const Tcp::socket& socket, const asio::ip::address& from, const std::string& peer) {
     beast::error_code error;
-    const std::string own = plain_address(socket.local_endpoint(error).address()), other = plain_address(from);
-    if (error || other == own || is_own_address(other) || peer == shared_.proxy) return;
-    std::set<std::string>& peers = shared_.reached[own];
-    if (peers.size() < Shared::kMostReached) peers.insert(peer);
+    const std::string own = plain_address(socket.local_endpoint(error).address());
+    if (!error && peer != shared_.proxy) shared_.reach.note(own, plain_address(from));
   }
 
   void look_after(double time) {

@@ -23,9 +23,9 @@ class Check(unittest.TestCase):
         self.folder = self.place.name
         self.scene = os.path.join(ROOT, "scenes/studies/vote_on_demands.json")
 
-    def check(self, *more, port=None, scene=None, bind="127.0.0.1"):
+    def check(self, *more, port=None, scene=None, bind="127.0.0.1", journal=None):
         command = [PROGRAM, "serve", scene or self.scene, "--check", "--bind", bind, "--port", str(port or self.free_port()),
-                   "--journal", os.path.join(self.folder, "room.blsession"), *more]
+                   "--journal", journal or os.path.join(self.folder, "room.blsession"), *more]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=self.folder)
         found = {}
         for line in done.stdout.splitlines():
@@ -82,10 +82,10 @@ class Check(unittest.TestCase):
         self.assertIn("tick_ms", health["rooms"][0])
 
     def test_what_cannot_work_is_bad_and_says_so(self):
-        _, found = self.check("--journal", os.path.join(self.folder, "nowhere", "room.blsession"))
+        _, found = self.check(journal=os.path.join(self.folder, "nowhere", "room.blsession"))
         self.assertEqual(found["disk"][0][0], "bad")
         self.assertIn("nowhere", found["disk"][0][1])
-        _, found = self.check("--journal", "/proc/room.blsession")
+        _, found = self.check(journal="/proc/room.blsession")
         self.assertEqual(found["disk"][0][0], "bad", "nobody may write there, not even root")
         _, found = self.check(scene=os.path.join(self.folder, "missing.json"))
         self.assertEqual(found["scene"][0][0], "bad")

@@ -110,6 +110,20 @@ TEST(Addresses, PrivateOnesAreThoseOfTheStandards) {
   for (const NetworkAddress& one : network_addresses()) EXPECT_FALSE(is_own_address(one.address)) << one.address;
 }
 
+TEST(Addresses, DevicesThatComeAreCountedOnceAndThisComputerNever) {
+  Reach reach;
+  EXPECT_TRUE(reach.counts().empty());
+  reach.note("192.168.1.5", "192.168.1.5");
+  reach.note("127.0.0.1", "127.0.0.1");
+  EXPECT_TRUE(reach.counts().empty()) << "this computer is no other device";
+  for (int k = 0; k < 3; ++k) reach.note("192.168.1.5", "192.168.1.20");
+  reach.note("192.168.1.5", "192.168.1.21");
+  reach.note("10.0.0.2", "10.0.0.9");
+  EXPECT_EQ(reach.counts(), (std::map<std::string, std::size_t>{{"10.0.0.2", 1}, {"192.168.1.5", 2}}));
+  for (std::size_t k = 0; k < 2 * Reach::kMost; ++k) reach.note("10.0.0.2", "a" + std::to_string(k));
+  EXPECT_EQ(reach.counts().at("10.0.0.2"), Reach::kMost);
+}
+
 // --- Verdicts -------------------------------------------------------------------------------------------------------
 
 // More of what harms never gets a better verdict.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/define/json_text.h"
 #include "core/file/file_io.h"
 
 namespace bl::desktop {

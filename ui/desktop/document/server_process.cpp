@@ -21,9 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kOutput = "/output", *kComplaints = "/complaints", *kSecrets = "/secrets.json", *kNumber = "process";
-constexpr mode_t kMine = 0600;
 
-int new_file(const std::string& path) { return ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kMine); }
+// An empty file that only this person can read, open for writing; below 0 where there is none.
+int new_file(const std::string& path) {
+  std::error_code error;
+  if (!write_file(path, "")) return -1;
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write, error);
+  return error ? -1 : ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+}
 
 std::string text_of_file(const std::string& path) {
   auto text = read_file(path);

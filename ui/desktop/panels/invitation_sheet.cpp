@@ -1,12 +1,7 @@
 // The page holds its pictures itself: it needs no network to be printed.
 #include "ui/desktop/panels/invitation_sheet.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
+#include <filesystem>
 
 #include "core/file/file_io.h"
 #include "core/serve/qr_code.h"
@@ -39,12 +34,11 @@ Result<void> write_invitations(const std::string& path, const std::string& page,
                                const std::map<std::string, int>& people) {
   const auto text = invitation_page(page, keys, people);
   if (!text) return text.error();
-  // write_file keeps the mode of the file that is there.
-  const int file = ::open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (file < 0) return Error{ErrorCode::io, path, std::string("cannot be written: ") + std::strerror(errno)};
-  const bool is_private = ::fchmod(file, S_IRUSR | S_IWUSR) == 0;
-  ::close(file);
-  if (!is_private) return Error{ErrorCode::io, path, "cannot be kept from others who use this computer"};
+  // The file gets its mode before its content; write_file keeps the mode of the file that is there.
+  if (auto begun = write_file(path, ""); !begun) return begun;
+  std::error_code error;
+  std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, error);
+  if (error) return Error{ErrorCode::io, path, "cannot be kept from others who use this computer: " + error.message()};
   return write_file(path, *text);
 }
 
