@@ -82,6 +82,7 @@ void add_machine(const wire::HealthOut& health, Findings& findings) {
 }  // namespace
 
 void draw_health(const RoomDesk& desk) {
+  ImGui::Spacing();
   desk.heading("Health");
   note_place(desk.editor, "roompanel/health");
   if (const auto& health = desk.room.health()) {

@@ -293,11 +293,11 @@ void draw_room_panel(Workbench& editor) {
       draw_votes(all);
     });
     column("queue", draw_queue);
-    column("health", draw_health);
-    column("house", [](const RoomDesk& all) {
+    column("room", [](const RoomDesk& all) {
       draw_address(all);
-      draw_house(all);
+      draw_health(all);
     });
+    column("house", draw_house);
   } else {
     column("address", draw_address);
   }
