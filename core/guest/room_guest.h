@@ -100,6 +100,8 @@ class RoomGuest final : public host::Running {
   const People& people() const { return people_; }
   /// What the room shows of a view (`room`, `votes`, `comments`, `proposals`), by key; nothing until it has come.
   const std::map<std::string, JsonValue>& view(const std::string& name) const;
+  /// How the room and its computer are; only facilitators are told, every two seconds.
+  const std::optional<wire::HealthOut>& health() const { return health_; }
   /// Grows with each change of a view.
   std::uint64_t views_revision() const { return views_revision_; }
   std::int64_t seat() const { return seat_; }
@@ -141,6 +143,7 @@ class RoomGuest final : public host::Running {
   void hear_refusal(const wire::Nack& nack);
   void hear_view(const wire::StateOut& view);
   void hear_say(const wire::Say& say);
+  void find_page(const std::vector<std::string>& addresses);
   void say_hello();
   void say_due(double now);
   /// A snapshot is asked for soon.
@@ -171,6 +174,7 @@ class RoomGuest final : public host::Running {
   bool has_scene_ = false, is_stale_ = false, wants_resync_ = false, can_store_ = true;
   std::map<std::string, std::map<std::string, JsonValue>> views_;
   std::uint64_t views_revision_ = 0;
+  std::optional<wire::HealthOut> health_;
   Difference asked_;
   std::string asked_why_;
   std::int64_t differed_ = 0;

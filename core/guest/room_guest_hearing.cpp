@@ -7,6 +7,8 @@
 #include "core/guest/room_guest.h"
 #include "core/journal/packed.h"
 #include "core/room/room_state.h"
+#include "core/serve/machine.h"
+#include "core/serve/room_address.h"
 #include "core/wire/base64.h"
 #include "core/wire/operations.h"
 
@@ -99,7 +101,10 @@ void RoomGuest::hear_frame(const std::string& text) {
   else if (t == "state") with(&RoomGuest::hear_view);
   else if (t == "say") with(&RoomGuest::hear_say);
   else if (t == "pong") waits_for_pong_since_ = -1;
-  else if (t == "ack") {
+  else if (t == "health") {
+    if (auto message = wire::read_message<wire::HealthOut>(*json)) health_ = std::move(*message);
+    follower_.nudge();
+  } else if (t == "ack") {
     if (const auto message = wire::read_message<wire::Ack>(*json)) hear_answer(message->id);
   } else if (t == "presence") {
     const auto message = wire::read_message<wire::PresenceOut>(*json);
@@ -124,19 +129,35 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   mode_ = welcome.mode;
   epoch_ = welcome.epoch;
   people_.rate = welcome.rate;
+  find_page(welcome.addresses);
   if (!welcome.token.empty()) {
     options_.token = welcome.token;
     if (options_.keep_token) options_.keep_token(welcome.token);
   }
   is_welcome_ = true;
   can_store_ = true;  // else it says so
-  views_.clear();     // the first message of each has all of it
+  health_.reset();
+  views_.clear();  // the first message of each has all of it
   ++views_revision_;
   attempts_ = 0;
   ping_at_ = answer_at_ = began_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
   for (const Sent& sent : sent_) send(sent.frame);
   follower_.nudge();
+}
+
+// An address of this computer alone is none for phones. The server says by which others it is found.
+void RoomGuest::find_page(const std::vector<std::string>& addresses) {
+  const auto is_own = [](const std::string& page) {
+    const auto address = serve::room_address(page);
+    return !address || serve::is_own_address(address->host);
+  };
+  if (options_.page.empty() || !is_own(options_.page)) return;
+  for (const std::string& address : addresses)
+    if (const std::string page = address + "/" + options_.code; !is_own(page)) {
+      options_.page = page;
+      return;
+    }
 }
 
 void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {

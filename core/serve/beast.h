@@ -49,6 +49,8 @@ struct Shared {
   std::optional<asio::ssl::context> tls;
   std::string proxy;
   Gate gate;
+  std::optional<MachineWatch> machine;
+  Reach reach;
   /// Outlives the connections, which leave it.
   std::shared_ptr<std::set<Watched*>> watched = std::make_shared<std::set<Watched*>>();
   bool is_stopping = false;

@@ -12,6 +12,7 @@ struct Request {
   std::string host;                  ///< the field Host, or what a proxy says of it
   std::string scheme = "http";       ///< or https
   bool takes_gzip = false;
+  bool is_local = false;  ///< from this computer itself
 };
 
 struct Response {

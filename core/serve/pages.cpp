@@ -66,19 +66,40 @@ Response Pages::door() const {
   return {.body = page.str()};
 }
 
-Response Pages::health() const {
+// What of the computer tells strangers nothing that they could use. Its addresses are told on this computer alone.
+namespace {
+
+Json machine_json(const Machine& machine) {
+  Json json = Json::object();
+  if (machine.battery) json["battery"] = *machine.battery;
+  if (machine.is_on_mains) json["mains"] = *machine.is_on_mains;
+  if (!machine.wireless.empty()) json["wireless"] = machine.wireless;
+  if (machine.memory_free) json["memory_free"] = *machine.memory_free;
+  if (machine.disk_free) json["disk_free"] = *machine.disk_free;
+  return json;
+}
+
+}  // namespace
+
+Response Pages::health(bool is_local) const {
   Json rooms = Json::array();
   double disk = 0;
   for (const auto& [code, room] : *rooms_) {
     const RoomHost::Health health = room->health();
     Json one = {{"code", code},        {"seats", health.seats}, {"guests", health.guests},
                 {"tick", health.tick}, {"seq", health.seq},     {"hash", health.hash}};
+    one["tick_ms"] = health.tick_seconds * 1000;
     if (health.followers > 0) one["followers"] = health.followers;
     if (!health.problem.empty()) one["problem"] = health.problem;
     rooms.push_back(std::move(one));
     disk = std::max(disk, health.disk_seconds);
   }
-  const Json all = {{"rooms", rooms}, {"disk_ms", disk * 1000}};
+  Json all = {{"rooms", rooms}, {"disk_ms", disk * 1000}};
+  if (surroundings_) {
+    const Surroundings around = surroundings_();
+    all["machine"] = machine_json(around.machine);
+    if (is_local) all["reached"] = around.reached;
+  }
   return {.type = "application/json", .body = write_json_line(all) + "\n", .fields = {{"Cache-Control", "no-store"}}};
 }
 
@@ -123,7 +144,7 @@ void Pages::answer(const Request& request, const Reply& reply) {
     return plain(*room->second, request, what, reply);
   }
   if (!is_read) return reply(sentence(404, "There is no such form."));
-  if (path == "/health") return reply(health());
+  if (path == "/health") return reply(health(request.is_local));
   if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request));
   if (path == "/plain.css")
     return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});

@@ -341,7 +341,12 @@ void RoomHost::keep_records() {
                                          .scene = journal::pack(write_scene(scene, full_registry(), &saved))};
         return journal.add_snapshot(snapshot);
       },
-      [](const Result<void>&) {});
+      [this, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
+        if (!result) return;
+        options_.on_own_thread([this, is_alive] {
+          if (!is_alive.expired()) snapshot_stored_ = options_.clock->now();
+        });
+      });
 }
 
 // --- What is shown --------------------------------------------------------------------------------------------------
@@ -354,6 +359,7 @@ void RoomHost::follow_pace() {
 
 void RoomHost::turn() {
   followers_->turn();
+  tell_health();
   if (!problem_.empty()) return recover();
   serve_devices();
   // Whoever says something wakes the ticks; a room where nothing happens lets them rest.
@@ -424,20 +430,6 @@ void RoomHost::show(Visitor& visitor) {
 
 wire::View RoomHost::view(std::string_view name, std::int64_t seat) {
   return wire::make_view(name, sources(*session_->moment()->state), seat);
-}
-
-RoomHost::Health RoomHost::health() const {
-  Health health;
-  for (const auto& [number, seat] : room_->state().seats) health.seats += seat.is_removed ? 0 : 1;
-  health.guests = visitors_.size();
-  health.followers = followers_->count();
-  const auto moment = session_->moment();
-  health.tick = moment->state->tick;
-  health.seq = stored_seq_;
-  health.hash = hex_digits(moment->ticked->hash);
-  health.problem = problem_;
-  health.disk_seconds = writer_->latency().median;
-  return health;
 }
 
 }  // namespace bl::serve

@@ -16,6 +16,7 @@
 #include "core/room/room.h"
 #include "core/serve/followers.h"
 #include "core/serve/guest.h"
+#include "core/serve/machine.h"
 #include "core/serve/room_windows.h"
 #include "core/serve/trial_runner.h"
 #include "core/session/session.h"
@@ -36,6 +37,7 @@ struct RoomHostOptions {
   std::vector<std::string> addresses = {};                   ///< where pages find this server, such as `http://192.168.1.5:8080`
   /// The keys of invitations, and that of a second laptop, were made anew, and this is stored.
   std::function<void(const RoomHost&)> keys_renewed = {};
+  std::function<Surroundings()> surroundings = {};  ///< on the thread of the host; none: nothing is known of them
   bool takes_over = false;  ///< another laptop had the room, and may have had more of it: its windows begin anew
 };
 
@@ -83,7 +85,7 @@ class RoomHost {
     std::size_t seats = 0, guests = 0, followers = 0;
     std::int64_t tick = 0, seq = 0;
     std::string hash, problem;
-    double disk_seconds = 0;
+    double disk_seconds = 0, tick_seconds = 0;
   };
   Health health() const;
 
@@ -160,6 +162,10 @@ class RoomHost {
   void tell_ticks();
   /// Those that somebody has asked for in the entries after this one.
   void take_steps(std::int64_t since);
+  // Health (room_health.cpp).
+  wire::HealthOut health_message() const;
+  std::map<std::string, std::size_t> reached_addresses(const Surroundings& around) const;
+  void tell_health();
   /// False where the message has a wrong form.
   bool hear_window(Visitor& visitor, const std::string& t, const Json& frame, std::size_t size);
   void forget_presence(std::int64_t seat);
@@ -187,7 +193,9 @@ class RoomHost {
   std::int64_t stored_seq_ = 0;
   int commits_under_way_ = 0;
   std::string problem_;  // why nothing can be stored
-  double problem_since_ = 0, last_views_ = 0, last_snapshot_ = 0;
+  double problem_since_ = 0, last_views_ = 0, last_snapshot_ = 0, last_health_ = -1e9;
+  std::optional<double> snapshot_stored_;  // when, of this run of the program [s]
+  std::string journal_path_;
   std::int64_t snapshot_seq_ = 0, last_hash_tick_ = -1;
   bool is_changed_ = true;                                 // since the last views
   std::shared_ptr<const host::Moment> seen_;               // the moment of the last views

@@ -32,6 +32,7 @@ Result<Scene> usable_scene(const std::string& text, const std::string& place) {
 Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path, const std::string& code,
                                                  const std::string& scene_path, RoomHostOptions options) {
   std::unique_ptr<RoomHost> host(new RoomHost(code, std::move(options)));
+  host->journal_path_ = journal_path;
   const journal::Journal::Options how{.opened_at = host->options_.wall_time()};
   const bool is_there = std::filesystem::exists(journal_path);
   Result<std::unique_ptr<journal::Journal>> journal = Error{};

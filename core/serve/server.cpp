@@ -28,6 +28,13 @@ std::string network_of(const asio::ip::address& address) {
   return asio::ip::make_address_v6(bytes).to_string();
 }
 
+// As people write it: an IPv4 address also where it came by a socket of IPv6.
+std::string plain_address(const asio::ip::address& address) {
+  if (address.is_v6() && address.to_v6().is_v4_mapped())
+    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+  return address.to_string();
+}
+
 // The requests of one connection, one after the other.
 template <class Stream>
 class Caller : public std::enable_shared_from_this<Caller<Stream>> {
@@ -91,7 +98,8 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
                         request.body(),
                         host_,
                         asking.scheme,
-                        text_of(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos};
+                        text_of(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos,
+                        shared_.proxy.empty() && is_own_address(peer_)};
     shared_.pages->answer(plain, [self = this->shared_from_this(), is_try, address = asking.address](Response response) {
       if (is_try && response.status == 404) self->shared_.gate.note_failure(address, now());
       self->write(std::move(response));
@@ -190,7 +198,8 @@ class BeastServer : public Server {
       return Error{ErrorCode::io, "port " + std::to_string(options.port),
                    "cannot be opened: " + error.message() +
                        (error == asio::error::address_in_use ? "; another server may run there, choose another --port" : "")};
-    shared_.pages.emplace(shared_.rooms, options.page_folder);
+    if (!options.watched_folder.empty()) shared_.machine.emplace(options.watched_folder);
+    shared_.pages.emplace(shared_.rooms, options.page_folder, [this] { return surroundings(); });
     return {};
   }
 
@@ -199,6 +208,12 @@ class BeastServer : public Server {
     return acceptor_.local_endpoint(ignored).port();
   }
   Rooms& rooms() override { return shared_.rooms; }
+  Surroundings surroundings() const override {
+    Surroundings around;
+    if (shared_.machine) around.machine = shared_.machine->latest();
+    around.reached = shared_.reach.counts();
+    return around;
+  }
   void post(std::function<void()> task) override { asio::post(context_, std::move(task)); }
 
   void run() override {
@@ -245,6 +260,7 @@ class BeastServer : public Server {
     const auto end = socket.remote_endpoint(ignored);
     if (ignored) return;
     const std::string peer = network_of(end.address());
+    note_reach(socket, end.address(), peer);
     auto pass = shared_.gate.enter(peer, !shared_.proxy.empty() && peer == shared_.proxy);
     if (!pass) return;  // closed
     if (shared_.tls)
@@ -252,6 +268,13 @@ class BeastServer : public Server {
                                              peer)
           ->wait_for_turn();
     else std::make_shared<Caller<PlainStream>>(PlainStream(std::move(socket)), shared_, std::move(pass), peer)->wait_for_turn();
+  }
+
+  // Of connections within this computer and of a proxy's nobody learns whether phones reach it.
+  void note_reach(const Tcp::socket& socket, const asio::ip::address& from, const std::string& peer) {
+    beast::error_code error;
+    const std::string own = plain_address(socket.local_endpoint(error).address());
+    if (!error && peer != shared_.proxy) shared_.reach.note(own, plain_address(from));
   }
 
   void look_after(double time) {

@@ -16,7 +16,9 @@ struct ServerOptions {
   std::uint16_t port = 8080;     ///< 0: any free one
   std::string page_folder;       ///< of the built page; may be empty
   std::string certificate, key;  ///< PEM files; both for TLS, or neither
-  std::string proxy;             ///< the address of a proxy in front of the server; what it says of those it asks for is believed
+  std::string watched_folder =
+      {};             ///< of the session files: how much is free there, and how this computer is, is told; empty: nothing
+  std::string proxy;  ///< the address of a proxy in front of the server; what it says of those it asks for is believed
 };
 
 class Server {
@@ -27,6 +29,8 @@ class Server {
 
   virtual std::uint16_t port() const = 0;
   virtual Rooms& rooms() = 0;
+  /// How this computer is, and by which of its addresses others have come. On the thread of run().
+  virtual Surroundings surroundings() const = 0;
   /// Runs a task on the thread of run(); from any thread.
   virtual void post(std::function<void()> task) = 0;
   /// Serves until stop(); then closes the rooms in order.

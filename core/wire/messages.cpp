@@ -186,6 +186,36 @@ void Say::declare(MessageBuilder<Say>& m) {
   m.field(&Say::id, "id").required().doc("Which one; pages have the sentence.");
   m.field(&Say::args, "args").doc("What the sentence needs.");
 }
+void HealthOut::declare(MessageBuilder<HealthOut>& m) {
+  m.id("health").doc("How the room and its computer are; for facilitators. What nobody knows is -1, or missing.");
+  m.field(&HealthOut::tick_ms, "tick_ms").required().doc("Duration of a tick, smoothed, in milliseconds.");
+  m.field(&HealthOut::rate, "rate").required().doc("Ticks that are taken in a second.");
+  m.field(&HealthOut::wanted, "wanted").required().doc("Ticks in a second that the room wants.");
+  m.field(&HealthOut::settled, "settled").required().doc("On where the model has settled.");
+  m.field(&HealthOut::worst, "worst").required().doc("The largest error of a demand, as a share of it.");
+  m.field(&HealthOut::worst_of, "worst_of").doc("The node that has it.");
+  m.field(&HealthOut::failure, "failure").doc("Why the ticks have stopped.");
+  m.field(&HealthOut::problem, "problem").doc("Why nothing can be stored.");
+  m.field(&HealthOut::disk_ms, "disk_ms")
+      .required()
+      .doc("Duration of storing: half of the last hundred took no longer, in milliseconds.");
+  m.field(&HealthOut::disk_slow_ms, "disk_slow_ms").required().doc("The same of 95 in a hundred.");
+  m.field(&HealthOut::journal, "journal").required().doc("Bytes of the session file.");
+  m.field(&HealthOut::snapshot_age, "snapshot_age")
+      .required()
+      .doc("Seconds since the last snapshot was stored, since the room was opened.");
+  m.field(&HealthOut::followers, "followers").required().doc("Laptops that follow the room.");
+  m.field(&HealthOut::battery, "battery").required().doc("How full the battery is, from 0 to 1; -1 where there is none.");
+  m.field(&HealthOut::mains, "mains",
+          {{Mains::unknown, "unknown", "The system does not say."},
+           {Mains::yes, "yes", "The computer is plugged in."},
+           {Mains::no, "no", "It runs on its battery."}})
+      .doc("Whether the computer is plugged in.");
+  m.field(&HealthOut::wireless, "wireless").required().doc("{INTERFACE: quality of its Wi-Fi link, from 0 to 1}.");
+  m.field(&HealthOut::memory_free, "memory_free").required().doc("Bytes of memory that programs may still take.");
+  m.field(&HealthOut::disk_free, "disk_free").required().doc("Bytes that are free on the disk of the session file.");
+  m.field(&HealthOut::reached, "reached").required().doc("{ADDRESS: how many other devices have come by it}.");
+}
 void Pong::declare(MessageBuilder<Pong>& m) {
   m.id("pong").doc("The connection lives.");
   m.field(&Pong::n, "n").required().doc("Of the `ping`.");
@@ -205,7 +235,7 @@ std::vector<const MessageDefinition*> message_kinds() {
           &message_kind<Seen>(),        &message_kind<Ping>(),        &message_kind<PresenceIn>(), &message_kind<Resync>(),
           &message_kind<Welcome>(),     &message_kind<SnapshotOut>(), &message_kind<TickOut>(),    &message_kind<SceneOut>(),
           &message_kind<Ops>(),         &message_kind<Ack>(),         &message_kind<Nack>(),       &message_kind<StateOut>(),
-          &message_kind<PresenceOut>(), &message_kind<Say>(),         &message_kind<Pong>()};
+          &message_kind<PresenceOut>(), &message_kind<Say>(),         &message_kind<HealthOut>(),  &message_kind<Pong>()};
 }
 
 Json message_schema() {

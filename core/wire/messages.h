@@ -131,6 +131,21 @@ struct Say {
   JsonValue args = {};
   static void declare(MessageBuilder<Say>& m);
 };
+/// How the room and its computer are; for facilitators, every two seconds. A number below 0: nobody knows.
+struct HealthOut {
+  enum class Mains : std::uint8_t { unknown, yes, no };
+  double tick_ms = 0, rate = 0, wanted = 0;
+  bool settled = false;
+  double worst = 0;
+  std::string worst_of, failure, problem;
+  double disk_ms = 0, disk_slow_ms = 0;
+  std::int64_t journal = -1, snapshot_age = -1, followers = 0;
+  double battery = -1;
+  Mains mains = Mains::unknown;
+  JsonValue wireless = {}, reached = {};
+  std::int64_t memory_free = -1, disk_free = -1;
+  static void declare(MessageBuilder<HealthOut>& m);
+};
 struct Pong {
   std::int64_t n = 0, k = 0;
   static void declare(MessageBuilder<Pong>& m);

@@ -68,9 +68,15 @@ struct ServeOptions {
   bool is_live = false, scripts = false;
   std::string follow, token, trust;  ///< of a second laptop: the room of the first, its key, and whose certificates are believed
   bool is_safe = false;
-  double take_over = 0;  ///< [s]; 0: only when somebody says so
+  double take_over = 0;      ///< [s]; 0: only when somebody says so
+  bool is_checking = false;  ///< says whether all is ready, and opens nothing
+  std::string json;          ///< of the check
 };
 int serve_command(ServeOptions options);
+/// `serve --check`: measures what a session needs, one line for each finding.
+int check_before_serving(const ServeOptions& options);
+/// Where the session of a scene is kept: in the folder or file that was named, or in the present folder under the scene's name.
+std::string journal_of(const ServeOptions& options, const std::string& source);
 /// Follows a room until it is to be taken over: then there is no exit code, and the options name the copy as what to serve.
 std::optional<int> follow_room(ServeOptions& options);
 

@@ -27,6 +27,14 @@ void declare_follow(CLI::App& c, CLI::Option& sources, ServeOptions& o) {
       ->needs(follow);
 }
 
+void declare_check(CLI::App& c, ServeOptions& o) {
+  auto* check = c.add_flag("--check", o.is_checking,
+                           "Opens no room, but says whether all is ready for one: disk, power, network, clock, scene. "
+                           "Each line says good, look or bad, the figure, and what to do.")
+                    ->excludes("--follow");
+  c.add_option("--json", o.json, "With --check: writes the findings as JSON, too.")->type_name("FILE")->needs(check);
+}
+
 }  // namespace
 
 void declare_serve(CLI::App& app, ServeOptions& o) {
@@ -62,9 +70,11 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
                "The address of a proxy in front of the server. What it says in X-Forwarded-For, -Host and -Proto is believed.")
       ->type_name("ADDRESS");
   declare_follow(c, *sources, o);
+  declare_check(c, o);
   files_of(c)
       .reads({"sources", "--journal", "--page", "--certificate", "--key", "--trust"})
-      .writes("--invites", FileKind::figures);
+      .writes("--invites", FileKind::figures)
+      .writes("--json", FileKind::figures);
   c.footer(
       "One line for each room says its code and its address; another one the address of the facilitator. Whoever opens the "
       "first\n"
@@ -74,8 +84,11 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
       "or\n"
       "after --take-over seconds; then it serves the room as the first did.\n\n"
       "Example:\n  behaviourlinks serve scenes/start/quarter.json --port 8080\n"
-      "  behaviourlinks serve --follow room://192.168.1.5:8080/BKRT --token KEY --journal copy.blsession\n\n"
-      "Exit codes: 0 closed in order; 2 bad input, or the port or the file is in use.");
+      "  behaviourlinks serve --follow room://192.168.1.5:8080/BKRT --token KEY --journal copy.blsession\n"
+      "  behaviourlinks serve scenes/start/quarter.json --check\n\n"
+      "Exit codes: 0 closed in order, or with --check nothing is bad; 2 bad input, or the port or the file is in use; 3 with "
+      "--check\n"
+      "something is bad.");
 }
 
 void declare_rehearse(CLI::App& app, RehearseOptions& o) {

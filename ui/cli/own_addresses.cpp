@@ -1,10 +1,7 @@
 // Asks the system for the addresses of its networks.
 #include "ui/cli/own_addresses.h"
 
-#include <ifaddrs.h>
-#include <net/if.h>
-#include <netdb.h>
-#include <sys/socket.h>
+#include "core/serve/machine.h"
 
 namespace bl::cli {
 
@@ -12,32 +9,24 @@ namespace {
 
 // Those that others can reach; 127.0.0.1 where there is none.
 std::vector<std::string> hosts() {
-  ifaddrs* all = nullptr;
   std::vector<std::string> found;
-  if (getifaddrs(&all) == 0) {
-    for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
-      const bool is_usable = one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET && (one->ifa_flags & IFF_UP) != 0 &&
-                             (one->ifa_flags & IFF_LOOPBACK) == 0;
-      char text[NI_MAXHOST] = "";
-      if (is_usable && getnameinfo(one->ifa_addr, sizeof(sockaddr_in), text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0)
-        found.emplace_back(text);
-    }
-    freeifaddrs(all);
-  }
+  for (const serve::NetworkAddress& one : serve::network_addresses()) found.push_back(one.address);
   if (found.empty()) found.emplace_back("127.0.0.1");
   return found;
 }
 
 }  // namespace
 
+std::string url_of(const ServeOptions& options, const std::string& host, int port) {
+  const bool is_long = host.find(':') != std::string::npos;  // IPv6
+  return (options.certificate.empty() ? "http://" : "https://") + (is_long ? "[" + host + "]" : host) + ":" +
+         std::to_string(port);
+}
+
 std::vector<std::string> own_addresses(const ServeOptions& options, int port) {
   const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
-  const std::string scheme = options.certificate.empty() ? "http://" : "https://";
   std::vector<std::string> all = is_everywhere ? hosts() : std::vector{options.bind};
-  for (std::string& one : all) {
-    const bool is_long = one.find(':') != std::string::npos;  // IPv6
-    one = scheme + (is_long ? "[" + one + "]" : one) + ":" + std::to_string(port);
-  }
+  for (std::string& one : all) one = url_of(options, one, port);
   return all;
 }
 

@@ -37,18 +37,6 @@ std::string new_code() {
   return code;
 }
 
-bool is_session_file(const std::string& path) { return fs::path(path).extension() == ".blsession"; }
-
-// Where the session of a scene is kept: in the folder or file that was named, or in the present folder under the scene's name.
-std::string journal_of(const ServeOptions& options, const std::string& source) {
-  if (is_session_file(source)) return source;
-  const std::string name = fs::path(source).stem().string() + ".blsession";
-  if (options.journal.empty()) return name;
-  std::error_code ignored;
-  return fs::is_directory(options.journal, ignored) || options.sources.size() > 1 ? (fs::path(options.journal) / name).string()
-                                                                                  : options.journal;
-}
-
 Result<void> write_invites(const std::string& path, const serve::Rooms& rooms) {
   Json all = Json::object();
   for (const auto& [code, room] : rooms) {
@@ -105,12 +93,22 @@ bool open_rooms(const ServeOptions& options, serve::RoomHostOptions how, serve::
 
 }  // namespace
 
+std::string journal_of(const ServeOptions& options, const std::string& source) {
+  if (fs::path(source).extension() == ".blsession") return source;
+  const std::string name = fs::path(source).stem().string() + ".blsession";
+  if (options.journal.empty()) return name;
+  std::error_code ignored;
+  return fs::is_directory(options.journal, ignored) || options.sources.size() > 1 ? (fs::path(options.journal) / name).string()
+                                                                                  : options.journal;
+}
+
 int serve_command(ServeOptions options) {
   const bool has_followed = !options.follow.empty();
   if (!has_followed && options.sources.empty()) {
     print_error("serve", {ErrorCode::missing, "", "expects a scene, a session file, or --follow"});
     return kBadInput;
   }
+  if (options.is_checking) return check_before_serving(options);
   if (has_followed)
     if (const auto code = follow_room(options)) return *code;
   serve::ServerOptions how{.address = options.bind,
@@ -121,6 +119,8 @@ int serve_command(ServeOptions options) {
                            .proxy = options.proxy};
   if (how.page_folder.empty())
     if (const char* page = std::getenv("BEHAVIOURLINKS_PAGE")) how.page_folder = page;
+  const fs::path stored = fs::absolute(journal_of(options, options.sources.front()));
+  how.watched_folder = stored.parent_path().string();
   auto server = serve::Server::open(how);
   if (!server) {
     print_error("serve", server.error());
@@ -134,6 +134,7 @@ int serve_command(ServeOptions options) {
   const std::vector<std::string> addresses = own_addresses(options, (*server)->port());
   if (options.proxy.empty()) room_options.addresses = addresses;  // else people know the proxy's
   room_options.keys_renewed = [&](const serve::RoomHost& room) { tell_renewal(options, rooms, room, addresses.front()); };
+  room_options.surroundings = [&server] { return (*server)->surroundings(); };
   room_options.on_own_thread = [&server](std::function<void()> task) { (*server)->post(std::move(task)); };
   if (!open_rooms(options, std::move(room_options), rooms)) return kBadInput;
   if (!options.invites.empty())

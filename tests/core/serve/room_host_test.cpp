@@ -307,5 +307,17 @@ TEST_F(RoomHosts, AnAddressOfALaptopIsNothingElse) {
   EXPECT_FALSE(join("a", "", {})->last("welcome")->contains("addresses"));
 }
 
+TEST_F(RoomHosts, OnlyFacilitatorsHearHowTheRoomIs) {
+  const auto lead = join("lead", "facilitator", {"room"}), other = join("other", "designer", {"room"});
+  run_until([&] { return lead->last("health") != nullptr; });
+  const Json& health = *lead->last("health");
+  const auto read = wire::read_message<wire::HealthOut>(health);
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_GT(read->wanted, 0);
+  EXPECT_GT(read->journal, 0);
+  EXPECT_EQ(read->battery, -1) << "nobody has said anything of this computer";
+  EXPECT_EQ(other->last("health"), nullptr);
+}
+
 }  // namespace
 }  // namespace bl::serve

@@ -31,6 +31,7 @@ void each_member(Settings& s, Visit visit) {
   visit("layers", s.layers);
   visit("seats", s.seats);
   visit("recent_rooms", s.recent_rooms);
+  visit("plans", s.plans);
 }
 
 }  // namespace

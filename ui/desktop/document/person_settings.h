@@ -22,6 +22,7 @@ struct PersonSettings {
   std::vector<std::string> recent_additions;  ///< typifications and link kinds that were added last
   std::map<std::string, bool> layers;         ///< of the 3D view, by id; those that differ from their defaults
   std::map<std::string, std::string> seats;   ///< in rooms: by HOST:PORT/CODE, what opens the seat again
+  std::map<std::string, std::string> plans;   ///< by the code of a room: the phases that this person has planned for it
   std::string file;                           ///< where it is kept; empty: nowhere (tests)
 
   void remember(std::vector<std::string>& list, const std::string& item, std::size_t most = 12);

@@ -9,6 +9,7 @@
 #include "core/report/report.h"
 #include "ui/desktop/document/import_task.h"
 #include "ui/desktop/look/buttons.h"
+#include "ui/desktop/panels/host_dialog.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
@@ -54,7 +55,7 @@ void tell_saved(Workbench& editor, const std::string& what) {
 
 }  // namespace
 
-Dialogs::Dialogs(Workbench& editor) : editor_(&editor) {}
+Dialogs::Dialogs(Workbench& editor) : editor_(&editor), host_(std::make_unique<HostDialog>(editor)) {}
 Dialogs::~Dialogs() = default;
 
 void Dialogs::show(Kind kind) {
@@ -109,6 +110,7 @@ bool Dialogs::draw_foot(const char* action, const char* place, const std::string
 }
 
 void Dialogs::draw() {
+  watch_hosting(*editor_);
   const Kind drawn = kind_;
   if (kind_ == Kind::palette) draw_palette();
   else if (kind_ == Kind::keys) draw_keys();
@@ -117,10 +119,13 @@ void Dialogs::draw() {
   else if (kind_ == Kind::recovery) draw_recovery();
   else if (kind_ == Kind::import) draw_import();
   else if (kind_ == Kind::join) draw_join();
+  else if (kind_ == Kind::host) draw_host();
+  else if (kind_ == Kind::leave) draw_leave();
   std::erase_if(ending_, [](const std::unique_ptr<ImportTask>& task) { return task->is_done(); });
   // What one dialog has opened in its place comes in the next frame, and is fresh then.
   if (kind_ == drawn) is_fresh_ = false;
-  if (kind_ == Kind::fresh || kind_ == Kind::import || kind_ == Kind::join) return;  // their choosers are drawn inside them
+  if (kind_ == Kind::fresh || kind_ == Kind::import || kind_ == Kind::join || kind_ == Kind::host)
+    return;  // their choosers are drawn inside them
   if (const auto path = chooser_.draw(*editor_)) {
     const auto chosen = chosen_;  // may open the chooser for something else
     chosen(*path);
@@ -128,10 +133,18 @@ void Dialogs::draw() {
 }
 
 void Dialogs::ask_open() {
-  guard([this] {
-    chooser_.open(FileChooser::Purpose::open_file, "Open a scene", {".json"}, folder_of(*editor_));
-    chosen_ = [this](const std::string& path) { editor_->open(path, true); };
-  });
+  guard([this] { choose_scene(); });
+}
+
+void Dialogs::choose(FileChooser::Purpose purpose, const std::string& title, std::vector<std::string> endings,
+                     const std::string& start, std::function<void(const std::string&)> chosen) {
+  chooser_.open(purpose, title, std::move(endings), start);
+  chosen_ = std::move(chosen);
+}
+
+void Dialogs::choose_scene() {
+  choose(FileChooser::Purpose::open_file, "Open a scene", {".json"}, folder_of(*editor_),
+         [this](const std::string& path) { editor_->open(path, true); });
 }
 
 void Dialogs::ask_script() {
@@ -196,6 +209,7 @@ void Dialogs::ask_import_report() {
 
 void Dialogs::guard(std::function<void()> then) {
   stop_import();  // it was made for the scene that may go
+  if (editor_->hosting) then = [this, then = std::move(then)] { ask_leave(then); };
   if (!editor_->document || !editor_->document->is_unsaved()) return then();
   then_ = std::move(then);
   show(Kind::unsaved);

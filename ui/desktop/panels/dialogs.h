@@ -13,6 +13,7 @@
 
 namespace bl::desktop {
 
+class HostDialog;
 class ImportTask;
 
 class Dialogs {
@@ -24,6 +25,16 @@ class Dialogs {
   void ask_open();
   /// Asks for the address of a room, and joins it.
   void ask_join();
+  /// Opens a room for the open scene, page by page.
+  void show_host();
+  HostDialog& host() { return *host_; }
+  /// Asks what becomes of the room that this window has opened; `then` follows unless people think better of it.
+  void ask_leave(std::function<void()> then);
+  /// A file or folder; `chosen` gets it. The dialog that asks stays open.
+  void choose(FileChooser::Purpose purpose, const std::string& title, std::vector<std::string> endings, const std::string& start,
+              std::function<void(const std::string&)> chosen);
+  /// A scene to open, from inside another dialog.
+  void choose_scene();
   void ask_save_as(std::function<void()> then = {});
   void ask_report();
   void ask_log();
@@ -50,7 +61,7 @@ class Dialogs {
   bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
-  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import, join };
+  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import, join, host, leave };
   enum class Recovered { nothing, in_part, all };
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
@@ -65,6 +76,9 @@ class Dialogs {
   void draw_unsaved();
   void draw_recovery();
   void draw_join();
+  // host_leaving.cpp
+  void draw_host();
+  void draw_leave();
   Recovered recover(const host::Journal::UnsavedJournal& remains);
   void make_scene();
 
@@ -90,6 +104,8 @@ class Dialogs {
   bool is_told_error_ = false;
   std::vector<host::Journal::UnsavedJournal> remains_;
   making::ImportOptions import_;
+  std::unique_ptr<HostDialog> host_;
+  double end_asked_at_ = -1;  ///< when the room was asked to end [s]; below 0: it was not
   void stop_import();
   std::unique_ptr<ImportTask> import_task_;
   std::vector<std::unique_ptr<ImportTask>> ending_;  ///< stopped, but not through yet

@@ -26,6 +26,8 @@ void back_to_saved(Workbench& editor) {
   editor.dialogs->guard([&editor, path] { editor.open(path, true); });
 }
 
+bool can_host(const Workbench& editor) { return !has_document(editor) || editor.document->room() == nullptr; }
+bool has_hosted(const Workbench& editor) { return editor.hosting != nullptr; }
 bool has_imports(const Workbench& editor) { return has_document(editor) && !editor.document->imports().empty(); }
 bool has_log(const Workbench& editor) { return has_document(editor) && editor.document->room() == nullptr; }
 bool has_file(const Workbench& editor) { return has_document(editor) && !editor.document->source().empty(); }
@@ -39,6 +41,8 @@ void add_file_actions(std::vector<Action>& list) {
   file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Workbench& e) { e.dialogs->show_new_scene(); });
   file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Workbench& e) { e.dialogs->ask_open(); });
   file("Join a room ...", {GLFW_KEY_J, true}, nullptr, [](Workbench& e) { e.dialogs->ask_join(); });
+  file("Host a session ...", {}, can_host, [](Workbench& e) { e.dialogs->show_host(); });
+  file("End the hosted session ...", {}, has_hosted, [](Workbench& e) { close_document(e); });
   file("Import surroundings ...", {GLFW_KEY_I, true}, nullptr, [](Workbench& e) { e.dialogs->show_import(); });
   file("Add link script ...", {}, has_document, [](Workbench& e) { e.dialogs->ask_script(); });
   file("Save", {GLFW_KEY_S, true}, has_document, [](Workbench& e) { e.dialogs->save(); });

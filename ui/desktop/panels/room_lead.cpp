@@ -142,23 +142,6 @@ std::string choose(const RoomDesk& desk, const NamedChoice (&choices)[N], const 
   return pressed;
 }
 
-void draw_health(const RoomDesk& desk) {
-  desk.heading("Health");
-  const guest::Standing standing = desk.room.standing();
-  const Colours& c = desk.editor.theme.colours();
-  const auto moment = desk.room.moment();
-  desk.quiet("Tick " + reading::grouped(static_cast<double>(desk.room.follower().tick())) + ", " +
-             (desk.room.people().is_paused ? "paused" : reading::readable(desk.room.people().rate) + " ticks a second") + ", " +
-             reading::duration(moment->tick_seconds) + " for a tick here.");
-  ImGui::PushStyleColor(ImGuiCol_Text, standing.can_store ? c.good : c.bad);
-  ImGui::TextUnformatted(standing.can_store ? "The room stores what is said." : "The room cannot store anything.");
-  ImGui::PopStyleColor();
-  desk.quiet(standing.waiting == 0 ? "Nothing of this window waits for an answer."
-                                   : std::to_string(standing.waiting) + " of this window wait for an answer.");
-  if (desk.room.differed() > 0)
-    desk.quiet("This window had another result than the server " + std::to_string(desk.room.differed()) + " times.");
-}
-
 }  // namespace
 
 void draw_leading(const RoomDesk& desk) {
@@ -204,7 +187,6 @@ void draw_house(const RoomDesk& desk) {
     desk.say("mark", JsonValue::of({{"kind", "decision"}, {"text", decision}}));
     decision.clear();
   }
-  draw_health(desk);
   if (desk.sure_button("End the session", "roompanel/end", "From then on nothing is changed or said. End it?", "End the session"))
     desk.say("close_room", JsonValue::of(Json::object()));
 }

@@ -267,7 +267,7 @@ void draw_room_panel(Workbench& editor) {
   else if (room->people().is_closed) desk.why_not = "The session is over.";
   if (!desk.why_not.empty()) desk.quiet(desk.why_not);
   const ImVec2 size = ImGui::GetContentRegionAvail();
-  if (!ImGui::BeginTable("room", desk.leads ? 5 : 3, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV, size)) return;
+  if (!ImGui::BeginTable("room", desk.leads ? 6 : 3, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV, size)) return;
   const auto column = [&](const char* name, void (*draw)(const RoomDesk&)) {
     ImGui::TableNextColumn();
     ImGui::BeginChild(name, {0, size.y - editor.theme.px(8)});
@@ -280,8 +280,12 @@ void draw_room_panel(Workbench& editor) {
   });
   column("now", [](const RoomDesk& all) {
     draw_now(all);
-    if (all.leads) draw_leading(all);
-    else draw_votes(all);
+    if (all.leads) {
+      draw_plan(all);
+      draw_leading(all);
+    } else {
+      draw_votes(all);
+    }
   });
   if (desk.leads) {
     column("votes", [](const RoomDesk& all) {
@@ -289,10 +293,11 @@ void draw_room_panel(Workbench& editor) {
       draw_votes(all);
     });
     column("queue", draw_queue);
-    column("house", [](const RoomDesk& all) {
-      draw_house(all);
+    column("room", [](const RoomDesk& all) {
       draw_address(all);
+      draw_health(all);
     });
+    column("house", draw_house);
   } else {
     column("address", draw_address);
   }

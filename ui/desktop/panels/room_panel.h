@@ -33,6 +33,9 @@ void draw_pens(Workbench& editor, guest::RoomGuest& room);
 /// Of facilitators: phase and pace; what waits for a decision; door, beamer, minutes and the end.
 void draw_leading(const RoomDesk& desk);
 void draw_queue(const RoomDesk& desk);
+/// Of facilitators: the phases that they have planned, and how the room and its computer are.
+void draw_plan(const RoomDesk& desk);
+void draw_health(const RoomDesk& desk);
 void draw_house(const RoomDesk& desk);
 /// Of facilitators, below somebody's name.
 void draw_seat_menu(const RoomDesk& desk, const AgendaSeat& seat);

@@ -91,6 +91,8 @@ void StartPage::draw_beginnings(float width) {
     editor_->dialogs->show_new_scene();
   if (row(theme, icon::kFolder, "Open a scene", "or drop a file onto this window")) editor_->dialogs->ask_open();
   if (row(theme, icon::kLink, "Join a room", "an address such as room://192.168.1.20:8080/BKRT")) editor_->dialogs->ask_join();
+  if (row(theme, icon::kHome, "Host a session", "people take part by their phones, in this network"))
+    editor_->dialogs->show_host();
   ImGui::Dummy({0, theme.px(16)});
   if (!editor_->problems.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, c.bad);

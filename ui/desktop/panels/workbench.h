@@ -1,8 +1,10 @@
 // What panels share besides the editor: the other panels, for actions that concern them.
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "ui/desktop/document/hosting.h"
 #include "ui/desktop/editor/editor.h"
 
 namespace bl::desktop {
@@ -27,6 +29,8 @@ class Workbench : public Editor {
   SceneView* view = nullptr;
   Dialogs* dialogs = nullptr;
   MenuOpening menu_opening;
+  std::unique_ptr<Hosting> hosting;  ///< the room of the document, where this window has opened it
+  std::string server_program;        ///< the program that serves rooms; empty: the one beside this one
 
   /// Saves the document with the places of all boxes that people have seen since they changed something.
   Result<void> save(const std::string& path);

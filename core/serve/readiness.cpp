@@ -1,0 +1,154 @@
+// The limits, with their reasons; and the sentences.
+#include "core/serve/readiness.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/text.h"
+#include "core/reading/figures.h"
+
+namespace bl::serve {
+
+namespace {
+
+constexpr std::array<const char*, 3> kWords = {"good", "look", "bad"};
+constexpr std::size_t kSubjectWidth = 11;
+
+// People wait for two commits, their own and that of whom they answer; a fifth of a second is felt as a delay. [s]
+constexpr double kSlowCommit = 0.02, kBadCommit = 0.05, kSlowestCommit = 0.25;
+// A session of two hours with fifty people writes less than 50 MB; the system and the browser want more.
+constexpr std::int64_t kLowDisk = 1 << 30, kBadDisk = 200 << 20;
+constexpr std::int64_t kLowMemory = 1 << 30, kBadMemory = 256 << 20;
+constexpr double kLowBattery = 0.3;
+// A tick that takes more than this share of the time between two leaves too little for what people say meanwhile.
+constexpr double kBusy = 0.5, kTooBusy = 0.95;
+constexpr double kWeakWireless = 0.4;
+
+std::string percent(double share) { return std::to_string(static_cast<int>(100 * share + 0.5)) + " %"; }
+std::string size(std::int64_t bytes) {
+  constexpr double kMegabyte = 1e6, kGigabyte = 1e9;
+  const auto count = static_cast<double>(bytes);
+  return count < kGigabyte ? reading::readable(count / kMegabyte) + " MB" : reading::readable(count / kGigabyte) + " GB";
+}
+
+Finding judge_size(const char* subject, std::optional<std::int64_t> bytes, std::int64_t low, std::int64_t bad,
+                   const std::string& of, const std::string& advice) {
+  if (!bytes) return {Verdict::look, subject, "The system does not say how much is free " + of + "."};
+  const Verdict verdict = *bytes < bad ? Verdict::bad : *bytes < low ? Verdict::look : Verdict::good;
+  return {verdict, subject, size(*bytes) + " are free " + of + "." + (verdict == Verdict::good ? "" : " " + advice)};
+}
+
+}  // namespace
+
+const char* word_of(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
+
+std::string line_of(const Finding& finding) {
+  std::string line = word_of(finding.verdict);
+  line.resize(6, ' ');
+  line += finding.subject;
+  line.resize(std::max(line.size() + 1, 6 + kSubjectWidth), ' ');
+  std::string text = finding.text;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return line + text;
+}
+
+std::optional<Finding> finding_of_line(const std::string& line) {
+  for (std::size_t k = 0; k < kWords.size(); ++k) {
+    if (!line.starts_with(std::string(kWords[k]) + " ")) continue;
+    const std::size_t subject = line.find_first_not_of(' ', std::string(kWords[k]).size());
+    const std::size_t end = subject == std::string::npos ? subject : line.find(' ', subject);
+    const std::size_t text = end == std::string::npos ? end : line.find_first_not_of(' ', end);
+    if (text == std::string::npos) return std::nullopt;
+    return Finding{static_cast<Verdict>(k), line.substr(subject, end - subject), line.substr(text)};
+  }
+  return std::nullopt;
+}
+
+Finding judge_commits(const Durations& times) {
+  const std::string figure = "Storing takes " + reading::duration(times.median) + " mostly and " +
+                             reading::duration(times.worst) + " at worst, of " + std::to_string(times.count) + " times.";
+  if (times.median > kBadCommit)
+    return {Verdict::bad, "disk",
+            figure +
+                " Every answer waits for that. Put the session file on a disk inside this computer, and not "
+                "on a memory card, a stick or a drive of the network."};
+  if (times.median > kSlowCommit || times.worst > kSlowestCommit)
+    return {Verdict::look, "disk", figure + " People feel such a delay. Close what else writes to this disk, and check again."};
+  return {Verdict::good, "disk", figure};
+}
+
+Finding judge_free_disk(std::optional<std::int64_t> bytes) {
+  return judge_size("space", bytes, kLowDisk, kBadDisk, "on the disk of the session file",
+                    "Remove what you do not need: when the disk is full, nothing is stored any more.");
+}
+
+Finding judge_memory(std::optional<std::int64_t> bytes) {
+  return judge_size("memory", bytes, kLowMemory, kBadMemory, "in the memory", "Close other programs.");
+}
+
+Finding judge_power(const Machine& machine) {
+  if (!machine.battery) {
+    if (!machine.is_on_mains || *machine.is_on_mains)
+      return {Verdict::good, "power", "This computer has no battery and runs on mains."};
+    return {Verdict::look, "power", "The power supply says that it is not plugged in."};
+  }
+  const std::string figure = "The battery is at " + percent(*machine.battery);
+  if (machine.is_on_mains.value_or(false)) return {Verdict::good, "power", figure + ", and the computer is plugged in."};
+  const Verdict verdict = *machine.battery < kLowBattery ? Verdict::bad : Verdict::look;
+  return {verdict, "power", figure + ", and the computer is not plugged in. Plug it in, and switch off its sleep."};
+}
+
+Finding judge_clock(std::optional<bool> is_set) {
+  if (is_set.value_or(false)) return {Verdict::good, "clock", "The clock is set by a time server."};
+  const std::string what = is_set ? "The clock follows no time server." : "The system does not say whether its clock is right.";
+  return {Verdict::look, "clock", what + " Compare it with a phone: the minutes have its times, and phones count down to them."};
+}
+
+Finding judge_ticks(const Durations& times, double rate) {
+  const double most = 1 / rate;
+  const std::string figure = "A tick of the scene takes " + reading::duration(times.median) + " mostly and " +
+                             reading::duration(times.worst) + " at worst. At " + shortest(rate) + " ticks a second it may take " +
+                             reading::duration(most) + ".";
+  if (times.median > kTooBusy * most)
+    return {Verdict::bad, "ticks",
+            figure + " The scene is too slow for this computer. Take a smaller scene, or set fewer ticks a second in the room."};
+  if (times.median > kBusy * most || times.worst > kTooBusy * most)
+    return {Verdict::look, "ticks", figure + " This is close. Close other programs, or set fewer ticks a second in the room."};
+  return {Verdict::good, "ticks", figure};
+}
+
+Finding judge_wireless(const std::string& interface, double quality) {
+  const bool is_weak = quality < kWeakWireless;
+  return {is_weak ? Verdict::look : Verdict::good, "network",
+          "The Wi-Fi of " + interface + " is at " + percent(quality) + "." +
+              (is_weak ? " That is weak: stand nearer to the router, or use a cable." : "")};
+}
+
+Finding judge_reach(const std::string& url, std::size_t count) {
+  if (count > 0) return {Verdict::good, "network", reading::counted(count, "other device") + " reached " + url + "."};
+  return {
+      Verdict::look, "network",
+      "Nobody has reached " + url +
+          " yet. Open it on a phone. If that fails, the Wi-Fi keeps its guests apart or a firewall closes the port; use a router "
+          "of your own."};
+}
+
+Finding judge_address(const NetworkAddress& address, const std::string& url, const Machine& machine,
+                      std::optional<std::size_t> reached) {
+  const auto radio = machine.wireless.find(address.interface);
+  const bool is_radio = radio != machine.wireless.end();
+  Finding finding{address.is_private ? Verdict::good : Verdict::look, "network",
+                  url + " (" + address.interface + (is_radio ? ", Wi-Fi" : ", no Wi-Fi") + ") is an address of " +
+                      (address.is_private ? "this network alone."
+                                          : "the Internet. Whoever finds it may come in where no firewall stands before it.")};
+  const auto add = [&finding](const Finding& more) {
+    finding.verdict = std::max(finding.verdict, more.verdict);
+    finding.text += " " + more.text;
+  };
+  if (is_radio) add(judge_wireless(address.interface, radio->second));
+  if (reached) add(judge_reach("it", *reached));
+  else add({Verdict::good, "", "Open the room, then the address on a phone: only that shows that phones reach it."});
+  return finding;
+}
+
+}  // namespace bl::serve

@@ -1,0 +1,45 @@
+// Is this computer ready for a session? Each figure gets a verdict, and a sentence that says what to do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/serve/machine.h"
+#include "core/serve/measuring.h"
+
+namespace bl::serve {
+
+/// A traffic light in words: nothing to do; have a look at it; the session will suffer from it.
+enum class Verdict : std::uint8_t { good, look, bad };
+/// `good`, `look`, `bad`.
+const char* word_of(Verdict verdict);
+
+struct Finding {
+  Verdict verdict = Verdict::good;
+  std::string subject;  ///< one word, such as `disk`
+  std::string text;     ///< the figure, and what to do where it is not good
+  bool operator==(const Finding&) const = default;
+};
+/// `good  disk      A commit takes ...`: one line, as scripts and the window read it. A text of several lines becomes one.
+std::string line_of(const Finding& finding);
+/// The finding of such a line; nothing where it is none.
+std::optional<Finding> finding_of_line(const std::string& line);
+
+Finding judge_commits(const Durations& times);
+Finding judge_free_disk(std::optional<std::int64_t> bytes);
+Finding judge_power(const Machine& machine);
+Finding judge_memory(std::optional<std::int64_t> bytes);
+Finding judge_clock(std::optional<bool> is_set);
+/// `rate`: the ticks in a second that a room wants.
+Finding judge_ticks(const Durations& times, double rate);
+/// `quality`: 0 to 1.
+Finding judge_wireless(const std::string& interface, double quality);
+/// How many other devices have come by an address of an open room.
+Finding judge_reach(const std::string& url, std::size_t count);
+/// An address of a server. `reached`: how many other devices have come by it; missing where no room is open.
+Finding judge_address(const NetworkAddress& address, const std::string& url, const Machine& machine,
+                      std::optional<std::size_t> reached);
+
+}  // namespace bl::serve
