@@ -15,6 +15,7 @@
 
 #include "core/file/descriptor.h"
 #include "core/file/file_io.h"
+#include "core/file/private_file.h"
 
 namespace bl {
 
@@ -119,13 +120,14 @@ struct Temporary {
 
 // A file of our own, locked for as long as we write it: that tells it from what a program that is gone has left. Old rights come
 // later, so that nobody reads along before.
-Result<Temporary> new_temporary(const SavePlace& place, const std::string& path) {
+Result<Temporary> new_temporary(const SavePlace& place, const std::string& path, bool is_private = false) {
   for (int tries = 0; tries < kMostTries; ++tries) {
     const std::string digits = unguessable_name();
     if (digits.empty()) return io_error(path, "cannot be written");
-    Temporary made{Descriptor(::openat(place.folder.number(), (place.mark() + digits).c_str(),
-                                       O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place.is_there ? 0600 : 0666)),
-                   place.mark() + digits};
+    Temporary made{
+        Descriptor(::openat(place.folder.number(), (place.mark() + digits).c_str(),
+                            O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place.is_there || is_private ? 0600 : 0666)),
+        place.mark() + digits};
     if (!made.file.is_open() && errno == EEXIST) continue;
     if (!made.file.is_open()) return io_error(path, "cannot be written");
     // Somebody who clears up may have come in between.
@@ -237,6 +239,27 @@ Result<void> sync_folder(const SavePlace& place, const std::string& path) {
   return {};
 }
 
+Result<void> write_whole_file(const std::string& path, std::string_view content, bool is_private) {
+  if (is_device(path)) {
+    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    if (!device.is_open() || !write_all(device.number(), content)) return io_error(path, "cannot be written");
+    return {};
+  }
+  const auto place = place_to_file(path);
+  if (!place) return place.error();
+  clear_leftovers(*place);
+  const auto made = new_temporary(*place, path, is_private);
+  if (!made) return made.error();
+  const int folder = place->folder.number(), file = made->file.number();
+  if (place->is_there && !is_private) keep_rights(file, *place);
+  const bool is_written =
+      write_all(file, content) && ::fsync(file) == 0 && ::renameat(folder, made->name.c_str(), folder, place->name.c_str()) == 0;
+  if (is_written) return sync_folder(*place, path);
+  const Error error = io_error(path, place->is_there ? "could not be saved, the old file is unchanged" : "could not be saved");
+  ::unlinkat(folder, made->name.c_str(), 0);
+  return error;
+}
+
 }  // namespace
 
 Result<void> may_write_file(const std::string& path) {
@@ -250,25 +273,10 @@ Result<void> may_write_file(const std::string& path) {
   return {};
 }
 
-Result<void> write_file(const std::string& path, std::string_view content) {
-  if (is_device(path)) {
-    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
-    if (!device.is_open() || !write_all(device.number(), content)) return io_error(path, "cannot be written");
-    return {};
-  }
-  const auto place = place_to_file(path);
-  if (!place) return place.error();
-  clear_leftovers(*place);
-  const auto made = new_temporary(*place, path);
-  if (!made) return made.error();
-  const int folder = place->folder.number(), file = made->file.number();
-  if (place->is_there) keep_rights(file, *place);
-  const bool is_written =
-      write_all(file, content) && ::fsync(file) == 0 && ::renameat(folder, made->name.c_str(), folder, place->name.c_str()) == 0;
-  if (is_written) return sync_folder(*place, path);
-  const Error error = io_error(path, place->is_there ? "could not be saved, the old file is unchanged" : "could not be saved");
-  ::unlinkat(folder, made->name.c_str(), 0);
-  return error;
+Result<void> write_file(const std::string& path, std::string_view content) { return write_whole_file(path, content, false); }
+
+Result<void> write_private_file(const std::string& path, std::string_view content) {
+  return write_whole_file(path, content, true);
 }
 
 Result<std::FILE*> open_growing_file(const std::string& path, bool must_be_new) {
@@ -285,6 +293,21 @@ Result<std::FILE*> open_growing_file(const std::string& path, bool must_be_new) 
   Descriptor file(number);
   if (!file.is_open() && errno == EEXIST) return Error{ErrorCode::duplicate, path, "exists already"};
   std::FILE* stream = file.is_open() ? ::fdopen(file.number(), "w") : nullptr;
+  if (stream == nullptr) return io_error(path, "cannot be written");
+  (void)file.release();
+  return stream;
+}
+
+Result<std::FILE*> open_private_log(const std::string& path) {
+  const auto place = place_to_save(path);
+  if (!place) return place.error();
+  Descriptor file(::openat(place->folder.number(), place->name.c_str(),
+                           O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NOCTTY, 0600));
+  if (!file.is_open()) return io_error(path, "cannot be written");
+  if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return Error{ErrorCode::duplicate, path, "is in use"};
+  (void)::fchmod(file.number(), 0600);  // file systems without rights have none to set
+  std::FILE* stream = ::fdopen(file.number(), "a+");
   if (stream == nullptr) return io_error(path, "cannot be written");
   (void)file.release();
   return stream;

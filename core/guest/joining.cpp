@@ -2,6 +2,7 @@
 #include "core/guest/joining.h"
 
 #include <atomic>
+#include <cctype>
 
 #include "core/room/secrets.h"
 #include "core/serve/client.h"
@@ -59,7 +60,13 @@ Result<std::unique_ptr<RoomGuest>> join_room(const Registry& registry, std::stri
   how.token = std::move(options.token);
   how.name = std::move(options.name);
   how.page = (read->is_secure ? "https://" : "http://") + read->host_and_port() + "/" + read->code;
-  how.run = room::hex_of(room::system_random_bytes(16));
+  how.new_run = [] { return room::hex_of(room::system_random_bytes(16)); };
+  if (!options.outbox.empty()) {
+    std::string name = read->host_and_port() + "_" + read->code;
+    for (char& letter : name)
+      if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+    how.outbox = options.outbox + "/" + name;
+  }
   how.self = host::self_test();
   how.threads = options.threads;
   how.keep_token = std::move(options.keep_token);

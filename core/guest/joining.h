@@ -16,9 +16,10 @@ bool is_room_address(std::string_view text);
 Result<std::string> room_named(std::string_view address);
 
 struct JoinOptions {
-  std::string token = {};  ///< of a seat that was taken before
-  std::string name = {};   ///< of the person, where they want to give it
-  int threads = 1;         ///< of the ticks
+  std::string token = {};   ///< of a seat that was taken before
+  std::string name = {};    ///< of the person, where they want to give it
+  std::string outbox = {};  ///< folder for what has no answer yet; empty: a crash loses it
+  int threads = 1;          ///< of the ticks
   std::function<void(const std::string& token)> keep_token = {};
 };
 /// Begins to connect, and goes on trying. An error only where the address is none.

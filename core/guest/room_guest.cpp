@@ -8,6 +8,7 @@
 #include "core/define/codec.h"
 #include "core/define/registry.h"
 #include "core/host/step_labels.h"
+#include "core/reading/figures.h"
 #include "core/room/room_state.h"
 
 namespace bl::guest {
@@ -28,9 +29,25 @@ RoomGuest::RoomGuest(const Registry& registry, RoomGuestOptions options)
       options_(std::move(options)),
       fold_(registry),
       follower_(registry, options_.threads, *options_.clock),
-      history_(registry, Author{}, host::HistoryOf::everybody) {
+      history_(registry, Author{}, host::HistoryOf::everybody),
+      outbox_(options_.new_run()) {
   lost_since_ = options_.clock->now();
+  open_outbox();
   connect();
+}
+
+void RoomGuest::open_outbox() {
+  if (options_.outbox.empty()) return;
+  auto opened = Outbox::open(options_.outbox, outbox_.run());
+  if (!opened)
+    return notices_.push_back("Changes that wait for an answer of the room do not outlive a crash of this window: " +
+                              opened.error().text());
+  outbox_ = std::move(*opened);
+  if (options_.token.empty()) return give_up_run();
+  last_gesture_ = outbox_.last_gesture();
+  if (const std::size_t kept = outbox_.waiting().size(); kept > 0)
+    notices_.push_back("An earlier window has left " + reading::counted(kept, "change") +
+                       " without an answer. They are sent to the room now.");
 }
 
 RoomGuest::~RoomGuest() { link_.reset(); }
@@ -41,12 +58,18 @@ void RoomGuest::send(std::string frame) {
 
 // Before the welcome nothing is sent: everything without an answer goes out after it, in order.
 template <class Message>
-void RoomGuest::send_operation(Message message, const std::string& what) {
-  message.id = ++last_id_;
-  sent_.push_back({last_id_, wire::write_message(message), what});
-  if (!is_welcome_) return;
-  if (sent_.size() == 1) answer_at_ = options_.clock->now();
-  send(sent_.back().frame);
+Result<void> RoomGuest::send_operation(Message message, const std::string& what, std::int64_t gesture) {
+  message.id = outbox_.next_id();
+  if (auto kept = outbox_.keep({message.id, wire::write_message(message), what}, gesture); !kept) return kept;
+  if (!is_welcome_) return {};
+  if (outbox_.waiting().size() == 1) answer_at_ = options_.clock->now();
+  send(outbox_.waiting().back().frame);
+  return {};
+}
+
+template <class Message>
+void RoomGuest::say(Message message, const std::string& what) {
+  if (auto said = send_operation(std::move(message), what); !said) notices_.push_back(said.error().text());
 }
 
 // --- Commands -------------------------------------------------------------------------------------------------------
@@ -61,12 +84,17 @@ Result<void> RoomGuest::say_values(std::int64_t gesture, std::vector<Command> co
   op.base = fold_.seq();
   op.gesture = gesture;
   op.c = JsonValue::of(command_to_json(*registry_, one));
-  if (auto done = fold_.add(last_id_ + 1, one); !done) return done;
+  const std::int64_t id = outbox_.next_id();
+  if (auto done = fold_.add(id, one); !done) return done;
+  if (auto kept = send_operation(std::move(op), what, gesture); !kept) {
+    (void)fold_.answered(id);
+    fold_.show_again();
+    return kept;
+  }
   LogEntry shown{.tick = follower_.tick(), .gesture = gesture};
   shown.author = history_.author();
   shown.command = std::move(one);
   log_.push_back(std::move(shown));
-  send_operation(std::move(op), what);
   is_stale_ = true;
   return {};
 }
@@ -120,15 +148,23 @@ void RoomGuest::abandon(std::int64_t gesture) {
 Result<TakenBack> RoomGuest::undo() {
   if (auto ended = end_gestures(0); !ended) return ended.error();
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
-  send_operation(wire::UndoOp{}, "Undo");
+  if (auto said = send_operation(wire::UndoOp{}, "Undo"); !said) return said.error();
   return TakenBack{};
 }
 
 Result<TakenBack> RoomGuest::redo() {
   if (auto ended = end_gestures(0); !ended) return ended.error();
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
-  send_operation(wire::RedoOp{}, "Redo");
+  if (auto said = send_operation(wire::RedoOp{}, "Redo"); !said) return said.error();
   return TakenBack{};
+}
+
+void RoomGuest::undo_of(std::int64_t seat, std::int64_t gesture) {
+  if (!end_.empty()) return;
+  wire::UndoOp op;
+  op.gesture = gesture;
+  op.of = seat;
+  say(op, "Undo");
 }
 
 // --- The clock ------------------------------------------------------------------------------------------------------
@@ -166,7 +202,7 @@ void RoomGuest::rewind(std::int64_t ticks) {
   }
   wire::RewindOp op;
   op.to = to;
-  send_operation(op, "Rewind");
+  say(op, "Rewind");
 }
 
 void RoomGuest::say_event(const std::string& event, const JsonValue& arguments) {
@@ -174,7 +210,21 @@ void RoomGuest::say_event(const std::string& event, const JsonValue& arguments) 
   wire::RoomOp op;
   const auto content = arguments.read();
   op.e = JsonValue::of({{"event", event}, {"arguments", content ? **content : Json::object()}});
-  send_operation(std::move(op), event);
+  say(std::move(op), event);
+}
+
+void RoomGuest::look_at(std::vector<std::string> drafts) {
+  if (drafts.size() > wire::Want::kMostDrafts) drafts.resize(wire::Want::kMostDrafts);
+  if (drafts == looked_at_) return;
+  looked_at_ = std::move(drafts);
+  if (is_welcome_) say_wishes();
+}
+
+void RoomGuest::say_wishes() {
+  wire::Want message;
+  message.views = kViews;
+  message.drafts = looked_at_;
+  send(wire::write_message(message));
 }
 
 void RoomGuest::set_whereabouts(Whereabouts where) {
@@ -227,9 +277,9 @@ Result<void> RoomGuest::keep_up() {
   }
   if (link_ && !is_welcome_ && now - began_at_ > kWelcomeWithin) lose("the server does not answer");
   // Whatever became of it, saying it again does no harm.
-  if (is_welcome_ && !sent_.empty() && now - answer_at_ > kAnswerWithin) {
+  if (is_welcome_ && !outbox_.waiting().empty() && now - answer_at_ > kAnswerWithin) {
     answer_at_ = now;
-    for (const Sent& sent : sent_) send(sent.frame);
+    for (const Sent& sent : outbox_.waiting()) send(sent.frame);
   }
   if (is_welcome_ && !has_scene_ && !wants_resync_ && now - began_at_ > kWelcomeWithin)
     resync("entry", {.tick = 0, .why = "entry", .expected = {}, .found = {}, .text = {}});
@@ -271,7 +321,7 @@ Standing RoomGuest::standing() const {
   return {.is_connected = is_welcome_,
           .has_scene = has_scene_,
           .lost_since = lost_since_,
-          .waiting = sent_.size() + fold_.waiting().size(),
+          .waiting = outbox_.waiting().size() + fold_.waiting().size(),
           .end = end_,
           .can_store = can_store_,
           .takes_ticks = mode_ != "values"};

@@ -13,6 +13,7 @@
 #include "core/guest/fold.h"
 #include "core/guest/follower.h"
 #include "core/guest/link.h"
+#include "core/guest/outbox.h"
 #include "core/guest/people.h"
 #include "core/host/running.h"
 #include "core/host/self_test.h"
@@ -21,10 +22,11 @@
 namespace bl::guest {
 
 struct RoomGuestOptions {
-  std::string code = {};     ///< of the room
-  std::string invite = {};   ///< key of an invitation, for the first visit
-  std::string token = {};    ///< of the seat, from an earlier visit
-  std::string run = {};      ///< random; the name of the life of this window
+  std::string code = {};                      ///< of the room
+  std::string invite = {};                    ///< key of an invitation, for the first visit
+  std::string token = {};                     ///< of the seat, from an earlier visit
+  std::function<std::string()> new_run = {};  ///< a random name for the operations of this window
+  std::string outbox = {};   ///< stem of the files (Outbox) by which what has no answer outlives a crash; empty: none
   std::string name = {};     ///< of the person, where they want to give it
   std::string page = {};     ///< the address that phones open to join this room
   host::SelfTest self = {};  ///< what this program is
@@ -60,6 +62,7 @@ class RoomGuest final : public host::Running {
   static constexpr double kBetweenPings = 5, kPongWithin = 4;                                         // [s]
   static constexpr double kBetweenPresences = 0.25, kBetweenPaces = 0.2, kBetweenValues = 1;          // [s]
   static constexpr double kBetweenResyncs = 1;                                                        // [s]
+  static inline const std::vector<std::string> kViews = {"room", "votes", "comments", "proposals"};   // that are followed
   static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                     // [s]
 
   RoomGuest(const Registry& registry, RoomGuestOptions options);
@@ -111,6 +114,10 @@ class RoomGuest final : public host::Running {
   Standing standing() const;
   /// An event of the room, such as asking for a pen; `arguments`: an object.
   void say_event(const std::string& event, const JsonValue& arguments);
+  /// For facilitators: takes back the last gesture of that seat, or the named one of the log.
+  void undo_of(std::int64_t seat, std::int64_t gesture = 0);
+  /// The drafts that somebody looks at here: the server tries them, as many as it can, and tells their figures.
+  void look_at(std::vector<std::string> drafts);
   /// Where this person is; sent when it changes, four times a second at most.
   void set_whereabouts(Whereabouts where);
   /// Refusals and notices since the last call.
@@ -126,10 +133,6 @@ class RoomGuest final : public host::Running {
   Follower& follower() { return follower_; }
 
  private:
-  struct Sent {
-    std::int64_t id = 0;
-    std::string frame, what;
-  };
   void connect();
   void lose(const std::string& why);
   void finish(const std::string& why) { end_ = why; }
@@ -145,6 +148,7 @@ class RoomGuest final : public host::Running {
   void hear_say(const wire::Say& say);
   void find_page(const std::vector<std::string>& addresses);
   void say_hello();
+  void say_wishes();
   void say_due(double now);
   /// A snapshot is asked for soon.
   void miss(const std::string& why, std::int64_t tick);
@@ -152,7 +156,14 @@ class RoomGuest final : public host::Running {
   Result<void> say_values(std::int64_t gesture, std::vector<Command> commands);
   Result<void> end_gestures(std::int64_t but);
   template <class Message>
-  void send_operation(Message message, const std::string& what);
+  Result<void> send_operation(Message message, const std::string& what, std::int64_t gesture = 0);
+  /// The same where nobody waits for the result: an error is told.
+  template <class Message>
+  void say(Message message, const std::string& what);
+  void open_outbox();
+  /// What a window before this one has said is shown again.
+  void show_kept();
+  void give_up_run();
   void send(std::string frame);
   void refresh();
 
@@ -182,8 +193,9 @@ class RoomGuest final : public host::Running {
   double lost_since_ = 0, retry_at_ = 0;
   int attempts_ = 0;
   // What this guest says.
-  std::int64_t last_id_ = 0, last_answered_ = 0, last_gesture_ = 0;
-  std::deque<Sent> sent_;                               // without an answer
+  Outbox outbox_;
+  std::int64_t last_gesture_ = 0;
+  std::vector<std::string> looked_at_;
   std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
   double pace_at_ = -1e9;
   Whereabouts where_;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/define/codec.h"
 #include "core/file/scene_file.h"
 #include "core/guest/room_guest.h"
 #include "core/journal/packed.h"
@@ -55,6 +56,7 @@ void RoomGuest::hear(const Heard& heard) {
       // The seat is no more; the invitation may still be good for another one.
       options_.token.clear();
       if (options_.keep_token) options_.keep_token("");
+      give_up_run();
     } else if (heard.code == kBadFrame || heard.code == kNoSeat || heard.code == kRemoved || heard.code == kReplaced) {
       finish(heard.code == kReplaced ? "This seat is used by another connection of the same window."
                                      : "The room has ended the connection: " + heard.text + ".");
@@ -63,10 +65,20 @@ void RoomGuest::hear(const Heard& heard) {
   }
 }
 
+// A run belongs to its seat. What has waited in it can be said by nobody any more.
+void RoomGuest::give_up_run() {
+  for (Sent& sent : outbox_.begin_anew(options_.new_run())) {
+    (void)fold_.answered(sent.id);
+    refusals_.push_back({std::move(sent.what), "gone", "", "The room does not know the seat any more that has said this."});
+  }
+  fold_.show_again();
+  is_stale_ = true;
+}
+
 void RoomGuest::say_hello() {
   wire::Hello hello;
   hello.room = options_.code;
-  hello.run = options_.run;
+  hello.run = outbox_.run();
   if (options_.token.empty()) hello.invite = options_.invite;
   else hello.token = options_.token;
   hello.kind = "desktop";
@@ -74,8 +86,8 @@ void RoomGuest::say_hello() {
   hello.name = options_.name;
   hello.build = options_.self.build;
   hello.fingerprint = options_.self.fingerprint;
-  hello.views = {"room", "votes", "comments", "proposals"};
-  hello.unacked = last_answered_;
+  hello.views = kViews;
+  hello.unacked = outbox_.last_answered();
   if (has_scene_ && !wants_resync_) {
     hello.have = fold_.seq();
     hello.tick = follower_.tick();
@@ -142,7 +154,8 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   attempts_ = 0;
   ping_at_ = answer_at_ = began_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
-  for (const Sent& sent : sent_) send(sent.frame);
+  for (const Sent& sent : outbox_.waiting()) send(sent.frame);
+  if (!looked_at_.empty()) say_wishes();
   follower_.nudge();
 }
 
@@ -170,13 +183,23 @@ void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
   if (auto begun = follower_.begin(reading.scene, reading.state ? &*reading.state : nullptr); !begun)
     notices_.push_back("The running state of the room cannot be shown: " + begun.error().text());
   fold_.begin(std::move(reading.scene), snapshot.s);
-  has_scene_ = true;
+  if (!std::exchange(has_scene_, true)) show_kept();
   wants_resync_ = false;
   is_stale_ = true;
   // For whoever looks at what has changed: everything may have.
   LogEntry all{.seq = snapshot.s, .tick = snapshot.k};
   all.command = command<Batch>({});
   log_.push_back(std::move(all));
+}
+
+// Commands that do not fit the scene any more are not shown; the room's answer says what becomes of them.
+void RoomGuest::show_kept() {
+  for (const Sent& sent : outbox_.waiting()) {
+    const auto json = wire::read_frame(sent.frame);
+    if (!json || json->value("t", "") != "op" || json->contains("draft")) continue;
+    const auto command = command_from_json(*registry_, (*json)["c"], "c");
+    if (command) (void)fold_.add(sent.id, *command);
+  }
 }
 
 void RoomGuest::hear_entries(const wire::Ops& ops) {
@@ -226,11 +249,8 @@ void RoomGuest::hear_tick(const wire::TickOut& mark) {
 // --- Answers --------------------------------------------------------------------------------------------------------
 
 void RoomGuest::hear_answer(std::int64_t id) {
-  const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) { return sent.id == id; });
-  if (found == sent_.end()) return;
-  sent_.erase(found);
+  if (!outbox_.answered(id)) return;
   answer_at_ = options_.clock->now();
-  last_answered_ = std::max(last_answered_, id);
   if (!fold_.answered(id)) return;
   fold_.show_again();
   is_stale_ = true;
@@ -242,12 +262,13 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   if (nack.why == "gap") {
     const auto args = nack.args.read();
     const std::int64_t next = args && (*args)->is_object() ? (**args).value("next", nack.id) : nack.id;
-    for (const Sent& sent : sent_)
+    for (const Sent& sent : outbox_.waiting())
       if (sent.id >= next && sent.id <= nack.id) send(sent.frame);
     return;
   }
-  const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) { return sent.id == nack.id; });
-  if (found == sent_.end()) return;
+  const std::deque<Sent>& waiting = outbox_.waiting();
+  const auto found = std::find_if(waiting.begin(), waiting.end(), [&](const Sent& sent) { return sent.id == nack.id; });
+  if (found == waiting.end()) return;
   refusals_.push_back({found->what, nack.why, nack.place, nack.text});
   const bool is_shown = fold_.has_own();
   hear_answer(nack.id);

@@ -79,7 +79,9 @@ std::string person_folder() {
   folder += "/behaviourlinks";
   std::error_code error;
   files::create_directories(folder, error);
-  return error ? std::string() : folder;
+  if (error) return "";
+  files::permissions(folder, files::perms::owner_all, error);  // it holds what opens seats; file systems without rights have none
+  return folder;
 }
 
 Result<void> Journal::begin(const std::string& scene_path, const std::string& scene_text, std::int64_t base) {

@@ -114,6 +114,7 @@ class MemoryRoom {
     std::filesystem::remove_all(folder_);
   }
 
+  const std::filesystem::path& folder() const { return folder_; }
   std::string path() const { return folder_ / "room.blsession"; }
   void open() {
     serve::RoomHostOptions options;
@@ -143,7 +144,8 @@ class MemoryRoom {
     RoomGuestOptions options;
     options.code = "BKRT";
     options.invite = host->invites().at(role);
-    options.run = "run-" + std::to_string(guests.size() + 1);
+    options.new_run = [this] { return "run-" + std::to_string(++runs_); };
+    options.outbox = outbox;
     options.self = std::move(self);
     options.clock = &clock;
     options.random = [this] { return random_.uniform(); };
@@ -152,6 +154,7 @@ class MemoryRoom {
       wires.back()->on_way = on_way;
       return std::make_unique<GuestEnd>(wires.back());
     };
+    if (before_joining) before_joining(options);
     guests.push_back(std::make_unique<RoomGuest>(full_registry(), std::move(options)));
     return *guests.back();
   }
@@ -200,6 +203,8 @@ class MemoryRoom {
   std::vector<std::unique_ptr<RoomGuest>> guests;
   std::vector<std::shared_ptr<Wire>> wires;
   std::function<void(std::string&)> on_way;
+  std::string outbox;                                     ///< folder of the guests that join; empty: none
+  std::function<void(RoomGuestOptions&)> before_joining;  ///< what else a guest is given
   Random& random() { return random_; }
 
  private:
@@ -232,7 +237,7 @@ class MemoryRoom {
   std::mutex mutex_;
   std::deque<std::function<void()>> tasks_;
   std::int64_t at_ = 1000;
-  int turns_ = 0;
+  int turns_ = 0, runs_ = 0;
 };
 
 }  // namespace bl::guest

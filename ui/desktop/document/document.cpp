@@ -81,7 +81,8 @@ Result<std::unique_ptr<Document>> Document::join(const Registry& registry, const
                                                  PersonSettings& person) {
   const auto room = guest::room_named(address);
   if (!room) return room.error();
-  guest::JoinOptions how{.token = {}, .name = {}, .threads = threads, .keep_token = {}};
+  guest::JoinOptions how{.token = {}, .name = {}, .outbox = {}, .threads = threads, .keep_token = {}};
+  if (!person.file.empty()) how.outbox = (std::filesystem::path(person.file).parent_path() / "outbox").string();
   if (const auto seat = person.seats.find(*room); seat != person.seats.end()) how.token = seat->second;
   how.keep_token = [&person, where = *room](const std::string& token) {
     if (token.empty()) person.seats.erase(where);

@@ -7,6 +7,7 @@
 
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
+#include "core/file/private_file.h"
 
 namespace bl::desktop {
 
@@ -79,7 +80,7 @@ Result<void> write_person_settings(const PersonSettings& settings) {
   if (settings.file.empty()) return {};
   Json json = Json::object();
   each_member(settings, [&](const char* key, const auto& member) { json[key] = member; });
-  return write_file(settings.file, write_json(json, 1) + "\n");
+  return write_private_file(settings.file, write_json(json, 1) + "\n");  // it holds what opens seats
 }
 
 }  // namespace bl::desktop

@@ -221,8 +221,9 @@ void Dialogs::draw_unsaved() {
   ImGui::PushTextWrapPos(0);
   const bool is_room = editor_->document->room() != nullptr;
   ImGui::TextUnformatted(
-      (editor_->document->name() + (is_room ? " has not answered all of your changes. Without the answer they are lost."
-                                            : " has changes that are not saved."))
+      (editor_->document->name() +
+       (is_room ? " has not answered all of your changes. This program keeps them, and sends them when you join the room again."
+                : " has changes that are not saved."))
           .c_str());
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(10)});
@@ -233,7 +234,7 @@ void Dialogs::draw_unsaved() {
     save(std::exchange(then_, nullptr));
   }
   ImGui::SameLine();
-  if (ImGui::Button("Discard", size)) {
+  if (ImGui::Button(is_room ? "Leave" : "Discard", size)) {
     close();
     if (auto then = std::exchange(then_, nullptr)) then();
   }

@@ -8,9 +8,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
+#include "core/vote/ballot.h"
 #include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
@@ -39,6 +41,13 @@ struct Scrub {
   bool is_by = false;         ///< moves several different values, each by the same
 };
 
+/// Whose dots clicks in the 3D view set and take away.
+struct DotPlacing {
+  std::string vote, option, words;  ///< what the next dot says, also in words
+  std::vector<std::string> options;
+  std::size_t most = 0;
+};
+
 struct PanelMemory {
   PanelMemory();
   ~PanelMemory();
@@ -65,8 +74,11 @@ struct PanelMemory {
   int times_frame = -1;                   ///< the last frame in which somebody saw them
   std::unique_ptr<Agenda> agenda;         ///< of the room, as its views were at `agenda_revision`
   std::uint64_t agenda_revision = 0;
-  std::map<std::string, std::string> room_texts;         ///< what is being typed in the tab Room, by field
-  std::optional<std::set<std::string>> room_activities;  ///< of the next phase; none: nothing was chosen yet
+  std::map<std::string, std::string> room_texts;           ///< what is being typed in the tab Room, by field
+  std::optional<std::set<std::string>> room_activities;    ///< of the next phase; none: nothing was chosen yet
+  std::map<std::string, vote::Ballot> ballots;             ///< that are filled in and not cast yet, by vote
+  std::optional<DotPlacing> placing;                       ///< clicks in the 3D view set dots
+  std::map<std::string, std::set<std::int64_t>> left_out;  ///< steps of proposals, by draft
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.

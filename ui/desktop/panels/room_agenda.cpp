@@ -5,7 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/text.h"
+#include "core/reading/figures.h"
+#include "core/vote/ballot_json.h"
 
 namespace bl::desktop {
 
@@ -67,47 +68,105 @@ void read_seats(const Json& seats, Agenda& agenda) {
             [](const AgendaSeat& a, const AgendaSeat& b) { return a.is_here != b.is_here ? a.is_here : a.number < b.number; });
 }
 
+std::optional<double> agenda_optional(const Json& json, const char* key) {
+  const Json& part = agenda_part(json, key);
+  return part.is_number() ? std::optional(part.get<double>()) : std::nullopt;
+}
+
+// What a ballot has to fit, checked as in the node. A kind that this program does not know has no options.
+vote::Question question_in(const Json& json) {
+  vote::Question asks;
+  asks.kind = vote::kind_named(guest::text_in(json, "kind")).value_or(vote::Kind::yes_no);
+  asks.points = agenda_integer(json, "points");
+  asks.is_whole_ranking = agenda_flag(json, "whole");
+  asks.least = agenda_number(json, "least");
+  asks.most = agenda_number(json, "most", 1);
+  Table options{{"id", "label"}, {}};
+  if (const Json& list = agenda_part(json, "options"); list.is_array())
+    for (const Json& one : list) options.rows.push_back({guest::text_in(one, "id"), guest::text_in(one, "label")});
+  const auto whole = vote::question_of(asks, options);
+  return whole ? *whole : asks;
+}
+
 AgendaVote vote_of(const std::string& id, const Json& json) {
-  AgendaVote vote{.id = id,
-                  .question = guest::text_in(json, "question"),
-                  .kind = guest::text_in(json, "kind"),
-                  .unit = guest::text_in(json, "unit"),
-                  .least = agenda_number(json, "least"),
-                  .most = agenda_number(json, "most", 1),
-                  .is_open = agenda_flag(json, "open"),
-                  .is_secret = agenda_flag(json, "secret"),
-                  .count = agenda_integer(json, "count"),
-                  .electorate = agenda_integer(json, "electorate"),
-                  .mine = agenda_text(agenda_part(json, "mine")),
-                  .result = {}};
-  if (const Json& mine = agenda_part(json, "mine"); mine.is_number()) vote.mine = shortest(mine.get<double>());
+  AgendaVote vote;
+  vote.id = id;
+  vote.question = guest::text_in(json, "question");
+  vote.unit = guest::text_in(json, "unit");
+  vote.asks = question_in(json);
+  vote.is_open = agenda_flag(json, "open");
+  vote.is_secret = agenda_flag(json, "secret");
+  vote.count = agenda_integer(json, "count");
+  vote.electorate = agenda_integer(json, "electorate");
+  vote.leading = guest::text_in(json, "leading");
+  vote.mean = agenda_optional(json, "mean");
+  vote.median = agenda_optional(json, "median");
+  if (const Json& mine = agenda_part(json, "mine"); !mine.is_null())
+    if (const auto ballot = vote::ballot_from_json(vote.asks.kind, mine)) vote.mine = *ballot;
   if (const Json& result = agenda_part(json, "result"); result.is_array())
-    for (const Json& row : result) {
-      const std::string label = guest::text_in(row, "label");
-      vote.result.emplace_back(label.empty() ? guest::text_in(row, "option") : label, agenda_number(row, "share"));
-    }
+    for (const Json& row : result)
+      vote.result.push_back({guest::text_in(row, "option"), guest::text_in(row, "label"), agenda_number(row, "points"),
+                             agenda_number(row, "share")});
   return vote;
 }
 
+// A short value; a list or a table says nothing in a line.
+std::string value_words(const Json& value) {
+  if (value.is_number()) return reading::readable(value.get<double>());
+  if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+  return agenda_text(value);
+}
+
+std::string trial_words(const Json& trial) {
+  const std::string state = guest::text_in(trial, "state");
+  if (const std::string why = guest::text_in(trial, "why"); !why.empty()) return "The trial has failed: " + why;
+  if (state == "waiting") return "The trial waits; " + std::to_string(agenda_integer(trial, "line")) + " come first.";
+  if (state == "running") return "The trial runs. These figures still change.";
+  if (state == "old") return "The model has changed since this trial.";
+  if (state != "done") return "";
+  return agenda_flag(trial, "is_settled") ? "This is the result of a trial."
+                                          : "The trial has ended before the model was at rest.";
+}
+
 AgendaProposal proposal_of(const std::string& draft, const Json& json) {
-  AgendaProposal proposal{.draft = draft,
-                          .title = guest::text_in(json, "title"),
-                          .why = guest::text_in(json, "why"),
-                          .seat = agenda_integer(json, "seat"),
-                          .steps = {},
-                          .conflicts = {},
-                          .misfits = {}};
-  for (std::string& step : agenda_texts(agenda_part(json, "words")))
-    if (!step.empty()) proposal.steps.push_back(std::move(step));
+  AgendaProposal proposal;
+  proposal.draft = draft;
+  proposal.title = guest::text_in(json, "title");
+  proposal.why = guest::text_in(json, "why");
+  proposal.seat = agenda_integer(json, "seat");
+  proposal.kept = agenda_integer(json, "kept");
+  proposal.count = agenda_integer(json, "steps");
+  proposal.is_decided = guest::text_in(json, "state") != "proposed";
+  proposal.is_accepted = guest::text_in(json, "state") == "accepted";
+  // A step that was taken back has no words.
+  const std::vector<std::string> words = agenda_texts(agenda_part(json, "words"));
+  for (std::size_t k = 0; k < words.size(); ++k)
+    if (!words[k].empty()) proposal.steps.push_back({static_cast<std::int64_t>(k), words[k], {}});
+  if (const Json& misfits = agenda_part(json, "misfits"); misfits.is_array())
+    for (const Json& one : misfits)
+      for (AgendaStep& step : proposal.steps)
+        if (step.number == agenda_integer(one, "step")) step.misfit = guest::text_in(one, "why");
   if (const Json& conflicts = agenda_part(json, "conflicts"); conflicts.is_array())
     for (const Json& one : conflicts)
-      proposal.conflicts.push_back(guest::text_in(one, "label") + " was changed by " + guest::text_in(one, "by"));
-  if (const Json& misfits = agenda_part(json, "misfits"); misfits.is_array())
-    for (const Json& one : misfits) proposal.misfits.push_back(guest::text_in(one, "why"));
+      proposal.conflicts.push_back({guest::text_in(one, "label"), guest::text_in(one, "by"),
+                                    value_words(agenda_part(one, "live")), value_words(agenda_part(one, "draft"))});
+  const Json& trial = agenda_part(json, "trial");
+  proposal.trial = trial_words(trial);
+  if (const Json& figures = agenda_part(trial, "figures"); figures.is_array())
+    for (const Json& one : figures)
+      proposal.figures.push_back(
+          {guest::text_in(one, "name"), guest::text_in(one, "unit"), guest::text_in(agenda_part(one, "after"), "status"),
+           agenda_optional(agenda_part(one, "before"), "value"), agenda_optional(agenda_part(one, "after"), "value")});
   return proposal;
 }
 
 }  // namespace
+
+std::string option_words(const AgendaVote& vote, const std::string& option) {
+  for (const vote::Option& one : vote.asks.options)
+    if (one.id == option) return one.label.empty() ? one.id : one.label;
+  return option;
+}
 
 Agenda agenda_of(const guest::RoomGuest& room) {
   Agenda agenda;
@@ -129,8 +188,9 @@ Agenda agenda_of(const guest::RoomGuest& room) {
   std::stable_sort(agenda.votes.begin(), agenda.votes.end(),
                    [](const AgendaVote& a, const AgendaVote& b) { return a.is_open && !b.is_open; });
   for (const auto& [id, content] : room.view("proposals"))
-    if (const auto json = content.read(); json && guest::text_in(**json, "state") == "proposed")
-      agenda.proposals.push_back(proposal_of(id, **json));
+    if (const auto json = content.read()) agenda.proposals.push_back(proposal_of(id, **json));
+  std::stable_sort(agenda.proposals.begin(), agenda.proposals.end(),
+                   [](const AgendaProposal& a, const AgendaProposal& b) { return !a.is_decided && b.is_decided; });
   for (const auto& [id, content] : room.view("comments")) {
     const auto json = content.read();
     if (!json || guest::text_in(**json, "state") != "open") continue;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include <imgui.h>
 #include <imgui_stdlib.h>
 #include <nlohmann/json.hpp>
 
@@ -13,12 +14,6 @@
 namespace bl::desktop {
 
 namespace {
-
-// The next thing on the same line, where the column is wide enough for it.
-void same_line_for(const RoomDesk& desk, const std::string& label) {
-  const float wide = ImGui::CalcTextSize(label.c_str()).x + ImGui::GetFrameHeight() + desk.editor.theme.px(16);
-  if (ImGui::GetItemRectMax().x + wide < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
-}
 
 constexpr double kTakenBack = 30;           // [s]
 constexpr std::int64_t kMoreTime = 300000;  // [ms]
@@ -44,7 +39,7 @@ void set_phase(const RoomDesk& desk, const std::string& name, const std::set<std
 void draw_pace(const RoomDesk& desk) {
   const guest::People& people = desk.room.people();
   if (desk.button(people.is_paused ? "Go on" : "Pause", "roompanel/pause")) desk.room.play(people.is_paused);
-  same_line_for(desk, "Take back the last 30 s");
+  desk.same_line_for("Take back the last 30 s");
   const bool can_rewind = desk.room.can_rewind();
   const std::string why = can_rewind ? "" : "Nothing has been changed yet.";
   if (desk.button("Take back the last 30 s", "roompanel/rewind", why))
@@ -61,7 +56,7 @@ void draw_next_phase(const RoomDesk& desk) {
   std::set<std::string> chosen = memory.room_activities ? *memory.room_activities : desk.agenda.may;
   for (const NamedChoice& activity : kActivities) {
     bool is_on = chosen.contains(activity.id);
-    if (&activity != kActivities) same_line_for(desk, activity.label);
+    if (&activity != kActivities) desk.same_line_for(activity.label);
     if (ImGui::Checkbox(activity.label, &is_on)) {
       if (is_on) chosen.insert(activity.id);
       else chosen.erase(activity.id);
@@ -88,27 +83,6 @@ void draw_next_phase(const RoomDesk& desk) {
   memory.room_activities.reset();
 }
 
-void draw_proposal(const RoomDesk& desk, const AgendaProposal& proposal) {
-  const std::string key = "roompanel/proposal/" + proposal.draft;
-  desk.heading((proposal.title.empty() ? "Proposal" : proposal.title).c_str());
-  desk.quiet("by " + desk.seat_name(proposal.seat) + (proposal.why.empty() ? "" : ": " + proposal.why));
-  ImGui::PushTextWrapPos(0);
-  for (const std::string& step : proposal.steps) ImGui::BulletText("%s", step.c_str());
-  ImGui::PopTextWrapPos();
-  for (const std::string& conflict : proposal.conflicts) desk.quiet(conflict + " since the draft was begun.");
-  for (const std::string& misfit : proposal.misfits) desk.quiet("A step no longer fits: " + misfit);
-  std::string& answer = desk.text(key);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("##answer", "reason", &answer);
-  const auto decide = [&](bool is_accepted) {
-    desk.say("decide_proposal", JsonValue::of({{"draft", proposal.draft}, {"is_accepted", is_accepted}, {"answer", answer}}));
-  };
-  const std::string why = proposal.misfits.empty() ? "" : "Steps no longer fit. Accept a part of it on the page of the room.";
-  if (desk.button("Accept", key + "/accept", why)) decide(true);
-  ImGui::SameLine();
-  if (desk.button("Reject", key + "/reject")) decide(false);
-}
-
 void draw_comment(const RoomDesk& desk, const AgendaComment& comment) {
   const std::string key = "roompanel/comment/" + comment.id;
   ImGui::PushTextWrapPos(0);
@@ -123,7 +97,7 @@ void draw_comment(const RoomDesk& desk, const AgendaComment& comment) {
     desk.say("answer_comment", JsonValue::of({{"comment", comment.id}, {"state", state}, {"answer", answer}}));
   };
   if (desk.button("We follow it", key + "/follow")) decide("accepted");
-  same_line_for(desk, "We do not follow it");
+  desk.same_line_for("We do not follow it");
   if (desk.button("We do not follow it", key + "/leave")) decide("rejected");
 }
 
@@ -132,7 +106,7 @@ template <std::size_t N>
 std::string choose(const RoomDesk& desk, const NamedChoice (&choices)[N], const std::string& held, const std::string& key) {
   std::string pressed;
   for (const NamedChoice& choice : choices) {
-    if (&choice != choices) same_line_for(desk, choice.label);
+    if (&choice != choices) desk.same_line_for(choice.label);
     ImGui::BeginDisabled(!desk.why_not.empty());
     if (ImGui::RadioButton((std::string(choice.label) + "##" + key).c_str(), held == choice.id) && held != choice.id)
       pressed = choice.id;
@@ -149,19 +123,9 @@ void draw_leading(const RoomDesk& desk) {
   draw_next_phase(desk);
 }
 
-void draw_queue(const RoomDesk& desk) {
-  if (desk.agenda.proposals.empty() && desk.agenda.comments.empty()) {
-    desk.heading("Queue");
-    return desk.quiet("No proposal and no comment waits for an answer.");
-  }
-  for (const AgendaProposal& proposal : desk.agenda.proposals) {
-    ImGui::PushID(proposal.draft.c_str());
-    draw_proposal(desk, proposal);
-    ImGui::Separator();
-    ImGui::PopID();
-  }
-  if (!desk.agenda.comments.empty())
-    desk.heading(("Comments, " + std::to_string(desk.agenda.comments.size()) + " to answer").c_str());
+void draw_comments(const RoomDesk& desk) {
+  if (desk.agenda.comments.empty()) return desk.quiet("No comment waits for an answer.");
+  desk.heading(("Comments, " + std::to_string(desk.agenda.comments.size()) + " to answer").c_str());
   for (const AgendaComment& comment : desk.agenda.comments) {
     ImGui::PushID(comment.id.c_str());
     draw_comment(desk, comment);

@@ -1,4 +1,4 @@
-// The tab Room: who is here, what may be done now, votes and pens; what facilitators see besides stands in room_lead.cpp.
+// The tab Room: its blocks in their columns; people, what may be done now, and the address.
 #include "ui/desktop/panels/room_panel.h"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 
 #include "core/reading/figures.h"
 #include "core/serve/qr_code.h"
-#include "core/session/commands.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
 
@@ -100,40 +99,6 @@ void draw_now(const RoomDesk& desk) {
   ImGui::TextUnformatted(left > 0 ? ("Time left: " + minutes_and_seconds(left)).c_str() : "The time is over.");
 }
 
-void cast(const RoomDesk& desk, const AgendaVote& vote, const Json& ballot) {
-  (void)desk.editor.submit(command<CastVote>({vote.id, desk.room.author(), JsonValue::of(ballot)}));
-}
-
-std::string why_no_ballot(const RoomDesk& desk) {
-  const std::string& role = desk.room.role();
-  if (role == "viewer" || role == "recorder" || role == "device") return "A " + role + " does not vote.";
-  if (!desk.leads && !desk.agenda.may.contains("vote")) return "In this phase nobody can vote.";
-  return "";
-}
-
-void draw_ballot(const RoomDesk& desk, const AgendaVote& vote) {
-  const std::string why = why_no_ballot(desk);
-  if (vote.kind == "yes_no") {
-    if (desk.button("Yes", "roompanel/yes/" + vote.id, why)) cast(desk, vote, "yes");
-    ImGui::SameLine();
-    if (desk.button("No", "roompanel/no/" + vote.id, why)) cast(desk, vote, "no");
-  } else if (vote.kind == "slider") {
-    std::string& typed = desk.text("ballot/" + vote.id);
-    ImGui::SetNextItemWidth(desk.editor.theme.px(80));
-    ImGui::InputTextWithHint("##ballot", (reading::readable(vote.least) + " to " + reading::readable(vote.most)).c_str(), &typed);
-    note_place(desk.editor, "roompanel/ballot/" + vote.id);
-    char* end = nullptr;
-    const double value = std::strtod(typed.c_str(), &end);
-    const bool is_number = !typed.empty() && *end == '\0' && value >= vote.least && value <= vote.most;
-    ImGui::SameLine();
-    if (desk.button("Vote", "roompanel/cast/" + vote.id, why.empty() && !is_number ? "Type a number of the range." : why))
-      cast(desk, vote, value);
-  } else {
-    desk.quiet("A ballot of this kind is cast on the page of the room.");
-  }
-  if (!vote.mine.empty()) desk.quiet("Your vote: " + vote.mine + ".");
-}
-
 }  // namespace
 
 // --- What the parts share -------------------------------------------------------------------------------------------
@@ -176,43 +141,15 @@ void RoomDesk::quiet(const std::string& words) const {
   ImGui::PopStyleColor();
 }
 
+void RoomDesk::same_line_for(const std::string& label) const {
+  const float wide = ImGui::CalcTextSize(label.c_str()).x + ImGui::GetFrameHeight() + editor.theme.px(16);
+  if (ImGui::GetItemRectMax().x + wide < ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+}
+
 std::string RoomDesk::seat_name(std::int64_t seat) const {
   const auto found =
       std::find_if(agenda.seats.begin(), agenda.seats.end(), [&](const AgendaSeat& s) { return s.number == seat; });
   return found == agenda.seats.end() ? "seat " + std::to_string(seat) : found->name;
-}
-
-void draw_votes(const RoomDesk& desk) {
-  for (const AgendaVote& vote : desk.agenda.votes) {
-    if (!vote.is_open && !desk.leads && vote.result.empty()) continue;
-    ImGui::PushID(vote.id.c_str());
-    ImGui::Spacing();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(vote.question.c_str());
-    ImGui::PopTextWrapPos();
-    desk.quiet(std::string(vote.is_open ? "Open" : "Closed") + (vote.is_secret ? ", secret, " : ", ") +
-               reading::counted(static_cast<std::size_t>(std::max<std::int64_t>(0, vote.count)), "ballot") +
-               (vote.electorate > 0 ? " of " + std::to_string(vote.electorate) : "") + ".");
-    if (vote.is_open) draw_ballot(desk, vote);
-    for (const auto& [label, share] : vote.result)
-      desk.quiet(label + ": " + std::to_string(static_cast<int>(std::lround(100 * share))) + " %");
-    if (desk.leads && vote.is_open) {
-      if (desk.button("Close the vote", "roompanel/close/" + vote.id)) desk.say("close_vote", JsonValue::of({{"vote", vote.id}}));
-    } else if (desk.leads && desk.button("Open the vote", "roompanel/open/" + vote.id)) {
-      // Ballots are taken in phases that name them.
-      if (!desk.agenda.may.contains("vote")) {
-        Json activities = desk.agenda.may;
-        activities.push_back("vote");
-        desk.say("set_phase", JsonValue::of({{"name", desk.agenda.phase},
-                                             {"activities", activities},
-                                             {"forms", desk.agenda.forms},
-                                             {"ends_at", desk.agenda.ends_at}}));
-      }
-      desk.say("open_vote", JsonValue::of({{"vote", vote.id}, {"ends_at", 0}}));
-    }
-    ImGui::PopID();
-  }
-  if (desk.leads && desk.agenda.votes.empty()) desk.quiet("The scene has no votes. Votes are nodes of the scene.");
 }
 
 namespace {
@@ -251,6 +188,55 @@ void draw_address(const RoomDesk& desk) {
   }
 }
 
+namespace {
+
+// What stands in the tab, from the left to the right, and from the top to the bottom. Another block is another line.
+struct RoomBlock {
+  const char* column;
+  bool is_for_leaders, is_for_others;
+  void (*draw)(const RoomDesk&);
+};
+constexpr RoomBlock kBlocks[] = {
+    {"people", true, true, draw_seats},
+    {"people", true, true, [](const RoomDesk& desk) { draw_pens(desk.editor, desk.room); }},
+    {"now", true, true, draw_now},
+    {"now", true, false, draw_plan},
+    {"now", true, false, draw_leading},
+    {"now", false, true, draw_votes},
+    {"votes", true, false, draw_votes},
+    {"votes", true, false, draw_new_vote},
+    {"queue", true, false, draw_proposals},
+    {"queue", true, false, draw_comments},
+    {"room", true, true, draw_address},
+    {"room", true, false, draw_health},
+    {"house", true, false, draw_house},
+};
+
+void draw_columns(const RoomDesk& desk) {
+  const auto is_shown = [&](const RoomBlock& block) { return desk.leads ? block.is_for_leaders : block.is_for_others; };
+  std::vector<std::string> columns;
+  for (const RoomBlock& block : kBlocks)
+    if (is_shown(block) && std::find(columns.begin(), columns.end(), block.column) == columns.end())
+      columns.push_back(block.column);
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  constexpr ImGuiTableFlags kLook = ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV;
+  if (!ImGui::BeginTable("room", static_cast<int>(columns.size()), kLook, size)) return;
+  // Votes and proposals need more words than the others.
+  for (const std::string& column : columns)
+    ImGui::TableSetupColumn(column.c_str(), ImGuiTableColumnFlags_WidthStretch,
+                            column == "votes" || column == "queue" ? 1.5f : 1);
+  for (const std::string& column : columns) {
+    ImGui::TableNextColumn();
+    ImGui::BeginChild(column.c_str(), {0, size.y - desk.editor.theme.px(8)});
+    for (const RoomBlock& block : kBlocks)
+      if (is_shown(block) && block.column == column) block.draw(desk);
+    ImGui::EndChild();
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
 void draw_room_panel(Workbench& editor) {
   guest::RoomGuest* room = editor.document ? editor.document->room() : nullptr;
   if (room == nullptr) return;
@@ -266,42 +252,7 @@ void draw_room_panel(Workbench& editor) {
   else if (!standing.is_connected) desk.why_not = "There is no connection to the room.";
   else if (room->people().is_closed) desk.why_not = "The session is over.";
   if (!desk.why_not.empty()) desk.quiet(desk.why_not);
-  const ImVec2 size = ImGui::GetContentRegionAvail();
-  if (!ImGui::BeginTable("room", desk.leads ? 6 : 3, ImGuiTableFlags_Resizable | ImGuiTableFlags_BordersInnerV, size)) return;
-  const auto column = [&](const char* name, void (*draw)(const RoomDesk&)) {
-    ImGui::TableNextColumn();
-    ImGui::BeginChild(name, {0, size.y - editor.theme.px(8)});
-    draw(desk);
-    ImGui::EndChild();
-  };
-  column("people", [](const RoomDesk& all) {
-    draw_seats(all);
-    draw_pens(all.editor, all.room);
-  });
-  column("now", [](const RoomDesk& all) {
-    draw_now(all);
-    if (all.leads) {
-      draw_plan(all);
-      draw_leading(all);
-    } else {
-      draw_votes(all);
-    }
-  });
-  if (desk.leads) {
-    column("votes", [](const RoomDesk& all) {
-      all.heading("Votes");
-      draw_votes(all);
-    });
-    column("queue", draw_queue);
-    column("room", [](const RoomDesk& all) {
-      draw_address(all);
-      draw_health(all);
-    });
-    column("house", draw_house);
-  } else {
-    column("address", draw_address);
-  }
-  ImGui::EndTable();
+  draw_columns(desk);
 }
 
 }  // namespace bl::desktop

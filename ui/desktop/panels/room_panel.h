@@ -24,22 +24,34 @@ struct RoomDesk {
   std::string& text(const std::string& field) const;
   void heading(const char* words) const;
   void quiet(const std::string& words) const;
+  /// What has this label comes on the same line, where the column is wide enough for it.
+  void same_line_for(const std::string& label) const;
   std::string seat_name(std::int64_t seat) const;
   void say(const std::string& event, const JsonValue& arguments) const { room.say_event(event, arguments); }
 };
 
 /// Who has which pen, and what one can do about it.
 void draw_pens(Workbench& editor, guest::RoomGuest& room);
-/// Of facilitators: phase and pace; what waits for a decision; door, beamer, minutes and the end.
+/// Votes with their ballots and results; facilitators open and close them.
+void draw_votes(const RoomDesk& desk);
+/// The form of one's own ballot.
+void draw_ballot(const RoomDesk& desk, const AgendaVote& vote);
+
+// Of facilitators:
+/// Phase and pace.
 void draw_leading(const RoomDesk& desk);
-void draw_queue(const RoomDesk& desk);
-/// Of facilitators: the phases that they have planned, and how the room and its computer are.
+/// The phases that they have planned, and how the room and its computer are.
 void draw_plan(const RoomDesk& desk);
 void draw_health(const RoomDesk& desk);
+/// A vote from a template.
+void draw_new_vote(const RoomDesk& desk);
+/// What waits for a decision, and what was decided.
+void draw_proposals(const RoomDesk& desk);
+void draw_comments(const RoomDesk& desk);
+/// Door, beamer, minutes and the end.
 void draw_house(const RoomDesk& desk);
 /// Of facilitators, below somebody's name.
 void draw_seat_menu(const RoomDesk& desk, const AgendaSeat& seat);
-void draw_votes(const RoomDesk& desk);
 /// The address with its QR code.
 void draw_address(const RoomDesk& desk);
 

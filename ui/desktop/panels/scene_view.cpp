@@ -85,6 +85,7 @@ void SceneView::draw_overlay() {
   draw_labels();
   draw_media_notes();
   draw_pin();
+  draw_dots();
   draw_others();
   draw_gizmo();
   draw_scale_and_north();

@@ -162,6 +162,10 @@ class SceneView {
   void draw_media_notes();
   void draw_others();
   void draw_pin();
+  // scene_view_dots.cpp
+  bool is_placing() const;
+  bool take_dot(const ImVec2& mouse);
+  void draw_dots();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;

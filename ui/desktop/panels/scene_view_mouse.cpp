@@ -123,14 +123,15 @@ void SceneView::take_left_button() {
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_polyscope = editor_->person.navigation == "polyscope";
   if (is_hovered_ && drag_ == Drag::none && ImGui::IsMouseClicked(0)) {
-    if (ImGui::IsMouseDoubleClicked(0)) return click(true);
+    // Two dots may be set fast.
+    if (ImGui::IsMouseDoubleClicked(0) && !is_placing()) return click(true);
     // With Shift or Ctrl people choose; while a hand already moves things, they make it fine or snap.
-    const int handle = io.KeyShift || io.KeyCtrl ? -1 : handle_at(io.MousePos);
+    const int handle = io.KeyShift || io.KeyCtrl || is_placing() ? -1 : handle_at(io.MousePos);
     if (handle >= 0) return begin_move(handle, false);
     drag_ = Drag::pressed;
     pressed_at_ = io.MousePos;
     note_pressed();
-    pressed_on_ = io.KeyShift || io.KeyCtrl ? "" : clicked_node_;
+    pressed_on_ = io.KeyShift || io.KeyCtrl || is_placing() ? "" : clicked_node_;
     return;
   }
   if (drag_ == Drag::pressed) {
@@ -193,6 +194,7 @@ void SceneView::click(bool is_double) {
     camera.target = place;
     return go_to(camera);
   }
+  if (take_dot(pressed_at_)) return;
   if (editor_->scene().nodes.contains(clicked_node_)) return choose(clicked_node_, true);
   if (editor_->scene().links.contains(clicked_link_)) return choose(clicked_link_, false);
   if (!io.KeyShift && !io.KeyCtrl) editor_->picks.clear();
