@@ -1,7 +1,8 @@
 // The world of the connection in a browser: sockets, localStorage, clock and chance, all without a secure context.
 import { random_name } from "./queue";
 import type { Store } from "./queue";
-import type { Link, World } from "./world";
+import type { Early, Link, World } from "./world";
+import { Language, Table, add_table, best_language, set_language } from "./words";
 
 /// localStorage, or memory where the browser refuses it; what did not fit is told by `set`.
 export function browser_store(): Store {
@@ -62,8 +63,35 @@ export function socket_address(): string {
   return `${window.location.protocol === "https:" ? "wss:" : "ws:"}//${window.location.host}/ws`;
 }
 
+const early = (window as unknown as { early?: Early }).early;
+
+/// Speaks another language once its words are here. Where they cannot be had, the page goes on as it is.
+export async function speak(language: Language): Promise<void> {
+  const file = early?.files[language];
+  if (early && file) {
+    try {
+      const words = (await (early.words[language] ??= import(file))) as Record<string, Table>;
+      add_table(language, words[language] as Table);
+    } catch {
+      delete early.words[language]; // the next try asks again
+    }
+  }
+  set_language(language);
+}
+
+/// The language of this person: the one that was chosen, or one of the browser's.
+export const wanted_language = (chosen: Language | null): Language =>
+  chosen ?? best_language([kept("language") ?? "", ...navigator.languages]);
+
+// The first connection was begun before this script had come.
+function early_socket(): WebSocket | null {
+  const socket = early?.socket ?? null;
+  if (early) early.socket = null;
+  return socket !== null && socket.readyState <= WebSocket.OPEN ? socket : null;
+}
+
 function open(address: string): Link {
-  const socket = new WebSocket(address, "bl1");
+  const socket = early_socket() ?? new WebSocket(address, "bl1");
   const link: Link = {
     onopen: null,
     onmessage: null,
@@ -73,7 +101,8 @@ function open(address: string): Link {
     },
     close: () => socket.close(),
   };
-  socket.onopen = () => link.onopen?.();
+  if (socket.readyState === WebSocket.OPEN) void Promise.resolve().then(() => link.onopen?.());
+  else socket.onopen = () => link.onopen?.();
   socket.onmessage = (event) => {
     if (typeof event.data === "string") link.onmessage?.(event.data);
   };

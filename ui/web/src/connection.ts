@@ -2,7 +2,7 @@
 import { Queue, kLease } from "./queue";
 import type { Item } from "./queue";
 import { PresenceVoice } from "./presence";
-import { Timers, back_off, kLongestWait } from "./timers";
+import { Timers, back_off, hold_off, kLongestWait } from "./timers";
 import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
 import type { Answer, Link, Listener, Options, Stage, World } from "./world";
 
@@ -381,7 +381,7 @@ export class Connection {
     if (why === "rate" || why === "draining" || why === "storage") {
       const tries = (this.retries.get(id) ?? 0) + 1;
       this.retries.set(id, tries);
-      if (tries <= kRetries) return this.hold(back_off(tries + 2, this.world.chance()), id);
+      if (tries <= kRetries) return this.hold(hold_off(tries, this.world.chance()), id);
     }
     this.answer(id, { kind: "refused", why, place: nack.place, text: nack.text, args: nack.args ?? {} });
   }

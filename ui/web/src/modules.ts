@@ -2,6 +2,7 @@
 export * from "./ballots";
 export * from "./connection";
 export * from "./format";
+export * from "./handover";
 export * from "./outline";
 export * from "./places";
 export * from "./presence";
@@ -10,3 +11,7 @@ export * from "./session";
 export * from "./timers";
 export * from "./whole";
 export * from "./words";
+export * from "./words/de";
+export * from "./words/en";
+export * from "./words/ko";
+export * from "./words/nl";

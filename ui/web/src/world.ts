@@ -38,6 +38,13 @@ export interface Listener {
   reload(): void;
 }
 
+/// What the beginning of the script has started (early.ts): a socket, and files of words by language.
+export interface Early {
+  socket: WebSocket | null;
+  words: Record<string, Promise<unknown>>;
+  files: Record<string, string>;
+}
+
 export interface Options {
   room: string;
   prefix: string; ///< of the keys in the store; another one for the beamer of the same machine

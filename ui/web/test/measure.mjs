@@ -7,7 +7,8 @@ import assert from "node:assert/strict";
 import { loadavg } from "node:os";
 import { opened, start_room } from "./real_server.mjs";
 
-const room = await start_room();
+// PAGE names the folder of another build of the page, to compare with.
+const room = await start_room(process.env.PAGE ? { page: process.env.PAGE } : {});
 const runs = Number(process.env.RUNS ?? 20);
 const quantile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 const say = (what, times, limit) =>

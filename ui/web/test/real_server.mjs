@@ -10,7 +10,7 @@ import { fileURLToPath } from "node:url";
 const require = createRequire(new URL("../package.json", import.meta.url));
 const { chromium } = require("playwright-core");
 const { WebSocket } = require("ws");
-const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
+export const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
 export const shots = path_of("build/web_shots");
 mkdirSync(shots, { recursive: true });
 
@@ -150,11 +150,12 @@ async function door_to(port, host) {
   };
 }
 
-export async function start_room() {
+/// `about`: the scene of the room; `page`: the folder of the built page.
+export async function start_room({ about = scene(), page = path_of("build/web") } = {}) {
   const folder = mkdtempSync(join(tmpdir(), "room-"));
   const invites = join(folder, "invites.json"),
     source = join(folder, "room.json");
-  writeFileSync(source, JSON.stringify(scene()));
+  writeFileSync(source, JSON.stringify(about));
   const program = spawn(process.env.BEHAVIOURLINKS, [
     "serve",
     source,
@@ -167,7 +168,7 @@ export async function start_room() {
     "--invites",
     invites,
     "--page",
-    path_of("build/web"),
+    page,
   ]);
   let said = "";
   const address = await new Promise((found, failed) => {
@@ -198,6 +199,13 @@ export async function start_room() {
       return end();
     },
     said: () => said,
+    folder,
+    forget: () => rmSync(folder, { recursive: true, force: true }),
+    kill: () => {
+      program.removeAllListeners("exit");
+      program.kill("SIGKILL");
+      return new Promise((gone) => program.on("exit", gone));
+    },
     door: () => door_to(Number(port), hostname),
     give_card: (seat) => lead.event("set_role", { seat, role: "stakeholder", areas: [], card: "parents" }),
     phase: (name) => lead.event("set_phase", { name, activities: ["change", "draft", "comment", "vote"], forms: [], ends_at: 0 }),

@@ -10,7 +10,7 @@ import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
 import { comment_pins } from "./ideas";
-import { join_address } from "./invitations";
+import { Codes, join_address } from "./invitations";
 import { CompareTable } from "./proposals";
 import { ResultOf, Turnout } from "./votes";
 
@@ -20,8 +20,9 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
   const figures = Object.entries(s.views.figures).slice(0, 3),
     size = Math.ceil(window.innerHeight / 25);
   return (
-    <div class="stage with-side">
+    <div class={`stage ${figures.length > 0 ? "with-side" : ""}`}>
       <Plan s={s} binding={{ pins, onTap: () => undefined }} selected={null} label={size} isStill />
+      {figures.length === 0 ? null : (
       <ul class="side">
         {figures.map(([id, figure]) => (
           <li key={id} class={figure.status}>
@@ -31,6 +32,7 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
           </li>
         ))}
       </ul>
+      )}
     </div>
   );
 }
@@ -96,14 +98,7 @@ function CommentsLayout({ s }: { s: Session }): JSX.Element {
 function CodeLayout({ s }: { s: Session }): JSX.Element {
   return (
     <div class="stage code">
-      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
-      <div>
-        <p>{t("beamer_join")}</p>
-        <p class="address">
-          {window.location.host}
-          <wbr />/{s.views.room.code}
-        </p>
-      </div>
+      <Codes s={s} />
     </div>
   );
 }

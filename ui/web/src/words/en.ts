@@ -4,7 +4,6 @@
 export type Text = string | { one: string; other: string };
 
 export const en = {
-  language: "English",
   // The line about the connection
   saved: "Everything is saved",
   sending: { one: "Sending {n} change", other: "Sending {n} changes" },
@@ -13,6 +12,8 @@ export const en = {
   no_connection: "No connection for {time}",
   no_connection_hint: "Stay in this Wi-Fi. What you do is kept and sent later.",
   moved: "The room may have moved. Open it at",
+  moved_along: { one: "{n} change that waits goes along.", other: "{n} changes that wait go along." },
+  moved_stays: { one: "{n} change waits in this page and stays here.", other: "{n} changes wait in this page and stay here." },
   not_kept: "This browser cannot keep what waits. Leave this page open.",
   seconds: "{n} s",
   minutes: "{n} min",
@@ -282,7 +283,7 @@ export const en = {
   lead_draft: "Drafts",
   lead_comment: "Comments",
   lead_vote: "Vote",
-  lead_minutes: "Minutes",
+  lead_minutes: "Minutes (0: no end)",
   lead_more_time: "5 more minutes",
   lead_start_phase: "Start this phase",
   lead_title: "Title of the phase",
@@ -345,6 +346,11 @@ export const en = {
     "Make new keys for all roles? The addresses of before open no seat any more. Who has a seat keeps it. A second laptop has to be started again with the key that the program prints.",
   lead_mark: "Note a decision",
   lead_mark_text: "Decision",
+  lead_waiting: "Waits for you:",
+  lead_waiting_proposals: { one: "{n} proposal", other: "{n} proposals" },
+  lead_waiting_comments: { one: "{n} comment", other: "{n} comments" },
+  lead_agree: { one: "{n} agrees", other: "{n} agree" },
+  lead_end_text: "Nobody can change or say anything afterwards. Everything stays in the file of the session.",
   lead_end: "End the session",
   lead_end_sure: "End the session for everybody?",
   role_facilitator: "Facilitator",
@@ -358,6 +364,14 @@ export const en = {
   beamer_old: "{time} old",
   beamer_join: "Join in:",
   qr_of: "QR code of {address}",
+  wifi_title: "Wi-Fi for those who come",
+  wifi_text: "Type the Wi-Fi of the room. The large code and the beamer then show a second code that joins phones to it. This browser keeps it; it is not stored with the session.",
+  wifi_name: "Name of the network",
+  wifi_password: "Password",
+  wifi_beamer: "For a beamer on another computer",
+  wifi_join: "1. Join the Wi-Fi",
+  wifi_then: "2. Open the page",
+  wifi_qr: "QR code that joins the Wi-Fi {name}",
   // Refusals
   refused_n: { one: "{n} change was not taken", other: "{n} changes were not taken" },
   understood: "Understood",
