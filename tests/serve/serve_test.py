@@ -3,6 +3,8 @@
 
 usage: serve_test.py PROGRAM SOURCE_FOLDER [unittest arguments]"""
 import asyncio
+import base64
+import hashlib
 import json
 import os
 import re
@@ -393,6 +395,28 @@ class WithoutScripts(RoomCase):
         self.assertIn("Your ballot is counted.", voted)
         self.assertIn('value="17.5"', voted)
         self.assertNotIn('value="99"', self.post(f"/plain/{self.server.code}/vote", token=token, vote="height", value="99"))
+
+
+class BuiltPage(unittest.TestCase):
+    def test_only_what_stands_in_the_built_page_may_run_in_it(self):
+        def source(text):
+            return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+        with tempfile.TemporaryDirectory() as folder:
+            script, style = "let a = 1 < 2;\n", "p { color: red }"
+            with open(os.path.join(folder, "index.html"), "w") as file:
+                file.write(f'<html><script>{script}</script><script src="/assets/x.js"></script><style>{style}</style></html>')
+            server = Server(PROGRAM, QUARTER, folder, "--page", folder).start()
+            try:
+                policy = server.get("/" + server.code)[1]["Content-Security-Policy"]
+                for directive in ("script-src", "style-src"):
+                    sources = re.search(directive + " ([^;]*);", policy)[1].split()
+                    self.assertEqual(sources, ["'self'", source(script), source(style)])
+                self.assertNotIn("unsafe", policy)
+                for path in ("/plain/" + server.code, "/health", "/"):
+                    self.assertNotIn("sha256", server.get(path)[1]["Content-Security-Policy"], path)
+            finally:
+                self.assertEqual(server.stop(), 0)
+                server.process.stdout.close()
 
 
 class Pictures(RoomCase):

@@ -2,9 +2,10 @@
 import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { browser_world, keep, kept, socket_address, speak, tab_keep, tab_kept, wanted_language } from "./browser";
+import { browser_world, early_run, keep, kept, socket_address, speak, tab_keep, tab_kept, wanted_language } from "./browser";
 import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine } from "./parts";
 import { unpacked } from "./handover";
+import { kFirstViews } from "./hello";
 import { Plan } from "./plan";
 import { Beamer } from "./screens/beamer";
 import { Card } from "./screens/card";
@@ -19,8 +20,8 @@ import { Votes } from "./screens/votes";
 import { Queue } from "./queue";
 import { Session } from "./session";
 import { Tab, Ui, useWatched, useWide } from "./ui";
-import { Wifi, keep_wifi, wifi_of_address } from "./wifi";
-import type { ViewName } from "./wire";
+import { Wifi, wifi_of_address } from "./wifi";
+import { keep_wifi } from "./wifi_kept";
 import { Key, Language, best_language, language_now, locale, t } from "./words";
 
 interface Address {
@@ -207,9 +208,7 @@ function start(): void {
     return show(() => <CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />);
   if (address.wifi) keep_wifi(address.code, address.wifi);
   if (address.isBeamer) document.documentElement.classList.add("on-beamer");
-  const views: ViewName[] = address.isBeamer
-    ? ["room", "plan", "figures", "votes", "comments", "proposals"]
-    : ["room", "plan", "figures", "card", "votes"];
+  const views = kFirstViews[address.isBeamer ? "beamer" : "page"];
   const world = browser_world(socket_address());
   // Each invitation is a seat of its own, with its own key and its own queue: a page never speaks for another of its seats.
   const base = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`;
@@ -232,7 +231,7 @@ function start(): void {
     {
       room: address.code,
       prefix,
-      run: tab_kept(runKey),
+      run: tab_kept(runKey) ?? early_run(),
       lang: language_for_server(address.language),
       views,
       invite,

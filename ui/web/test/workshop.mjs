@@ -166,7 +166,7 @@ try {
   await lead.click('button:has-text("End the session")');
   await seen("end asks", lead);
   await lead.click(".sure .danger");
-  await seen("ended lead", lead, () => lead.waitForSelector('.notice:has-text("ended")'));
+  await seen("ended lead", lead, () => lead.waitForSelector('.notice:has-text("The session is over")'));
   await seen("ended phone", phone);
   await seen("ended beamer", beamer);
   bots.kill("SIGINT");

@@ -9,6 +9,7 @@ import { useClock } from "../ui";
 import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
+import { option_label } from "./ballot_forms";
 import { comment_pins } from "./ideas";
 import { Codes, join_address } from "./invitations";
 import { CompareTable } from "./proposals";
@@ -55,7 +56,7 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
       ) : vote.kind === "yes_no" || vote.kind === "slider" ? null : (
         <ol class="options">
           {vote.options.map((option) => (
-            <li key={option.id}>{option.label}</li>
+            <li key={option.id}>{option_label(vote, option.id)}</li>
           ))}
         </ol>
       )}
@@ -108,7 +109,7 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
   const { room } = s.views,
     layout = room.layout || "plan",
     age = s.now() - s.latest;
-  const left = room.phase?.ends_at ? room.phase.ends_at - s.now() : 0;
+  const left = room.phase?.ends_at && !room.closed ? room.phase.ends_at - s.now() : 0;
   const isOld = s.latest > 0 && !s.connection.isOpen && age > kOld;
   const stage =
     layout === "vote" ? (

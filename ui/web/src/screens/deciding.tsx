@@ -8,7 +8,7 @@ import { t } from "../words";
 import { ProposalEntry } from "./proposals";
 import { TrialFigures } from "./trials";
 
-export function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposal }): JSX.Element {
+export function Decide({ s, id, proposal, isOpen }: { s: Session; id: string; proposal: Proposal; isOpen: boolean }): JSX.Element {
   const [answer, set] = useState(""),
     [left, leave] = useState<number[]>([]);
   // Steps that were taken back have no words; those that do not fit any more cannot be taken.
@@ -22,7 +22,8 @@ export function Decide({ s, id, proposal }: { s: Session; id: string; proposal: 
   };
   return (
     <ProposalEntry s={s} proposal={proposal}>
-      <>
+      <details open={isOpen}>
+        <summary>{t("lead_decide")}</summary>
         <TrialFigures trial={proposal.trial} />
         <fieldset class="field">
           <legend>{t("proposal_steps")}</legend>
@@ -64,7 +65,7 @@ export function Decide({ s, id, proposal }: { s: Session; id: string; proposal: 
           </button>
           <MarkState s={s} mark={`lead/${id}`} />
         </div>
-      </>
+      </details>
     </ProposalEntry>
   );
 }

@@ -15,6 +15,7 @@ import { ResultOf, Turnout } from "./votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
 const kRewind = 30000;
+const kFold = 2; // more proposals than this are folded, so that all of them are in sight
 
 interface Plan {
   name: string;
@@ -299,7 +300,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
           <h2>{t("ideas_proposals")}</h2>
           <ul class="proposals">
             {proposals.map(([id, proposal]) => (
-              <Decide key={id} s={s} id={id} proposal={proposal} />
+              <Decide key={id} s={s} id={id} proposal={proposal} isOpen={proposals.length <= kFold} />
             ))}
           </ul>
         </section>

@@ -299,6 +299,7 @@ export const de: Record<Key, Text> = {
   lead_role: "Rolle von {name}",
   lead_card_none: "Keine Karte",
   lead_card: "Rollenkarte von {name}",
+  lead_decide: "Entscheiden",
   lead_accept: "Annehmen",
   lead_accept_part: { one: "{n} Schritt annehmen", other: "{n} Schritte annehmen" },
   lead_reject: "Ablehnen",

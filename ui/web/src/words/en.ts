@@ -312,6 +312,7 @@ export const en = {
   lead_role: "Role of {name}",
   lead_card_none: "No card",
   lead_card: "Role card of {name}",
+  lead_decide: "Decide",
   lead_accept: "Accept",
   lead_accept_part: { one: "Accept {n} step", other: "Accept {n} steps" },
   lead_reject: "Reject",

@@ -299,6 +299,7 @@ export const ko: Record<Key, Text> = {
   lead_role: "{name}의 역할",
   lead_card_none: "카드 없음",
   lead_card: "{name}의 역할 카드",
+  lead_decide: "결정하기",
   lead_accept: "채택",
   lead_accept_part: "{n}단계 채택",
   lead_reject: "채택하지 않음",

@@ -299,6 +299,7 @@ export const nl: Record<Key, Text> = {
   lead_role: "Rol van {name}",
   lead_card_none: "Geen kaart",
   lead_card: "Rolkaart van {name}",
+  lead_decide: "Beslissen",
   lead_accept: "Aannemen",
   lead_accept_part: { one: "{n} stap aannemen", other: "{n} stappen aannemen" },
   lead_reject: "Afwijzen",
