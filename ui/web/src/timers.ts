@@ -5,10 +5,10 @@ const kAtOnce = 100;
 const kFirst = 200;
 const kGrowth = 1.7;
 const kJitter = 0.4;
-// Most outages last seconds. Somebody who waits for the room should not also wait for the page, so for the first minute and a half it
-// asks often: a second after the network is back, nearly everybody is. A server that is away is not burdened by it.
+// Most outages last seconds: so long it asks often. Later it may not: Chromium delays each new socket of a page by up to five seconds
+// once some thirty have failed within minutes (its WebSocketPerProcessThrottler).
 const kOften = 550;
-const kOftenFor = 160; // attempts
+const kOftenFor = 10; // attempts
 export const kLongestWait = 5000;
 
 const grown = (from: number, n: number): number => from * Math.pow(kGrowth, n);

@@ -281,9 +281,10 @@ test("it tries again for ever, with delays that grow to five seconds", () => {
   assert.equal(back_off(2, 0.5), 340);
   for (let n = 1, asked = 0; n < 400; ++n) {
     asked += back_off(n, 0.5);
-    // Who waits is back within a second, also if nobody touches the page; later the radio of a phone is spared.
-    if (asked < 80_000) assert.ok(back_off(n, 0.999999) <= 800, `attempt ${n}`);
-    if (asked > 120_000) assert.ok(back_off(n, 0) >= 3000, `attempt ${n}`);
+    // After a short outage a page is back within a second. In the first minute no more fail than Chromium bears without a delay.
+    if (asked < 4500) assert.ok(back_off(n, 0.999999) <= 800, `attempt ${n}`);
+    if (asked < 60_000) assert.ok(n <= 26, `attempt ${n}`);
+    if (asked > 30_000) assert.ok(back_off(n, 0) >= 3000, `attempt ${n}`);
     assert.ok(back_off(n, 0) >= 120 && back_off(n, 0.999999) <= 7000);
   }
   assert.ok(back_off(5000, 0.5) === 5000);

@@ -1,7 +1,8 @@
 // Measures the page with the real server in Chromium: how long it takes to come in, and to come back.
 //
-// usage: node measure.mjs PART...   join: scan → card, cold cache, on a LAN. slow: usable at 1.6 Mbit/s and 150 ms. way: the
-// same, with a proxy that slows handshakes and sockets as well. back: after 1 s and 60 s without a network, and frozen. BEHAVIOURLINKS names the program, RUNS how often each is done.
+// usage: node measure.mjs PART...   join: scan → card, cold cache, on a LAN. slow: usable at 1.6 Mbit/s and 150 ms. way: the same, with
+// a proxy that slows handshakes and sockets as well. back_1, back_60, back_looking, back_frozen: after so many seconds without a network.
+// queue: what is said without one, over a reload. BEHAVIOURLINKS names the program, RUNS how often each is done.
 // Times of a machine that is shared are upper bounds; the load is printed with them.
 import assert from "node:assert/strict";
 import { loadavg } from "node:os";
@@ -80,6 +81,8 @@ async function scan(room, network, origin) {
   return { ...steps, usable, card };
 }
 
+let rounds = 0;
+
 // The sockets of Chromium outlive an emulated outage, so the server is reached through a door that can be shut.
 async function back(room, milliseconds, how) {
   const browser = await opened();
@@ -91,17 +94,18 @@ async function back(room, milliseconds, how) {
   await page.waitForSelector("nav");
   await page.waitForTimeout(700);
   const devtools = await context.newCDPSession(page);
-  const title = `Round ${Math.random().toString(36).slice(2, 8)}`;
+  const number = ++rounds; // another run may set a later phase before this page is back
   if (how === "frozen") await devtools.send("Page.setWebLifecycleState", { state: "frozen" });
   door.shut();
   await new Promise((wait) => setTimeout(wait, milliseconds));
-  await room.phase(title);
+  await room.phase(`Round ${number}.`);
   door.open();
   const began = performance.now();
   if (how === "frozen") await devtools.send("Page.setWebLifecycleState", { state: "active" });
   // People who come back look at the page, which says so to it.
   if (how !== "waiting") await page.evaluate(() => document.dispatchEvent(new Event("visibilitychange")));
-  await page.waitForFunction((text) => document.body.textContent.includes(text), title, { polling: 20, timeout: 30000 });
+  const is_current = (least) => Number(/Round (\d+)\./.exec(document.body.textContent)?.[1] ?? 0) >= least;
+  await page.waitForFunction(is_current, number, { polling: 20, timeout: 30000 });
   const time = performance.now() - began;
   console.error(`${how} ${time.toFixed(0)}`);
   await browser.close();
@@ -158,6 +162,19 @@ async function scans(what, network, limits, way = null) {
   }
 }
 
+async function backs(what, milliseconds, how, times) {
+  for (const [name, one] of Object.entries(old_room ? { before: old_room, now: room } : { now: room }))
+    say(
+      `${what}, ${name}`,
+      await Promise.all(
+        Array.from({ length: times }, (_, run) =>
+          new Promise((wait) => setTimeout(wait, run * 2500)).then(() => back(one, milliseconds, how)),
+        ),
+      ),
+      1000,
+    );
+}
+
 const parts = {
   join: () => scans("LAN", null, { usable: 3000, card: 3000 }),
   slow: () =>
@@ -168,25 +185,11 @@ const parts = {
     ),
   way: () =>
     scans("1.6 Mbit/s and 150 ms, handshakes and sockets too", null, { usable: 1500, paint: 1200, card: 6000 }, { oneWay: 75, down: 200000 }),
-  async back() {
-    for (const [what, milliseconds, how, times] of [
-      ["back after 1 s, nobody touches the page", 1000, "waiting", runs],
-      ["back after 60 s, nobody touches the page", 60000, "waiting", Math.max(1, Math.floor(runs / 2))],
-      ["back after 60 s, somebody looks at the page", 60000, "looking", Math.max(1, Math.floor(runs / 4))],
-      ["back after 20 s frozen", 20000, "frozen", Math.max(1, Math.floor(runs / 4))],
-    ])
-      for (const [name, one] of Object.entries(old_room ? { before: old_room, now: room } : { now: room }))
-        say(
-          `${what}, ${name}`,
-          await Promise.all(
-            Array.from({ length: times }, (_, run) =>
-              new Promise((wait) => setTimeout(wait, run * 2500)).then(() => back(one, milliseconds, how)),
-            ),
-          ),
-          1000,
-        );
-    await queue_over_reload();
-  },
+  back_1: () => backs("back after 1 s, nobody touches the page", 1000, "waiting", runs),
+  back_60: () => backs("back after 60 s, nobody touches the page", 60000, "waiting", runs),
+  back_looking: () => backs("back after 60 s, somebody looks at the page", 60000, "looking", runs),
+  back_frozen: () => backs("back after 20 s frozen", 20000, "frozen", runs),
+  queue: queue_over_reload,
 };
 try {
   for (const name of process.argv.slice(2)) await parts[name]();

@@ -11,6 +11,8 @@ import { TrialFigures } from "./trials";
 export function Decide({ s, id, proposal, isOpen }: { s: Session; id: string; proposal: Proposal; isOpen: boolean }): JSX.Element {
   const [answer, set] = useState(""),
     [left, leave] = useState<number[]>([]);
+  // Another proposal that comes folds nothing that somebody is working at.
+  const [isUnfolded] = useState(isOpen);
   // Steps that were taken back have no words; those that do not fit any more cannot be taken.
   const isOut = (i: number): boolean => left.includes(i) || proposal.misfits.some((one) => one.step === i);
   const steps = proposal.words.map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
@@ -22,7 +24,7 @@ export function Decide({ s, id, proposal, isOpen }: { s: Session; id: string; pr
   };
   return (
     <ProposalEntry s={s} proposal={proposal}>
-      <details open={isOpen}>
+      <details open={isUnfolded}>
         <summary>{t("lead_decide")}</summary>
         <TrialFigures trial={proposal.trial} />
         <fieldset class="field">
