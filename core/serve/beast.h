@@ -56,8 +56,9 @@ struct Shared {
   bool is_stopping = false;
 };
 
-/// What every answer has (OWASP ASVS 5.0, V3.4): nothing from elsewhere, nothing inline, nobody's frame.
-void add_security(http::fields& fields, const std::string& host);
+/// What every answer has (OWASP ASVS 5.0, V3.4): nothing from elsewhere, nobody's frame, and nothing inline but what has one of
+/// these digests.
+void add_security(http::fields& fields, const std::string& host, const std::string& inline_sources = "");
 
 /// A connection that wants to be a WebSocket.
 struct Visit {

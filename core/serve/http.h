@@ -19,6 +19,7 @@ struct Response {
   int status = 200;
   std::string type = "text/html; charset=utf-8", body = {};
   std::map<std::string, std::string> fields = {};  ///< besides those that all answers have
+  std::string inline_sources = {};                 ///< digests of the scripts and styles in the page itself that may run
 };
 
 using Reply = std::function<void(Response)>;

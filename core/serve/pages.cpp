@@ -9,8 +9,10 @@
 #include "core/define/json_text.h"
 #include "core/drawing/markup.h"
 #include "core/file/file_io.h"
+#include "core/room/secrets.h"
 #include "core/serve/plain_page.h"
 #include "core/serve/qr_code.h"
+#include "core/wire/base64.h"
 
 namespace bl::serve {
 
@@ -51,6 +53,24 @@ std::string code_in(std::string text) {
   std::erase_if(text, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
+}
+
+// The built page has its style and the beginning of its script in itself, which saves people on slow networks a round trip each.
+// Only these exact texts are allowed (CSP level 3, 2.3.1): whatever else gets into the page does not run.
+std::string inline_sources_of(const std::string& page) {
+  std::string sources;
+  for (const std::string tag : {"script", "style"}) {
+    const std::string open = "<" + tag + ">", close = "</" + tag + ">";
+    for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at)) {
+      at += open.size();
+      const std::size_t end = std::min(page.find(close, at), page.size());
+      const std::string digits = room::digest_of(page.substr(at, end - at));
+      std::string bytes;
+      for (std::size_t k = 0; k < digits.size(); k += 2) bytes += static_cast<char>(std::stoi(digits.substr(k, 2), nullptr, 16));
+      sources += " 'sha256-" + wire::base64_of(bytes) + "'";
+    }
+  }
+  return sources;
 }
 
 }  // namespace
@@ -143,6 +163,13 @@ void Pages::answer(const Request& request, const Reply& reply) {
     const std::string what = slash == std::string::npos ? "" : rest.substr(slash + 1);
     return plain(*room->second, request, what, reply);
   }
+  // What joins people to a Wi-Fi holds its password: it comes as a form does, so that it stands in no address, and is kept
+  // nowhere.
+  if (!is_read && path == "/qr") {
+    auto svg = qr_svg(request.body);
+    return reply(svg ? Response{.type = "image/svg+xml", .body = std::move(*svg), .fields = {{"Cache-Control", "no-store"}}}
+                     : sentence(414, svg.error().message));
+  }
   if (!is_read) return reply(sentence(404, "There is no such form."));
   if (path == "/health") return reply(health(request.is_local));
   if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request));
@@ -165,7 +192,9 @@ void Pages::answer(const Request& request, const Reply& reply) {
   if (room == rooms_->end() || path.find('/', 1) != std::string::npos)
     return reply(sentence(404, "There is no room with this code."));
   Response page = file("index.html", false, request.takes_gzip);
-  return reply(page.status == 200 ? std::move(page) : moved("/plain/" + room->first));
+  if (page.status != 200) return reply(moved("/plain/" + room->first));
+  page.inline_sources = inline_sources_of(file("index.html", false, false).body);
+  return reply(std::move(page));
 }
 
 void Pages::plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply) {
@@ -173,8 +202,9 @@ void Pages::plain(RoomHost& room, const Request& request, const std::string& wha
     return reply(what.empty() ? Response{.body = plain_door(room, "")} : sentence(404, "There is no such page."));
   const auto fields = form_fields(request.body);
   const std::string token = fields.contains("token") ? fields.at("token") : "";
-  const auto show = [&room, reply](std::int64_t seat, const std::string& key, const std::string& notice) {
-    reply({.body = plain_room(room, seat, key, notice), .fields = {{"Cache-Control", "no-store"}}});
+  const auto show = [&room, reply](std::int64_t seat, const std::string& key, const std::string& notice,
+                                   const PlainWish* taken = nullptr) {
+    reply({.body = plain_room(room, seat, key, notice, taken), .fields = {{"Cache-Control", "no-store"}}});
   };
   if (what == "join") {
     const auto admitted = room.admit_by_code();
@@ -190,10 +220,9 @@ void Pages::plain(RoomHost& room, const Request& request, const std::string& wha
   const auto wish = what == "vote" ? wish_of_vote(room, seat, fields) : wish_of_comment(room, seat, fields);
   if (const auto* why = std::get_if<std::string>(&wish)) return show(seat, token, *why);
   const auto& asked = std::get<PlainWish>(wish);
-  room.say_for(seat, asked.kind, asked.content, [show, seat, token, what](const room::Answer& answer) {
-    const auto* refusal = std::get_if<room::Refusal>(&answer);
-    const std::string done = what == "vote" ? "Your ballot is counted." : "Your comment is stored.";
-    show(seat, token, refusal == nullptr ? done : "Not taken: " + refusal->text + ".");
+  room.say_for(seat, asked.kind, asked.content, [show, seat, token, what, asked](const room::Answer& answer) {
+    if (const auto* refusal = std::get_if<room::Refusal>(&answer)) return show(seat, token, "Not taken: " + refusal->text + ".");
+    show(seat, token, what == "vote" ? "Your ballot is counted." : "Your comment is stored.", &asked);
   });
 }
 

@@ -210,9 +210,14 @@ std::string ballot_fields(RoomHost& room, const Json& vote) {
   return inside;
 }
 
-std::string votes_of(RoomHost& room, std::int64_t seat, const std::string& token) {
+std::string votes_of(RoomHost& room, std::int64_t seat, const std::string& token, const PlainWish* taken) {
   std::string page;
-  for (const auto& [id, vote] : content_of(room.view("votes", seat))) {
+  auto votes = content_of(room.view("votes", seat));
+  if (taken != nullptr && taken->kind == room::OperationKind::command) {
+    const Json& said = (**taken->content.read()).at("arguments");
+    if (const auto vote = votes.find(text_in(said, "node")); vote != votes.end()) vote->second["mine"] = said.at("ballot");
+  }
+  for (const auto& [id, vote] : votes) {
     page += "<section><h2>" + escape_xml(text_in(vote, "question")) + "</h2>";
     const std::string kind = text_in(vote, "kind");
     if (vote["open"] == true) {
@@ -285,13 +290,14 @@ std::string plain_door(RoomHost& room, const std::string& notice) {
          form_of(room, "join", "", "", "Take part") + "</main></body></html>";
 }
 
-std::string plain_room(RoomHost& room, std::int64_t seat, const std::string& token, const std::string& notice) {
+std::string plain_room(RoomHost& room, std::int64_t seat, const std::string& token, const std::string& notice,
+                       const PlainWish* taken) {
   const auto about = content_of(room.view("room", seat));
   const Json& own = about.at("seats")[std::to_string(seat)];
   const std::string phase = text_in(about.at("phase"), "name");
   return head(room.title()) + notice_of(notice) + "<p>You are <strong>" + escape_xml(text_in(own, "name")) + "</strong>." +
          (phase.empty() ? "" : " Now: " + escape_xml(phase) + ".") + "</p>" + plan_of(room) +
-         form_of(room, "", token, "", "Show it as it is now") + figures_of(room) + votes_of(room, seat, token) +
+         form_of(room, "", token, "", "Show it as it is now") + figures_of(room) + votes_of(room, seat, token, taken) +
          comments_of(room, seat, token) + "</main></body></html>";
 }
 

@@ -135,7 +135,7 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
     response_.emplace();
     response_->version(version_);
     response_->result(static_cast<unsigned>(response.status));
-    add_security(*response_, host_);
+    add_security(*response_, host_, response.inline_sources);
     for (const auto& [name, value] : response.fields) response_->set(name, value);
     response_->set(http::field::content_type, response.type);
     response_->keep_alive(keeps_alive_);

@@ -213,10 +213,11 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
 
 }  // namespace
 
-void add_security(http::fields& fields, const std::string& host) {
+void add_security(http::fields& fields, const std::string& host, const std::string& inline_sources) {
   const std::string socket = host.empty() ? "" : " ws://" + host + " wss://" + host;
   fields.set("Content-Security-Policy",
-             "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'" + socket +
+             "default-src 'none'; script-src 'self'" + inline_sources + "; style-src 'self'" + inline_sources +
+                 "; img-src 'self' data: blob:; connect-src 'self'" + socket +
                  "; base-uri 'none'; form-action 'self'; frame-ancestors 'none'; require-trusted-types-for 'script'");
   fields.set("Referrer-Policy", "no-referrer");
   fields.set("X-Content-Type-Options", "nosniff");

@@ -3,6 +3,8 @@
 
 usage: serve_test.py PROGRAM SOURCE_FOLDER [unittest arguments]"""
 import asyncio
+import base64
+import hashlib
 import json
 import os
 import re
@@ -377,6 +379,60 @@ class WithoutScripts(RoomCase):
         with self.assertRaises(urllib.error.HTTPError) as refused:
             self.post(f"/plain/{self.server.code}/comment", token="0" * 32, text="x")
         self.assertEqual(refused.exception.code, 403)
+
+    def test_a_ballot_stands_in_the_answer_before_a_tick_has_read_it(self):
+        token = re.search(r'name="token" value="([0-9a-f]{32})"', self.post(f"/plain/{self.server.code}/join"))[1]
+
+        async def pause():
+            lead = await self.page("facilitator", views=["room"]).connect()
+            self.assertEqual((await lead.event("open_vote", vote="height"))["t"], "ack")
+            self.assertEqual((await lead.event("set_pace", rate=10, is_paused=True))["t"], "ack")
+            await lead.until(lambda: lead.view.get("room", {}).get("paused"))
+            await lead.close()
+        wait(pause())
+        self.assertNotIn('value="17.5"', self.post(f"/plain/{self.server.code}", token=token))
+        voted = self.post(f"/plain/{self.server.code}/vote", token=token, vote="height", value="17.5")
+        self.assertIn("Your ballot is counted.", voted)
+        self.assertIn('value="17.5"', voted)
+        self.assertNotIn('value="99"', self.post(f"/plain/{self.server.code}/vote", token=token, vote="height", value="99"))
+
+
+class BuiltPage(unittest.TestCase):
+    def test_only_what_stands_in_the_built_page_may_run_in_it(self):
+        def source(text):
+            return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+        with tempfile.TemporaryDirectory() as folder:
+            script, style = "let a = 1 < 2;\n", "p { color: red }"
+            with open(os.path.join(folder, "index.html"), "w") as file:
+                file.write(f'<html><script>{script}</script><script src="/assets/x.js"></script><style>{style}</style></html>')
+            server = Server(PROGRAM, QUARTER, folder, "--page", folder).start()
+            try:
+                policy = server.get("/" + server.code)[1]["Content-Security-Policy"]
+                for directive in ("script-src", "style-src"):
+                    sources = re.search(directive + " ([^;]*);", policy)[1].split()
+                    self.assertEqual(sources, ["'self'", source(script), source(style)])
+                self.assertNotIn("unsafe", policy)
+                for path in ("/plain/" + server.code, "/health", "/"):
+                    self.assertNotIn("sha256", server.get(path)[1]["Content-Security-Policy"], path)
+            finally:
+                self.assertEqual(server.stop(), 0)
+                server.process.stdout.close()
+
+
+class Pictures(RoomCase):
+    def test_a_wifi_is_drawn_and_its_password_stands_in_no_address(self):
+        def drawn(text):
+            request = urllib.request.Request(self.server.url("/qr"), data=text, headers={"Content-Type": "text/plain"})
+            with urllib.request.urlopen(request, timeout=10) as answer:
+                self.assertEqual(answer.headers["Cache-Control"], "no-store")
+                return answer.read()
+        first = drawn(b"WIFI:T:WPA;S:Quarter;P:tulips;;")
+        self.assertTrue(first.startswith(b"<svg"))
+        self.assertEqual(first, drawn(b"WIFI:T:WPA;S:Quarter;P:tulips;;"))
+        self.assertNotEqual(first, drawn(b"WIFI:T:WPA;S:Quarter;P:roses;;"))
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            drawn(b"x" * 4000)
+        self.assertEqual(refused.exception.code, 414)
 
 
 class BadRequests(RoomCase):

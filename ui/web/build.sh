@@ -1,5 +1,6 @@
 #!/bin/sh
-# Builds the page into build/web: index.html, and script and style sheet under names that hold their hashes, each with a .gz.
+# Builds the page into build/web: index.html, and the script and the words of each language under names that hold their hashes, each
+# with a .gz. The style sheet and the beginning of the script stand in index.html, which saves round trips on slow networks.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P)
 cd "$here"
@@ -9,19 +10,32 @@ need_modules run_time
 out=$root/build/web new=$root/build/web.new
 rm -rf "$new"
 mkdir -p "$new/assets"
-"$esbuild" src/page.tsx src/style.css --bundle --minify --format=iife --target=es2019,chrome70,safari13,firefox68 --charset=utf8 \
-  --jsx=automatic --jsx-import-source=preact --legal-comments=none --log-level=warning \
+target=es2019,chrome70,safari13,firefox68
+bundled() { "$esbuild" "$@" --bundle --minify --target=$target --charset=utf8 --legal-comments=none --log-level=warning; }
+bundled src/page.tsx --format=iife --jsx=automatic --jsx-import-source=preact --supported:dynamic-import=true \
   --entry-names='[name]-[hash]' --outdir="$new/assets"
 script=$(cd "$new/assets" && ls page-*.js)
-style=$(cd "$new/assets" && ls style-*.css)
-sed -e "s|PAGE_SCRIPT|/assets/$script|" -e "s|PAGE_STYLE|/assets/$style|" -e '/^<!--.*-->$/d' src/index.html >"$new/index.html"
+bundled src/words/de.ts src/words/ko.ts src/words/nl.ts --format=esm --entry-names='[name]-[hash]' --outdir="$new/assets"
+words=$(cd "$new/assets" && for language in de ko nl; do printf '"%s":"/assets/%s",' $language "$(ls $language-*.js)"; done)
+bundled src/early.ts --format=iife --supported:dynamic-import=true --define:WORDS="{${words%,}}" --outfile="$new/early.js"
+bundled src/style.css --outfile="$new/style.css"
+while IFS= read -r line; do
+  case $line in
+    '<!--'*'-->') ;;
+    PAGE_EARLY) printf '<script>' && cat "$new/early.js" && printf '</script>\n' ;;
+    PAGE_STYLE) printf '<style>' && cat "$new/style.css" && printf '</style>\n' ;;
+    *PAGE_SCRIPT*) printf '%s/assets/%s%s\n' "${line%%PAGE_SCRIPT*}" "$script" "${line#*PAGE_SCRIPT}" ;;
+    *) printf '%s\n' "$line" ;;
+  esac
+done <src/index.html >"$new/index.html"
+rm "$new/early.js" "$new/style.css"
 total=0
-for file in "$new/index.html" "$new/assets/$script" "$new/assets/$style"; do
-  gzip -9 -n -k "$file"
-  bytes=$(wc -c <"$file.gz")
-  total=$((total + bytes))
-  printf '%7d bytes, %6d compressed  %s\n' "$(wc -c <"$file")" "$bytes" "${file#"$new"/}"
+for file in index.html $(cd "$new" && ls assets/*); do
+  gzip -9 -n -k "$new/$file"
+  bytes=$(wc -c <"$new/$file.gz")
+  case $file in index.html | */page-*) total=$((total + bytes)) ;; esac
+  printf '%7d bytes, %6d compressed  %s\n' "$(wc -c <"$new/$file")" "$bytes" "$file"
 done
-printf '%7s        %6d compressed  in all\n' '' "$total"
+printf '%7s        %6d compressed  in all, in English\n' '' "$total"
 rm -rf "$out"
 mv "$new" "$out"

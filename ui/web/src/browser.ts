@@ -1,7 +1,8 @@
 // The world of the connection in a browser: sockets, localStorage, clock and chance, all without a secure context.
-import { random_name } from "./queue";
+import { random_name } from "./random";
 import type { Store } from "./queue";
-import type { Link, World } from "./world";
+import type { Early, Link, World } from "./world";
+import { Language, Table, add_table, best_language, set_language } from "./words";
 
 /// localStorage, or memory where the browser refuses it; what did not fit is told by `set`.
 export function browser_store(): Store {
@@ -62,21 +63,60 @@ export function socket_address(): string {
   return `${window.location.protocol === "https:" ? "wss:" : "ws:"}//${window.location.host}/ws`;
 }
 
+const early = (window as unknown as { early?: Early }).early;
+
+/// Speaks another language once its words are here. Where they cannot be had, the page goes on as it is.
+export async function speak(language: Language): Promise<void> {
+  const file = early?.files[language];
+  if (early && file) {
+    try {
+      const words = (await (early.words[language] ??= import(file))) as Record<string, Table>;
+      add_table(language, words[language] as Table);
+    } catch {
+      delete early.words[language]; // the next try asks again
+    }
+  }
+  set_language(language);
+}
+
+/// The language of this person: the one that was chosen, or one of the browser's.
+export const wanted_language = (chosen: Language | null): Language =>
+  chosen ?? best_language([kept("language") ?? "", ...navigator.languages]);
+
+// The first connection was begun before this script had come.
+function early_socket(): WebSocket | null {
+  const socket = early?.socket ?? null;
+  return socket !== null && socket.readyState <= WebSocket.OPEN ? socket : null;
+}
+
+/// The run by which hello was said already, on a connection that lives.
+export const early_run = (): string | null => (early_socket() === null ? null : (early?.run ?? null));
+
 function open(address: string): Link {
-  const socket = new WebSocket(address, "bl1");
+  const begun = early_socket(),
+    socket = begun ?? new WebSocket(address, "bl1");
+  if (early) early.socket = null;
   const link: Link = {
     onopen: null,
     onmessage: null,
     onclose: null,
+    greeted: begun === null ? null : (early?.run ?? null),
     send: (text) => {
       if (socket.readyState === WebSocket.OPEN) socket.send(text);
     },
     close: () => socket.close(),
   };
-  socket.onopen = () => link.onopen?.();
-  socket.onmessage = (event) => {
-    if (typeof event.data === "string") link.onmessage?.(event.data);
+  const hear = (data: unknown): void => {
+    if (typeof data === "string") link.onmessage?.(data);
   };
+  const opened = (): void => {
+    link.onopen?.();
+    if (begun !== null) early?.heard.splice(0).forEach(hear);
+  };
+  if (socket.readyState === WebSocket.OPEN) void Promise.resolve().then(opened);
+  // Where hello is to be said at the opening, the one who says it does so first.
+  else socket.addEventListener("open", opened);
+  socket.onmessage = (event) => hear(event.data);
   socket.onclose = (event) => link.onclose?.(event.code, event.reason);
   return link;
 }

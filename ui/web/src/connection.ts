@@ -1,8 +1,9 @@
 // The life of a connection: it keeps one seat in a room and gives every operation exactly one answer, whatever the network does.
+import { hello_of } from "./hello";
 import { Queue, kLease } from "./queue";
 import type { Item } from "./queue";
 import { PresenceVoice } from "./presence";
-import { Timers, back_off, kLongestWait } from "./timers";
+import { Timers, back_off, hold_off, kLongestWait } from "./timers";
 import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
 import type { Answer, Link, Listener, Options, Stage, World } from "./world";
 
@@ -211,20 +212,24 @@ export class Connection {
   }
 
   private greet(): void {
-    const { room, lang, invite } = this.options;
-    const token = this.token;
-    const who = token ? { token } : invite ? { invite } : {};
-    this.asked = this.views.size;
-    this.send({
-      t: "hello",
-      room,
-      run: this.queue.run,
-      kind: this.options.isBeamer ? "beamer" : "page",
-      ...who,
-      unacked: this.queue.lastAnswered,
-      views: [...this.views],
-      lang,
-    });
+    const { room, lang, invite, isBeamer, views } = this.options;
+    const greeted = this.link?.greeted ?? null;
+    this.asked = greeted === null ? this.views.size : views.length;
+    if (greeted === this.queue.run) return;
+    // Another page has taken the run since.
+    if (greeted !== null) return this.reconnect(0);
+    this.send(
+      hello_of({
+        room,
+        run: this.queue.run,
+        isBeamer: isBeamer ?? false,
+        token: this.token,
+        invite,
+        unacked: this.queue.lastAnswered,
+        views: [...this.views],
+        lang,
+      }),
+    );
   }
 
   private lost(): void {
@@ -381,7 +386,7 @@ export class Connection {
     if (why === "rate" || why === "draining" || why === "storage") {
       const tries = (this.retries.get(id) ?? 0) + 1;
       this.retries.set(id, tries);
-      if (tries <= kRetries) return this.hold(back_off(tries + 2, this.world.chance()), id);
+      if (tries <= kRetries) return this.hold(hold_off(tries, this.world.chance()), id);
     }
     this.answer(id, { kind: "refused", why, place: nack.place, text: nack.text, args: nack.args ?? {} });
   }

@@ -2,8 +2,10 @@
 import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { browser_world, keep, kept, socket_address, tab_keep, tab_kept } from "./browser";
+import { browser_world, early_run, keep, kept, socket_address, speak, tab_keep, tab_kept, wanted_language } from "./browser";
 import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine } from "./parts";
+import { unpacked } from "./handover";
+import { kFirstViews } from "./hello";
 import { Plan } from "./plan";
 import { Beamer } from "./screens/beamer";
 import { Card } from "./screens/card";
@@ -11,19 +13,23 @@ import { Form } from "./screens/form";
 import { Ideas } from "./screens/ideas";
 import { CodeScreen, Join, LanguageChoice, Message } from "./screens/join";
 import { LargeCode } from "./screens/invitations";
-import { Lead } from "./screens/lead";
+import { Lead, proposals_waiting } from "./screens/lead";
 import { Now } from "./screens/now";
 import { PlanScreen } from "./screens/plan_screen";
 import { Votes } from "./screens/votes";
+import { Queue } from "./queue";
 import { Session } from "./session";
 import { Tab, Ui, useWatched, useWide } from "./ui";
-import type { ViewName } from "./wire";
-import { Key, Language, best_language, language_now, locale, set_language, t } from "./words";
+import { Wifi, wifi_of_address } from "./wifi";
+import { keep_wifi } from "./wifi_kept";
+import { Key, Language, best_language, language_now, locale, t } from "./words";
 
 interface Address {
   code: string;
   invite: string | null;
   token: string | null; ///< of a seat that was taken at another address of the room
+  waiting: string | null; ///< what had no answer there, packed
+  wifi: Wifi | null; ///< for a beamer on a computer of its own
   isBeamer: boolean;
   language: Language | null;
 }
@@ -36,10 +42,12 @@ function read_address(): Address {
   const value = (name: string): string | null => parts.find((part) => part.startsWith(`${name}=`))?.slice(name.length + 1) ?? null;
   const language = value("lang"),
     invite = value("k"),
-    token = value("t");
+    token = value("t"),
+    waiting = value("q"),
+    wifi = wifi_of_address(value("w") ?? "");
   const isBeamer = parts.includes("beamer");
-  if (invite !== null || token !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
-  return { code, invite, token, isBeamer, language: language === null ? null : best_language([language]) };
+  if (invite !== null || token !== null || waiting !== null || wifi !== null) window.history.replaceState(null, "", window.location.pathname + (isBeamer ? "#beamer" : ""));
+  return { code, invite, token, waiting, wifi, isBeamer, language: language === null ? null : best_language([language]) };
 }
 
 const kIconOf: Partial<Record<Tab, IconName>> = { now: "now", plan: "plan", card: "card", votes: "votes", ideas: "ideas", lead: "lead" };
@@ -55,14 +63,17 @@ function tabs_of(s: Session): Tab[] {
 }
 
 function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const waiting = Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote));
+  const isDue = (tab: Tab): boolean =>
+    tab === "votes"
+      ? Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote))
+      : tab === "lead" && proposals_waiting(s).length > 0;
   return (
     <nav aria-label={t("navigation")}>
       {tabs_of(s).map((tab) => (
         <button key={tab} aria-current={ui.tab === tab ? "page" : undefined} onClick={() => ui.go(tab)}>
           <Icon name={kIconOf[tab] ?? "now"} />
           <span>{t(`tab_${tab}` as Key)}</span>
-          {tab === "votes" && waiting ? <i class="dot" aria-hidden="true" /> : null}
+          {isDue(tab) ? <i class="dot" aria-hidden="true" /> : null}
         </button>
       ))}
     </nav>
@@ -95,7 +106,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
   useEffect(() => s.want("comments", "proposals", "drafts"), []);
   if (ui.isCodeLarge) return <LargeCode s={s} onClose={() => ui.set({ isCodeLarge: false })} />;
   return (
-    <div class={`frame ${isWide ? "wide" : ""}`}>
+    <div class={`frame ${isWide ? "wide" : ""} ${ui.tab === "lead" ? "leads" : ""}`}>
       <header class="top">
         <div class="grow">
           <p class="room">{s.views.room.title}</p>
@@ -146,10 +157,11 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   const [, again] = useState(0);
   useWatched(s, ui);
   const change_language = (one: Language): void => {
-    set_language(one);
     keep("language", one);
-    document.documentElement.lang = locale();
-    again((count) => count + 1);
+    void speak(one).then(() => {
+      document.documentElement.lang = locale();
+      again((count) => count + 1);
+    });
   };
   const { stage } = s.connection;
   document.title = s.views.room.title ?? "BehaviourLinks";
@@ -175,17 +187,28 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   );
 }
 
+// The marked language of the tests is English to everybody else.
+function language_for_server(chosen: Language | null): string {
+  const wanted = wanted_language(chosen);
+  return wanted === "xx" ? "en" : wanted;
+}
+
 function start(): void {
   const root = document.getElementById("page");
   if (!root) return;
   const address = read_address();
-  set_language(address.language ?? best_language([kept("language") ?? "", ...navigator.languages]));
-  document.documentElement.lang = locale();
-  if (address.code === "") return render(<CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />, root);
+  // Words of another language may still be on their way: the connection does not wait for them.
+  const show = (screen: () => JSX.Element): void =>
+    void speak(wanted_language(address.language)).then(() => {
+      document.documentElement.lang = locale();
+      root.textContent = "";
+      render(screen(), root);
+    });
+  if (address.code === "")
+    return show(() => <CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />);
+  if (address.wifi) keep_wifi(address.code, address.wifi);
   if (address.isBeamer) document.documentElement.classList.add("on-beamer");
-  const views: ViewName[] = address.isBeamer
-    ? ["room", "plan", "figures", "votes", "comments", "proposals"]
-    : ["room", "plan", "figures", "card", "votes"];
+  const views = kFirstViews[address.isBeamer ? "beamer" : "page"];
   const world = browser_world(socket_address());
   // Each invitation is a seat of its own, with its own key and its own queue: a page never speaks for another of its seats.
   const base = `bl1/${address.code}/${address.isBeamer ? "beamer/" : ""}`;
@@ -199,13 +222,17 @@ function start(): void {
   // A link of this page at another address brings the seat along. A seat that is here already stays.
   const tokenKey = `${prefix}token`;
   if (address.token !== null && world.store.get(tokenKey) === null) world.store.set(tokenKey, address.token);
+  // What waited there was said by the seat of the link.
+  const brought = address.token !== null && address.waiting !== null ? unpacked(address.waiting) : [];
+  const isSame = world.store.get(tokenKey) === address.token;
+  if (isSame) Queue.bring(world.store, prefix, brought, world.now());
   const session = new Session(
     world,
     {
       room: address.code,
       prefix,
-      run: tab_kept(runKey),
-      lang: locale(),
+      run: tab_kept(runKey) ?? early_run(),
+      lang: language_for_server(address.language),
       views,
       invite,
       here: window.location.origin,
@@ -214,6 +241,7 @@ function start(): void {
     (run) => tab_keep(runKey, run),
     () => window.location.reload(),
   );
+  if (!isSame) session.refuseBrought(brought);
   const ui = new Ui();
   // Others may know what somebody looks at: what stands in the scene itself, not plots and streets.
   ui.watch(() => session.connection.presence.change({ holds: ui.selected !== null && !ui.selected.includes("/") ? [ui.selected] : [] }));
@@ -223,7 +251,7 @@ function start(): void {
   window.addEventListener("online", () => session.connection.wake());
   window.addEventListener("pagehide", () => session.connection.leave());
   session.connection.start();
-  render(<App s={session} ui={ui} address={address} />, root);
+  show(() => <App s={session} ui={ui} address={address} />);
 }
 
 start();

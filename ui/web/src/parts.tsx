@@ -68,8 +68,10 @@ export function StatusLine({ s }: { s: Session }): JSX.Element {
 /// Where the room may be found instead, while this page has no connection.
 export function Moved({ s }: { s: Session }): JSX.Element | null {
   useClock(1000);
-  const places = s.places();
-  if (places.length === 0) return null;
+  const places = s.places(),
+    [first] = places,
+    n = s.connection.waiting;
+  if (!first) return null;
   return (
     <div class="notice moved" role="status">
       {places.map(({ address, link }) => (
@@ -77,6 +79,7 @@ export function Moved({ s }: { s: Session }): JSX.Element | null {
           {t("moved")} <a href={link}>{address}</a>
         </p>
       ))}
+      {n > 0 ? <p>{t(first.takesAlong ? "moved_along" : "moved_stays", { n })}</p> : null}
     </div>
   );
 }
@@ -235,7 +238,9 @@ export function Stepper(props: StepperProps): JSX.Element {
   const [drag, setDrag] = useState<number | null>(null);
   const [typed, setTyped] = useState<string | null>(null);
   const [isWrong, setWrong] = useState(false);
-  const value = drag ?? props.value;
+  const before = useRef(""); // the text when the person came into the field
+  const value = drag ?? props.value,
+    text = value === null ? "" : number(value, step);
   const shown = value ?? in_steps((minimum + maximum) / 2, minimum, maximum, step);
   const put = (next: number): void => {
     setDrag(null);
@@ -247,6 +252,8 @@ export function Stepper(props: StepperProps): JSX.Element {
     if (typed === null) return;
     const read = typed_number(typed);
     setTyped(null);
+    if (typed === before.current) return;
+    before.current = typed;
     if (read === null || read < minimum || read > maximum) setWrong(true);
     else put(read);
   };
@@ -265,7 +272,13 @@ export function Stepper(props: StepperProps): JSX.Element {
           aria-label={range}
           aria-invalid={isWrong}
           size={9}
-          value={typed ?? (value === null ? "" : number(value, step))}
+          value={typed ?? text}
+          onFocus={(event) => {
+            // Others may change the value while somebody types: what is under the caret stays.
+            before.current = text;
+            setTyped(text);
+            event.currentTarget.select();
+          }}
           onInput={(event) => setTyped(event.currentTarget.value)}
           onBlur={take}
           onKeyDown={(event) => {

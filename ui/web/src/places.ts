@@ -25,7 +25,17 @@ export function other_places(told: Json | undefined, here: string): string[] {
 }
 
 /// The page of the room at another address. The key stands behind #, which browsers send to nobody.
-export function link_to(place: string, room: string, who: { token: string; invite: string | null; isBeamer?: boolean }): string {
-  const parts = [...(who.invite === null ? [] : [`k=${who.invite}`]), `t=${who.token}`, ...(who.isBeamer ? ["beamer"] : [])];
+/// `waiting`: what is not answered yet, packed.
+export function link_to(
+  place: string,
+  room: string,
+  who: { token: string; invite: string | null; isBeamer?: boolean; waiting?: string | null },
+): string {
+  const parts = [
+    ...(who.invite === null ? [] : [`k=${who.invite}`]),
+    `t=${who.token}`,
+    ...(who.waiting ? [`q=${who.waiting}`] : []),
+    ...(who.isBeamer ? ["beamer"] : []),
+  ];
   return `${place}/${encodeURIComponent(room)}#${parts.join("&")}`;
 }

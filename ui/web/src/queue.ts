@@ -20,6 +20,13 @@ export interface Item {
   shown?: Json;
 }
 
+/// A run with what is not answered in it, in order and without gaps.
+export interface Left {
+  run: string;
+  next: number;
+  items: Item[];
+}
+
 interface RunRecord {
   next: number;
   owner: string;
@@ -57,17 +64,22 @@ export class Queue {
   static take(store: Store, prefix: string, run: string, owner: string, now: number): Queue | null {
     const record = parsed<RunRecord>(store.get(`${prefix}run/${run}`));
     if (record && record.owner !== "" && record.owner !== owner && now - record.at < kLease) return null;
-    const queue = new Queue(store, prefix, run, owner);
-    const start = `${prefix}op/${run}/`;
-    for (const key of store.keys()) {
-      const item = key.startsWith(start) ? parsed<Item>(store.get(key)) : null;
-      if (item) queue.items.push(item);
-    }
-    queue.items.sort((a, b) => a.id - b.id);
-    const last = queue.items[queue.items.length - 1];
-    queue.next = Math.max(record ? record.next : 1, last ? last.id + 1 : 1);
+    const queue = new Queue(store, prefix, run, owner).read();
     queue.live(now);
     return queue;
+  }
+
+  private read(): Queue {
+    const start = `${this.prefix}op/${this.run}/`;
+    for (const key of this.store.keys()) {
+      const item = key.startsWith(start) ? parsed<Item>(this.store.get(key)) : null;
+      if (item) this.items.push(item);
+    }
+    this.items.sort((a, b) => a.id - b.id);
+    const record = parsed<RunRecord>(this.store.get(`${this.prefix}run/${this.run}`));
+    const last = this.items[this.items.length - 1];
+    this.next = Math.max(record ? record.next : 1, last ? last.id + 1 : 1);
+    return this;
   }
 
   /// Runs of this room that still hold operations although no living page owns them.
@@ -95,6 +107,26 @@ export class Queue {
       if (queue && queue.items.length > 0) return queue;
     }
     return null;
+  }
+
+  /// All that is not answered: in this run, and in those of pages that have gone.
+  waiting(now: number): Left[] {
+    const gone = Queue.left(this.store, this.prefix, now).filter((run) => run !== this.run);
+    const others = gone.map((run) => new Queue(this.store, this.prefix, run, "").read());
+    return [this as Queue, ...others]
+      .filter((one) => one.items.length > 0)
+      .map((one) => ({ run: one.run, next: one.next, items: one.items }));
+  }
+
+  /// Puts what another page has left into the store, as if a page here had left it. What is there already stays.
+  static bring(store: Store, prefix: string, runs: Left[], now: number): void {
+    for (const { run, next, items } of runs) {
+      const record = parsed<RunRecord>(store.get(`${prefix}run/${run}`));
+      // A page here has gone on with this run, and so has sent what was brought before.
+      if (record && record.next >= next) continue;
+      for (const item of items) store.set(`${prefix}op/${run}/${item.id}`, JSON.stringify(item));
+      store.set(`${prefix}run/${run}`, JSON.stringify({ next, owner: "", at: now }));
+    }
   }
 
   /// Empties all runs, and says what was in them.
@@ -173,11 +205,4 @@ export class Queue {
   private keep(key: string, text: string): void {
     if (!this.store.set(key, text)) this.isKept = false;
   }
-}
-
-/// A random name of 128 bits, without a secure context.
-export function random_name(fill: (bytes: Uint8Array) => void): string {
-  const bytes = new Uint8Array(16);
-  fill(bytes);
-  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }

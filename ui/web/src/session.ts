@@ -1,7 +1,8 @@
 // What the page knows of its room: the views that the server sends, and how each own change stands.
 import { Connection } from "./connection";
+import { packed } from "./handover";
 import { link_to, other_places } from "./places";
-import type { Item } from "./queue";
+import type { Item, Left } from "./queue";
 import type { Ballot, Deed, Json, PlanItem, Presence, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
 import { whole } from "./whole";
 import type { Answer, Options, World } from "./world";
@@ -174,13 +175,24 @@ export class Session {
 
   /// Where the room may be, if the server has been gone for some time: links that open the same seat there. A page cannot look
   /// there by itself, because servers talk only to pages of their own.
-  places(): { address: string; link: string }[] {
+  places(): { address: string; link: string; takesAlong: boolean }[] {
     const { stage, since, token } = this.connection;
     const isGone = (stage === "waiting" || stage === "connecting") && this.now() - since >= kMoved;
     if (!isGone || token === null) return [];
     const { room, invite, isBeamer, here } = this.options;
     const told = JSON.parse(this.world.store.get(this.placesKey) ?? "[]") as Json;
-    return other_places(told, here).map((place) => ({ address: `${place}/${room}`, link: link_to(place, room, { token, invite, isBeamer }) }));
+    const waiting = packed(this.connection.queue.waiting(this.now()));
+    return other_places(told, here).map((place) => ({
+      address: `${place}/${room}`,
+      link: link_to(place, room, { token, invite, isBeamer, waiting }),
+      takesAlong: waiting !== null,
+    }));
+  }
+
+  /// What was brought from another address of the room for a seat that is not the one here: its author is told that it was not sent.
+  refuseBrought(runs: Left[]): void {
+    for (const { items } of runs)
+      for (const item of items) this.answered(item, { kind: "refused", why: "seat", place: "", text: "", args: {} });
   }
 
   /// The person has come by an invitation.

@@ -1,15 +1,14 @@
 // Picks sentences by language, with numbers and plural forms by the rules of that language.
-import { de } from "./words/de";
 import { Key, Text, en } from "./words/en";
-import { ko } from "./words/ko";
-import { nl } from "./words/nl";
 
 export type { Key } from "./words/en";
 export type Language = "en" | "nl" | "de" | "ko" | "xx";
-type Table = Record<Key, Text>;
+export type Table = Record<Key, Text>;
 
-/// "xx" is no language: its sentences are longer and marked, so that tests find texts that are cut off or not in the tables.
-export const kLanguages: Language[] = ["en", "nl", "de", "ko"];
+/// By language: its own name. "xx" is no language: its sentences are longer and marked, so that tests find texts that are cut off or
+/// not in the tables.
+export const kNames: Record<Exclude<Language, "xx">, string> = { en: "English", nl: "Nederlands", de: "Deutsch", ko: "한국어" };
+export const kLanguages = Object.keys(kNames) as Exclude<Language, "xx">[];
 
 const kAccents: Record<string, string> = { a: "á", e: "ë", i: "ï", o: "ö", u: "ü", A: "Á", E: "Ë", I: "Ï", O: "Ö", U: "Ü", n: "ñ", s: "š" };
 
@@ -33,14 +32,22 @@ function pseudo(): Table {
   return table as Table;
 }
 
-export const kTables: Record<Exclude<Language, "xx">, Table> = { en, nl, de, ko };
+// English is here from the beginning; the others come when somebody reads them.
+const tables: Partial<Record<Language, Table>> = { en };
 let language: Language = "en";
 let table: Table = en;
 let plurals = new Intl.PluralRules("en");
 
+export function add_table(of: Language, words: Table): void {
+  tables[of] = words;
+}
+
+/// Nothing changes where the words of that language have not come yet.
 export function set_language(next: Language): void {
+  const words = next === "xx" ? pseudo() : tables[next];
+  if (!words) return;
   language = next;
-  table = next === "xx" ? pseudo() : kTables[next];
+  table = words;
   plurals = new Intl.PluralRules(locale());
 }
 

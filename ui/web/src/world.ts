@@ -9,6 +9,7 @@ export interface Link {
   onopen: (() => void) | null;
   onmessage: ((text: string) => void) | null;
   onclose: ((code: number, reason: string) => void) | null;
+  greeted?: string | null; ///< the run by which hello was said on it already
 }
 
 /// Everything outside: the clock, the sockets, the store, chance, and whether anybody looks.
@@ -36,6 +37,16 @@ export interface Listener {
   told(message: { t: string; [key: string]: unknown }): void;
   answered(item: Item, answer: Answer): void;
   reload(): void;
+}
+
+/// What the beginning of the script has started (early.ts): a socket, and files of words by language. `run`: it has said hello by
+/// this run, and `heard` what came.
+export interface Early {
+  socket: WebSocket | null;
+  run: string | null;
+  heard: unknown[];
+  words: Record<string, Promise<unknown>>;
+  files: Record<string, string>;
 }
 
 export interface Options {

@@ -3,14 +3,18 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import test from "node:test";
 import {
+  add_table,
   amount,
   best_language,
   countdown,
+  de,
   duration,
+  en,
   extent_of,
   in_steps,
   kLanguages,
-  kTables,
+  ko,
+  nl,
   number,
   points_of,
   round_step,
@@ -20,9 +24,14 @@ import {
   t,
   typed_number,
   why_of,
+  wifi_of_address,
+  wifi_text,
+  wifi_to_address,
 } from "../../../build/web_test/modules.mjs";
 import { seeded } from "./fakes.mjs";
 
+const kTables = { en, nl, de, ko };
+for (const [language, words] of Object.entries(kTables)) add_table(language, words);
 const each_language = (check) => {
   for (const language of kLanguages) {
     set_language(language);
@@ -109,7 +118,7 @@ test("every sentence is used, and every reason has one", () => {
   const made = [...source.matchAll(/`([a-z]+_(?:[a-z]+_)?)\$\{/g)].map((match) => match[1]);
   for (const key of Object.keys(kTables.en))
     assert.ok(
-      new RegExp(`["'\`]${key}["'\`]`).test(source) || key === "language" || made.some((start) => key.startsWith(start)),
+      new RegExp(`["'\`]${key}["'\`]`).test(source) || made.some((start) => key.startsWith(start)),
       `nobody says ${key}`,
     );
   const reasons = [
@@ -182,4 +191,27 @@ test("outlines are read as browsers read them", () => {
   assert.deepEqual(points_of("nonsense"), []);
   assert.deepEqual(extent_of(points_of("M1e1 2L-4 8")), { x: -4, y: 2, width: 14, height: 6 });
   assert.equal(extent_of([]), null);
+});
+
+// A reader of such codes that shares nothing with the page: fields end at a `;` that no `\\` stands before.
+function read_wifi(text) {
+  assert.ok(text.startsWith("WIFI:") && text.endsWith(";;"));
+  const fields = {};
+  for (const [, name, value] of text.slice(5).matchAll(/([A-Z]):((?:\\.|[^;\\])*);/g)) fields[name] = value.replace(/\\(.)/g, "$1");
+  return fields;
+}
+
+test("phones read the Wi-Fi as it was typed, and so does the beamer", () => {
+  const chance = seeded(5),
+    letters = ["a", "B", "7", " ", ";", ",", ":", "\\", '"', "&", "#", "=", "ü", "방", "%"];
+  for (let k = 0; k < 2000; ++k) {
+    const some = (most) => Array.from({ length: Math.ceil(chance() * most) }, () => letters[Math.floor(chance() * letters.length)]).join("");
+    const wifi = { name: some(12), password: chance() < 0.2 ? "" : some(20) };
+    const read = read_wifi(wifi_text(wifi));
+    assert.deepEqual([read.S, read.P ?? "", read.T], [wifi.name, wifi.password, wifi.password === "" ? "nopass" : "WPA"]);
+    const address = wifi_to_address(wifi);
+    assert.doesNotMatch(address, /[&#= "]/, "one field behind the #");
+    assert.deepEqual(wifi_of_address(address), wifi);
+  }
+  for (const odd of ["", "%", "[]", "%5B1%2C2%5D", "{}", "%5B%22%22%2C%22x%22%5D"]) assert.equal(wifi_of_address(odd), null);
 });

@@ -1,5 +1,6 @@
 // Serves the built page and a mock room on one port, with the headers that the real server sends.
-import { createReadStream, existsSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { createReadStream, existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -8,18 +9,27 @@ import { MockRoom } from "./mock_room.mjs";
 
 const { WebSocketServer } = createRequire(new URL("../package.json", import.meta.url))("ws");
 const folder = fileURLToPath(new URL("../../../build/web", import.meta.url));
-export const kPolicy =
-  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws: wss:; base-uri 'none'; " +
-  "form-action 'self'; frame-ancestors 'none'; require-trusted-types-for 'script'";
+// What stands in the page itself is allowed by its digest, as the real server does it.
+function policy() {
+  const page = readFileSync(join(folder, "index.html"), "utf8");
+  const own = [...page.matchAll(/<(script|style)>([^]*?)<\/\1>/g)]
+    .map(([, , text]) => ` 'sha256-${createHash("sha256").update(text).digest("base64")}'`)
+    .join("");
+  return (
+    `default-src 'none'; script-src 'self'${own}; style-src 'self'${own}; img-src 'self' data: blob:; connect-src 'self' ws: wss:; ` +
+    "base-uri 'none'; form-action 'self'; frame-ancestors 'none'; require-trusted-types-for 'script'"
+  );
+}
 const kTypes = { html: "text/html; charset=utf-8", js: "text/javascript; charset=utf-8", css: "text/css; charset=utf-8" };
 
 /// Starts on a free port, or on the one that is named.
 export async function serve(port = 0) {
   const room = new MockRoom(),
-    bytes = { http: 0, state: 0 };
+    bytes = { http: 0, state: 0 },
+    own_policy = policy();
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
-    if (path.startsWith("/qr/"))
+    if (path.startsWith("/qr"))
       return answer
         .writeHead(200, { "Content-Type": "image/svg+xml" })
         .end('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4"><path fill="#fff" d="M0 0h4v4H0z"/><path d="M1 1h2v2H1z"/></svg>');
@@ -28,7 +38,7 @@ export async function serve(port = 0) {
     answer.writeHead(200, {
       "Content-Type": kTypes[file.split(".").pop()],
       "Content-Encoding": "gzip",
-      "Content-Security-Policy": kPolicy,
+      "Content-Security-Policy": own_policy,
       "Referrer-Policy": "no-referrer",
       "X-Content-Type-Options": "nosniff",
       "Cache-Control": path.startsWith("/assets/") ? "public, max-age=31536000, immutable" : "no-cache",

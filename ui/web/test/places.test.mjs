@@ -1,7 +1,7 @@
 // Other addresses of a room: which ones a page may lead to, and that the key of a seat stays behind the #.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Session, link_to, other_places } from "../../../build/web_test/modules.mjs";
+import { Queue, Session, link_to, other_places, packed, unpacked } from "../../../build/web_test/modules.mjs";
 import { Clock, MemoryStore, seeded } from "./fakes.mjs";
 
 const kHere = "http://192.168.1.5:8080",
@@ -88,7 +88,7 @@ test("other addresses are offered after ten seconds without a connection, and no
   clock.run(9900);
   assert.deepEqual(session.places(), []);
   clock.run(200);
-  assert.deepEqual(session.places(), [{ address: `${kThere}/BKRT`, link: `${kThere}/BKRT#t=secret` }]);
+  assert.deepEqual(session.places(), [{ address: `${kThere}/BKRT`, link: `${kThere}/BKRT#t=secret`, takesAlong: false }]);
   mend();
   clock.run(6000);
   assert.ok(session.connection.isOpen);
@@ -115,4 +115,72 @@ test("a page without a seat is led nowhere", () => {
   start(false);
   clock.run(60000);
   assert.deepEqual(session.places(), []);
+});
+
+/// Runs with gaps, as answers leave them.
+function some_runs(chance) {
+  return Array.from({ length: 1 + Math.floor(chance() * 3) }, (_, r) => {
+    const items = [];
+    let id = Math.floor(chance() * 5);
+    for (let i = 0; i < 1 + chance() * 12; ++i) {
+      id += 1 + Math.floor(chance() * 3);
+      const args = { text: "Wörter, 말 & <b>".repeat(1 + Math.floor(chance() * 4)) };
+      items.push({ id, deed: { t: "room", e: { event: "comment", arguments: args } }, base: 3, at: 1e12 + i, mark: `comment/${id}`, shown: args });
+    }
+    return { run: `run${r}`, next: id + 1 + Math.floor(chance() * 3), items };
+  });
+}
+
+test("what waits is the same after the way through an address, and is put into a store once", () => {
+  const chance = seeded(11);
+  for (let k = 0; k < 300; ++k) {
+    const runs = some_runs(chance),
+      text = packed(runs);
+    assert.match(text, /^[\w-]+$/);
+    assert.deepEqual(unpacked(text), runs);
+    const store = new MemoryStore();
+    Queue.bring(store, "p/", unpacked(text), 1e12);
+    const own = Queue.take(store, "p/", "run0", "me", 1e12);
+    assert.deepEqual(own.waiting(1e12).map((one) => one.run).sort(), runs.map((one) => one.run).sort());
+    assert.deepEqual(own.waiting(1e12)[0], runs[0]);
+    // The link is followed once more, after some of it was answered here: nothing comes back.
+    own.answered(runs[0].items[0].id);
+    const before = JSON.stringify([...store.keys()].sort());
+    Queue.bring(store, "p/", unpacked(text), 1e12);
+    assert.equal(JSON.stringify([...store.keys()].sort()), before);
+  }
+  assert.equal(packed([{ run: "a", next: 1, items: [] }]), null);
+  const large = some_runs(chance);
+  large[0].items[0].deed.e.arguments.text = "x".repeat(150000);
+  assert.equal(packed(large), null, "a part does not travel");
+});
+
+test("whatever text an address has, it is read as whole runs or as nothing", () => {
+  const chance = seeded(12),
+    letters = (value) => Buffer.from(JSON.stringify(value)).toString("base64url");
+  let whole = 0;
+  for (let k = 0; k < 5000; ++k) {
+    const text = packed(some_runs(chance)).split("");
+    for (let i = 0; i < 3; ++i) text[Math.floor(chance() * text.length)] = "Aa0-_z"[Math.floor(chance() * 6)];
+    for (const { run, items, next } of unpacked(text.join(""))) {
+      whole += 1;
+      assert.ok(/^\w+$/.test(run) && items.every((item, i) => item.id > (items[i - 1]?.id ?? 0) && item.id < next));
+    }
+  }
+  assert.ok(whole > 0);
+  const item = { id: 1, deed: { t: "op" }, base: 0, at: 1 };
+  assert.equal(unpacked(letters([{ run: "a", next: 2, items: [item] }])).length, 1);
+  for (const odd of [
+    null,
+    {},
+    [null],
+    [{ run: "a/b", next: 2, items: [item] }],
+    [{ run: "a", next: 1, items: [item] }],
+    [{ run: "a", next: 3, items: [item, item] }],
+    [{ run: "a", next: 2, items: [{ ...item, deed: { t: "hello" } }] }],
+    [{ run: "a", next: 2, items: [{ ...item, id: "1" }] }],
+    [{ run: "a", next: 2, items: [{ ...item, mark: 5 }] }],
+  ])
+    assert.deepEqual(unpacked(letters(odd)), []);
+  for (const text of ["", "%", "a", "x".repeat(300000)]) assert.deepEqual(unpacked(text), []);
 });

@@ -10,7 +10,7 @@ import { fileURLToPath } from "node:url";
 const require = createRequire(new URL("../package.json", import.meta.url));
 const { chromium } = require("playwright-core");
 const { WebSocket } = require("ws");
-const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
+export const path_of = (name) => fileURLToPath(new URL(`../../../${name}`, import.meta.url));
 export const shots = path_of("build/web_shots");
 mkdirSync(shots, { recursive: true });
 
@@ -150,11 +150,43 @@ async function door_to(port, host) {
   };
 }
 
-export async function start_room() {
+/// A slow way to the server: each connection costs a round trip to open, each part takes `oneWay` [ms], and all that comes down shares
+/// `down` [bytes a second]. A browser's own emulation slows neither handshakes nor sockets.
+async function slow_way_to(port, host, { oneWay, down }) {
+  let free = 0; // when the line down has sent all that it was given
+  const server = createServer((near) => {
+    const far = connect(port, host),
+      opened = performance.now() + 2 * oneWay;
+    const later = (at, then) => setTimeout(then, Math.max(0, at - performance.now()));
+    near.setNoDelay(true);
+    far.setNoDelay(true);
+    near.on("data", (data) => later(Math.max(opened, performance.now()) + oneWay, () => far.write(data)));
+    far.on("data", (data) => {
+      // In packets, so that a long answer does not hold back what comes on another connection.
+      for (let at = 0; at < data.length; at += 1400) {
+        const part = data.subarray(at, at + 1400);
+        free = Math.max(free, performance.now()) + (part.length / down) * 1000;
+        later(free + oneWay, () => near.write(part));
+      }
+    });
+    for (const [one, other] of [
+      [near, far],
+      [far, near],
+    ]) {
+      one.on("error", () => undefined);
+      one.on("close", () => later(Math.max(free, performance.now()) + 2 * oneWay, () => other.destroy()));
+    }
+  });
+  await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
+  return { origin: `http://127.0.0.1:${server.address().port}`, end: () => server.close() };
+}
+
+/// `about`: the scene of the room; `page`: the folder of the built page.
+export async function start_room({ about = scene(), page = path_of("build/web") } = {}) {
   const folder = mkdtempSync(join(tmpdir(), "room-"));
   const invites = join(folder, "invites.json"),
     source = join(folder, "room.json");
-  writeFileSync(source, JSON.stringify(scene()));
+  writeFileSync(source, JSON.stringify(about));
   const program = spawn(process.env.BEHAVIOURLINKS, [
     "serve",
     source,
@@ -167,7 +199,7 @@ export async function start_room() {
     "--invites",
     invites,
     "--page",
-    path_of("build/web"),
+    page,
   ]);
   let said = "";
   const address = await new Promise((found, failed) => {
@@ -198,6 +230,14 @@ export async function start_room() {
       return end();
     },
     said: () => said,
+    folder,
+    forget: () => rmSync(folder, { recursive: true, force: true }),
+    kill: () => {
+      program.removeAllListeners("exit");
+      program.kill("SIGKILL");
+      return new Promise((gone) => program.on("exit", gone));
+    },
+    slow_way: (how) => slow_way_to(Number(port), hostname, how),
     door: () => door_to(Number(port), hostname),
     give_card: (seat) => lead.event("set_role", { seat, role: "stakeholder", areas: [], card: "parents" }),
     phase: (name) => lead.event("set_phase", { name, activities: ["change", "draft", "comment", "vote"], forms: [], ends_at: 0 }),

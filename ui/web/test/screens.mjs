@@ -41,7 +41,7 @@ async function person(server, { size = [390, 844], scheme = "light", fragment = 
     home = `http://room.test:${server.port}`;
   page.on("request", (request) => {
     counts.requests += 1;
-    if (![home, ...others].some((one) => request.url().startsWith(one)) && !request.url().startsWith("data:")) faults.push(`a request to ${request.url()}`);
+    if (![home, ...others].some((one) => request.url().startsWith(one)) && !/^(data|blob):/.test(request.url())) faults.push(`a request to ${request.url()}`);
   });
   page.on("pageerror", (error) => faults.push(`an error: ${error.message}`));
   page.on("console", (message) => {
@@ -212,7 +212,13 @@ async function walk_facilitator(server, size, scheme) {
   await look(page, `lead_${at}`);
   await page.click(".people summary >> nth=0");
   await look(page, `lead_person_${at}`);
+  await page.click('summary:has-text("Wi-Fi")');
+  await page.fill('label:has-text("Name of the network") input', "Quarter");
+  await page.fill('label:has-text("Password") input', "tulips; in spring");
+  await page.waitForSelector("details .qr");
+  await look(page, `lead_wifi_${at}`);
   await page.click('button:has-text("Show the code large")');
+  await page.waitForSelector(".codes img >> nth=1");
   await look(page, `lead_code_${at}`);
   await page.click('button:has-text("Close")');
   room.open_votes();
@@ -231,6 +237,14 @@ async function walk_beamer(server, size, scheme) {
     room.publish();
     await look(page, `beamer_${layout}_${at}`, { isBeamer: true });
   }
+  // A beamer on a computer of its own is told the Wi-Fi by its address, which does not keep it.
+  const other = await person(server, { size, scheme, fragment: `#beamer&w=${encodeURIComponent(JSON.stringify(["Quarter", "tulips; in spring"]))}` });
+  room.room.layout = "code";
+  room.publish();
+  await other.waitForSelector(".codes img >> nth=1");
+  assert.equal(await other.evaluate(() => location.hash), "#beamer");
+  await look(other, `beamer_wifi_${at}`, { isBeamer: true });
+  await other.context().close();
   room.open_votes();
   room.room.layout = "vote";
   room.publish();

@@ -9,8 +9,9 @@ import { useClock } from "../ui";
 import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
+import { option_label } from "./ballot_forms";
 import { comment_pins } from "./ideas";
-import { join_address } from "./invitations";
+import { Codes, join_address } from "./invitations";
 import { CompareTable } from "./proposals";
 import { ResultOf, Turnout } from "./votes";
 
@@ -20,8 +21,9 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
   const figures = Object.entries(s.views.figures).slice(0, 3),
     size = Math.ceil(window.innerHeight / 25);
   return (
-    <div class="stage with-side">
+    <div class={`stage ${figures.length > 0 ? "with-side" : ""}`}>
       <Plan s={s} binding={{ pins, onTap: () => undefined }} selected={null} label={size} isStill />
+      {figures.length === 0 ? null : (
       <ul class="side">
         {figures.map(([id, figure]) => (
           <li key={id} class={figure.status}>
@@ -31,6 +33,7 @@ function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
           </li>
         ))}
       </ul>
+      )}
     </div>
   );
 }
@@ -53,7 +56,7 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
       ) : vote.kind === "yes_no" || vote.kind === "slider" ? null : (
         <ol class="options">
           {vote.options.map((option) => (
-            <li key={option.id}>{option.label}</li>
+            <li key={option.id}>{option_label(vote, option.id)}</li>
           ))}
         </ol>
       )}
@@ -96,14 +99,7 @@ function CommentsLayout({ s }: { s: Session }): JSX.Element {
 function CodeLayout({ s }: { s: Session }): JSX.Element {
   return (
     <div class="stage code">
-      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
-      <div>
-        <p>{t("beamer_join")}</p>
-        <p class="address">
-          {window.location.host}
-          <wbr />/{s.views.room.code}
-        </p>
-      </div>
+      <Codes s={s} />
     </div>
   );
 }
@@ -113,7 +109,7 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
   const { room } = s.views,
     layout = room.layout || "plan",
     age = s.now() - s.latest;
-  const left = room.phase?.ends_at ? room.phase.ends_at - s.now() : 0;
+  const left = room.phase?.ends_at && !room.closed ? room.phase.ends_at - s.now() : 0;
   const isOld = s.latest > 0 && !s.connection.isOpen && age > kOld;
   const stage =
     layout === "vote" ? (

@@ -151,7 +151,7 @@ export function Card({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
           </div>
         </section>
       ) : null}
-      {card.budget ? <Budget budget={card.budget} /> : null}
+      {card.budget && (card.budget.budget > 0 || card.budget.spent > 0) ? <Budget budget={card.budget} /> : null}
     </>
   );
 }

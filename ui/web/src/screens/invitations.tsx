@@ -1,10 +1,14 @@
 // How people get in: the address, the large code, and the keys of invitations.
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { MarkState, Sure } from "../parts";
-import { CodePicture } from "../qr_picture";
+import { MarkState, Segments, Sure } from "../parts";
+import { is_local } from "../places";
+import { CodePicture, WifiPicture } from "../qr_picture";
 import type { Session } from "../session";
-import type { Role } from "../wire";
+import { wifi_to_address } from "../wifi";
+import { useWifi } from "../wifi_kept";
+import type { Ui } from "../ui";
+import type { Door, Role } from "../wire";
 import { Key, t } from "../words";
 
 /// In the order in which they are offered.
@@ -16,17 +20,16 @@ export function join_address(s: Session): string {
 }
 
 // A page without TLS may not use the clipboard itself, so the text is selected and copied as by hand.
-function KeyRow({ role, address }: { role: Role; address: string }): JSX.Element {
+function AddressRow({ name, address }: { name: string; address: string }): JSX.Element {
   const field = useRef<HTMLInputElement>(null),
     [isCopied, set] = useState("");
   const copy = (): void => {
     field.current?.select();
     if (document.execCommand("copy")) set(address);
   };
-  const name = t(`role_${role}` as Key),
-    said = t(isCopied === address ? "lead_copied" : "lead_copy");
+  const said = t(isCopied === address ? "lead_copied" : "lead_copy");
   return (
-    <li class="pick">
+    <div class="pick">
       <label class="field">
         <span>{name}</span>
         <input ref={field} readOnly value={address} autocomplete="off" spellcheck={false} onFocus={(event) => event.currentTarget.select()} />
@@ -34,7 +37,7 @@ function KeyRow({ role, address }: { role: Role; address: string }): JSX.Element
       <button class="quiet" aria-label={`${said}: ${name}`} onClick={copy}>
         {said}
       </button>
-    </li>
+    </div>
   );
 }
 
@@ -52,7 +55,11 @@ export function KeysPart({ s }: { s: Session }): JSX.Element {
         <summary>{t("lead_keys_show")}</summary>
         <ul class="rows keys">
           {kRoles.map((role) =>
-            keys[role] === undefined ? null : <KeyRow key={role} role={role} address={`${join_address(s)}#k=${keys[role]}`} />,
+            keys[role] === undefined ? null : (
+              <li key={role}>
+                <AddressRow name={t(`role_${role}` as Key)} address={`${join_address(s)}#k=${keys[role]}`} />
+              </li>
+            ),
           )}
         </ul>
       </details>
@@ -63,12 +70,119 @@ export function KeysPart({ s }: { s: Session }): JSX.Element {
   );
 }
 
+/// The Wi-Fi of the room, for those who are not in it yet.
+export function WifiPart({ s }: { s: Session }): JSX.Element {
+  const code = s.views.room.code ?? "",
+    [wifi, change] = useWifi(code),
+    { name, password } = wifi ?? { name: "", password: "" };
+  return (
+    <details>
+      <summary>{t("wifi_title")}</summary>
+      <p class="small">{t("wifi_text")}</p>
+      <div class="pair">
+        <label class="field">
+          <span>{t("wifi_name")}</span>
+          <input
+            value={name}
+            maxLength={32}
+            autocomplete="off"
+            autocapitalize="off"
+            spellcheck={false}
+            onInput={(event) => change({ name: event.currentTarget.value, password })}
+          />
+        </label>
+        <label class="field">
+          <span>{t("wifi_password")}</span>
+          <input
+            value={password}
+            disabled={name === ""}
+            maxLength={63}
+            autocomplete="off"
+            autocapitalize="off"
+            spellcheck={false}
+            onInput={(event) => change({ name, password: event.currentTarget.value })}
+          />
+        </label>
+      </div>
+      {wifi ? (
+        <>
+          <WifiPicture wifi={wifi} />
+          <AddressRow name={t("wifi_beamer")} address={`${join_address(s)}#beamer&w=${wifi_to_address(wifi)}`} />
+        </>
+      ) : null}
+    </details>
+  );
+}
+
+/// How people get in, which comes first: the code, the Wi-Fi, and the door.
+export function JoinPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
+  const { room } = s.views,
+    doors: Door[] = ["open", "asks", "shut"];
+  return (
+    <section class="panel" id="lead-join">
+      <h2>{t("lead_code")}</h2>
+      <p>{t("lead_code_text")}</p>
+      <p class="bigcode">{room.code}</p>
+      <p class="small">{join_address(s)}</p>
+      {is_local(window.location.hostname) ? (
+        <p class="notice" role="status">
+          {t("lead_local")}
+        </p>
+      ) : null}
+      <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
+        {t("lead_big_code")}
+      </button>
+      <WifiPart s={s} />
+      <header class="row spread">
+        <h3>{t("lead_door")}</h3>
+        <MarkState s={s} mark="lead/door" />
+      </header>
+      <Segments
+        label={t("lead_door")}
+        value={room.door ?? "open"}
+        onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
+        choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
+      />
+      <p class="small">{t(`door_${room.door ?? "open"}_text` as Key)}</p>
+    </section>
+  );
+}
+
+/// The two codes that a phone needs, beside each other: the Wi-Fi, where it is known, and the room.
+export function Codes({ s }: { s: Session }): JSX.Element {
+  const code = s.views.room.code ?? "",
+    [wifi] = useWifi(code);
+  return (
+    <div class="codes">
+      {wifi ? (
+        <figure>
+          <WifiPicture wifi={wifi} />
+          <figcaption>
+            <span>{t("wifi_join")}</span>
+            <b>{wifi.name}</b>
+            {wifi.password === "" ? null : <span class="password">{wifi.password}</span>}
+          </figcaption>
+        </figure>
+      ) : null}
+      <figure>
+        <CodePicture code={code} address={join_address(s)} />
+        <figcaption>
+          <span>{t(wifi ? "wifi_then" : "beamer_join")}</span>
+          <b class="address">
+            {window.location.host}
+            <wbr />/{code}
+          </b>
+        </figcaption>
+      </figure>
+    </div>
+  );
+}
+
 export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
   return (
     <main class="largecode">
-      <CodePicture code={s.views.room.code ?? ""} address={join_address(s)} />
       <h1 class="bigcode">{s.views.room.code}</h1>
-      <p>{join_address(s)}</p>
+      <Codes s={s} />
       <button class="quiet" onClick={onClose}>
         {t("close")}
       </button>

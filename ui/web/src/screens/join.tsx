@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { Avatar, Icon, Moved, Sheet, StatusLine, Title } from "../parts";
 import { Plan } from "../plan";
 import type { Session } from "../session";
-import { Language, kLanguages, kTables, t } from "../words";
+import { Language, kLanguages, kNames, t } from "../words";
 
 export function Join({
   s,
@@ -72,7 +72,7 @@ export function LanguageChoice({ language, onLanguage }: { language: Language; o
         {language === "xx" ? <option value="xx">xx</option> : null}
         {kLanguages.map((one) => (
           <option key={one} value={one} lang={one}>
-            {kTables[one as Exclude<Language, "xx">].language as string}
+            {kNames[one]}
           </option>
         ))}
       </select>

@@ -3,20 +3,19 @@ import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { typed_number } from "../format";
 import { Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
-import { is_local } from "../places";
 import type { Session } from "../session";
-import { useLook } from "../ui";
+import { useLook, useMedia } from "../ui";
 import type { Ui } from "../ui";
-import type { Activity, Door, Json, Layout, Proposal, Vote } from "../wire";
+import type { Activity, Layout, Proposal, Vote } from "../wire";
 import { Key, t } from "../words";
-import { join_address, KeysPart } from "./invitations";
+import { Answer, Decide } from "./deciding";
+import { JoinPart, KeysPart, join_address } from "./invitations";
 import { People } from "./people";
-import { ProposalEntry } from "./proposals";
-import { TrialFigures } from "./trials";
 import { ResultOf, Turnout } from "./votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
 const kRewind = 30000;
+const kFold = 2; // more proposals than this are folded, so that all of them are in sight
 
 interface Plan {
   name: string;
@@ -42,7 +41,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
     { key: "lead_comment", activities: ["comment"] },
     { key: "lead_vote", activities: ["vote"] },
   ];
-  const start = (): void =>
+  const start = (): void => {
     set_phase(
       s,
       plan.name.trim() ||
@@ -54,6 +53,8 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
       plan.activities,
       minutes > 0 ? s.now() + minutes * 60000 : 0,
     );
+    set(null);
+  };
   return (
     <section class="panel">
       <header class="row spread">
@@ -177,97 +178,9 @@ function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.E
   );
 }
 
-function Decide({ s, id, proposal }: { s: Session; id: string; proposal: Proposal }): JSX.Element {
-  const [answer, set] = useState(""),
-    [left, leave] = useState<number[]>([]);
-  // Steps that were taken back have no words; those that do not fit any more cannot be taken.
-  const isOut = (i: number): boolean => left.includes(i) || proposal.misfits.some((one) => one.step === i);
-  const steps = proposal.words.map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
-  const keep = steps.map(({ i }) => i).filter((i) => !isOut(i));
-  const decide = (is_accepted: boolean): void => {
-    const args: Record<string, Json> = { draft: id, is_accepted, answer: answer.trim() };
-    if (is_accepted && keep.length < steps.length) args.keep = keep;
-    s.event("decide_proposal", args, { mark: `lead/${id}` });
-  };
-  return (
-    <ProposalEntry s={s} proposal={proposal}>
-      <>
-        <TrialFigures trial={proposal.trial} />
-        <fieldset class="field">
-          <legend>{t("proposal_steps")}</legend>
-          {steps.map(({ word, i }) => {
-            const misfit = proposal.misfits.find((one) => one.step === i);
-            return (
-              <label key={i} class="tick">
-                <input
-                  type="checkbox"
-                  checked={!isOut(i)}
-                  disabled={misfit !== undefined}
-                  onChange={() => leave(left.includes(i) ? left.filter((one) => one !== i) : [...left, i])}
-                />
-                <span>
-                  {word}
-                  {misfit ? (
-                    <em>
-                      {" "}
-                      — {t("proposal_misfits")}: {misfit.why}
-                    </em>
-                  ) : null}
-                </span>
-              </label>
-            );
-          })}
-        </fieldset>
-        <label class="field">
-          <span>{t("lead_reason")}</span>
-          <textarea rows={2} value={answer} maxLength={2000} onInput={(event) => set(event.currentTarget.value)} />
-        </label>
-        <div class="row">
-          <button class="main" disabled={keep.length === 0} onClick={() => decide(true)}>
-            <Icon name="check" />
-            {keep.length < steps.length ? t("lead_accept_part", { n: keep.length }) : t("lead_accept")}
-          </button>
-          <button class="quiet" onClick={() => decide(false)}>
-            <Icon name="cross" />
-            {t("lead_reject")}
-          </button>
-          <MarkState s={s} mark={`lead/${id}`} />
-        </div>
-      </>
-    </ProposalEntry>
-  );
-}
-
-function Answer({ s, id, text }: { s: Session; id: string; text: string }): JSX.Element {
-  const [answer, set] = useState("");
-  const decide = (state: string): void => s.event("answer_comment", { comment: id, state, answer: answer.trim() }, { mark: `lead/${id}` });
-  return (
-    <li class="comment">
-      <p class="said">{text}</p>
-      <label class="field">
-        <span>{t("lead_reason")}</span>
-        <input value={answer} maxLength={2000} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
-      </label>
-      <div class="row">
-        <button class="quiet" onClick={() => decide("accepted")}>
-          <Icon name="check" />
-          {t("lead_follow")}
-        </button>
-        <button class="quiet" onClick={() => decide("rejected")}>
-          <Icon name="cross" />
-          {t("lead_follow_not")}
-        </button>
-        <MarkState s={s} mark={`lead/${id}`} />
-      </div>
-    </li>
-  );
-}
-
-function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
+function BeamerPart({ s }: { s: Session }): JSX.Element {
   const { room } = s.views,
-    [decision, set] = useState("");
-  const layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"],
-    doors: Door[] = ["open", "asks", "shut"];
+    layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"];
   return (
     <section class="panel">
       <header class="row spread">
@@ -283,29 +196,14 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <p class="small">
         {t("lead_beamer_open")} <b>{join_address(s)}#beamer</b>
       </p>
-      <header class="row spread">
-        <h2>{t("lead_door")}</h2>
-        <MarkState s={s} mark="lead/door" />
-      </header>
-      <Segments
-        label={t("lead_door")}
-        value={room.door ?? "open"}
-        onChange={(door) => s.event("set_door", { door }, { mark: "lead/door" })}
-        choices={doors.map((id) => ({ id, text: t(`door_${id}` as Key) }))}
-      />
-      <p class="small">{t(`door_${room.door ?? "open"}_text` as Key)}</p>
-      <h2>{t("lead_code")}</h2>
-      <p>{t("lead_code_text")}</p>
-      <p class="bigcode">{room.code}</p>
-      <p class="small">{join_address(s)}</p>
-      {is_local(window.location.hostname) ? (
-        <p class="notice" role="status">
-          {t("lead_local")}
-        </p>
-      ) : null}
-      <button class="quiet" onClick={() => ui.set({ isCodeLarge: true })}>
-        {t("lead_big_code")}
-      </button>
+    </section>
+  );
+}
+
+function DecisionPart({ s }: { s: Session }): JSX.Element {
+  const [decision, set] = useState("");
+  return (
+    <section class="panel">
       <header class="row spread">
         <h2>{t("lead_mark")}</h2>
         <MarkState s={s} mark="lead/mark" />
@@ -326,16 +224,54 @@ function RoomPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
           {t("lead_mark")}
         </button>
       </div>
-      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/mark" })}>
+    </section>
+  );
+}
+
+function EndPart({ s }: { s: Session }): JSX.Element {
+  return (
+    <section class="panel">
+      <h2>{t("lead_end")}</h2>
+      <p class="small">{t("lead_end_text")}</p>
+      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/end" })}>
         {t("lead_end")}
       </Sure>
     </section>
   );
 }
 
+/// What waits for the facilitator, wherever the page is scrolled to.
+function Waiting({ proposals, comments }: { proposals: number; comments: number }): JSX.Element | null {
+  const go = (id: string): void => {
+    const part = document.getElementById(id);
+    part?.scrollIntoView({ block: "start" });
+    part?.focus({ preventScroll: true });
+  };
+  if (proposals + comments === 0) return null;
+  return (
+    <div class="row waiting">
+      <span>{t("lead_waiting")}</span>
+      {proposals > 0 ? (
+        <button class="quiet" onClick={() => go("lead-proposals")}>
+          {t("lead_waiting_proposals", { n: proposals })}
+        </button>
+      ) : null}
+      {comments > 0 ? (
+        <button class="quiet" onClick={() => go("lead-comments")}>
+          {t("lead_waiting_comments", { n: comments })}
+        </button>
+      ) : null}
+    </div>
+  );
+}
+
+export const proposals_waiting = (s: Session): [string, Proposal][] =>
+  Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
+
 export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const votes = Object.entries(s.views.votes);
-  const proposals = Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
+  const votes = Object.entries(s.views.votes),
+    proposals = proposals_waiting(s),
+    isTwo = useMedia("(min-width: 1200px)");
   const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
   useLook(
     s,
@@ -343,9 +279,9 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   );
   // The page says above what to do after the end.
   if (s.views.room.closed) return <Title>{t("tab_lead")}</Title>;
-  return (
+  const join = <JoinPart key="join" s={s} ui={ui} />;
+  const now = (
     <>
-      <Title>{t("tab_lead")}</Title>
       <PhasePart s={s} />
       <section class="panel">
         <h2>{t("lead_votes")}</h2>
@@ -360,28 +296,58 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         )}
       </section>
       {proposals.length > 0 ? (
-        <section class="panel">
+        <section class="panel" id="lead-proposals" tabIndex={-1}>
           <h2>{t("ideas_proposals")}</h2>
           <ul class="proposals">
             {proposals.map(([id, proposal]) => (
-              <Decide key={id} s={s} id={id} proposal={proposal} />
+              <Decide key={id} s={s} id={id} proposal={proposal} isOpen={proposals.length <= kFold} />
             ))}
           </ul>
         </section>
       ) : null}
       {comments.length > 0 ? (
-        <section class="panel">
+        <section class="panel" id="lead-comments" tabIndex={-1}>
           <h2>{t("ideas_comments")}</h2>
           <ul class="comments">
             {comments.map(([id, comment]) => (
-              <Answer key={id} s={s} id={id} text={comment.text} />
+              <Answer key={id} s={s} id={id} comment={comment} />
             ))}
           </ul>
         </section>
       ) : null}
-      <RoomPart s={s} ui={ui} />
-      <KeysPart s={s} />
+    </>
+  );
+  const rest = (
+    <>
+      <BeamerPart s={s} />
+      <DecisionPart s={s} />
       <People s={s} />
+      <KeysPart s={s} />
+      <EndPart s={s} />
+    </>
+  );
+  // Before the first phase, people have to come in; later, what happens comes first.
+  const isBegun = s.views.room.phase !== null && s.views.room.phase !== undefined;
+  return (
+    <>
+      <Title>{t("tab_lead")}</Title>
+      <Waiting proposals={proposals.length} comments={comments.length} />
+      {isTwo ? (
+        <div class="boards">
+          <div>{now}</div>
+          <div>
+            {join}
+            {rest}
+          </div>
+        </div>
+      ) : (
+        <>
+          {isBegun ? null : join}
+          {now}
+          {isBegun ? join : null}
+          {rest}
+        </>
+      )}
     </>
   );
 }

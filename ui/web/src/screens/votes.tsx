@@ -74,7 +74,7 @@ export function ResultOf({ vote }: { vote: Vote }): JSX.Element | null {
 export function Turnout({ vote }: { vote: Vote }): JSX.Element {
   return (
     <p class="small">
-      {vote.turnout !== null && vote.electorate > 0
+      {vote.turnout !== null && vote.electorate > 0 && vote.count <= vote.electorate
         ? t("turnout", { share: share(vote.turnout), n: vote.electorate })
         : t("counted", { n: vote.count })}
     </p>
@@ -177,6 +177,8 @@ export function Votes({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const all = Object.entries(s.views.votes),
     open = all.filter(([, vote]) => vote.open);
   const closed = all.filter(([, vote]) => !vote.open && (vote.mine !== null || vote.count > 0));
+  // What was voted on last comes first: that is what people talk about.
+  closed.sort(([a], [b]) => Number(b === s.lastVote) - Number(a === s.lastVote));
   // Stays on its vote after that is sent, so that people see it counted.
   const [at, go] = useState(() => open.find(([id, vote]) => !s.hasVoted(id, vote) && s.mark(`vote/${id}`) === null)?.[0] ?? "");
   const shown = open.find(([id]) => id === at) ?? open[0];
