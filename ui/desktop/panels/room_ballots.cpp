@@ -107,12 +107,15 @@ void fill_rank(const RoomDesk& desk, const AgendaVote& vote, vote::Ballot& ballo
   desk.quiet("Add the best first. Drag a line, or use the buttons, to change the order.");
   std::vector<std::string>& ranked = ballot.options;
   std::optional<std::pair<std::size_t, std::size_t>> swapped;
+  float buttons = desk.editor.theme.px(8);
+  for (const char* label : {"up", "down", "x"})
+    buttons += ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + desk.editor.theme.px(4);
   std::size_t gone = ranked.size();
   for (std::size_t k = 0; k < ranked.size(); ++k) {
-    ImGui::PushID(static_cast<int>(k));
+    ImGui::PushID(ranked[k].c_str());  // a line that is dragged stays the same one
     const std::string key = "roompanel/rank/" + vote.id + "/" + ranked[k];
-    const float room = ImGui::GetContentRegionAvail().x - desk.editor.theme.px(96);
-    ImGui::Selectable((std::to_string(k + 1) + ".  " + option_words(vote, ranked[k])).c_str(), false, 0, {room, 0});
+    const float room = ImGui::GetContentRegionAvail().x - buttons;
+    ImGui::Selectable((std::to_string(k + 1) + ".  " + option_words(vote, ranked[k]) + "###line").c_str(), false, 0, {room, 0});
     note_place(desk.editor, key);
     // A line that is dragged changes places with the one that it has come to.
     if (ImGui::IsItemActive() && !ImGui::IsItemHovered()) {
@@ -133,7 +136,7 @@ void fill_rank(const RoomDesk& desk, const AgendaVote& vote, vote::Ballot& ballo
   if (gone < ranked.size()) ranked.erase(ranked.begin() + static_cast<std::ptrdiff_t>(gone));
   for (const vote::Option& option : vote.asks.options) {
     if (std::find(ranked.begin(), ranked.end(), option.id) != ranked.end()) continue;
-    const std::string label = "Add as " + std::to_string(ranked.size() + 1) + ".: " + option_words(vote, option.id);
+    const std::string label = "Place " + std::to_string(ranked.size() + 1) + ": " + option_words(vote, option.id);
     if (desk.button(label, "roompanel/rank/" + vote.id + "/add/" + option.id)) ranked.push_back(option.id);
   }
 }

@@ -224,7 +224,7 @@ void draw_columns(const RoomDesk& desk) {
   // Votes and proposals need more words than the others.
   for (const std::string& column : columns)
     ImGui::TableSetupColumn(column.c_str(), ImGuiTableColumnFlags_WidthStretch,
-                            column == "votes" || column == "queue" ? 1.5f : 1);
+                            column == "votes" || column == "queue" || (column == "now" && !desk.leads) ? 1.5f : 1);
   for (const std::string& column : columns) {
     ImGui::TableNextColumn();
     ImGui::BeginChild(column.c_str(), {0, size.y - desk.editor.theme.px(8)});

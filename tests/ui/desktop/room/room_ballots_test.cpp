@@ -11,7 +11,7 @@
 namespace bl::desktop {
 namespace {
 
-constexpr ImVec2 kTall{2000, 2600};  // all of the tab is in sight
+const ImVec2 kTall{2000, 2600};  // all of the tab is in sight
 
 AgendaVote vote_at(RoomWindow& window, const std::string& id) {
   for (const AgendaVote& vote : agenda_of(window.room()).votes)
@@ -127,7 +127,9 @@ void play(const std::string& kind, const std::map<std::string, std::string>& fie
       })) << notices_of(window->editor());
     }
   press(lead, "roompanel/close/" + id);
-  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return !vote_at(other, id).is_open && !vote_at(other, id).result.empty(); }));
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] {
+    return !vote_at(other, id).is_open && !vote_at(other, id).result.empty() && !vote_at(lead, id).result.empty();
+  }));
   for (const auto& [voter, ballot] : cast) ballots.rows.push_back(vote::row_of(voter, ballot));
   for (RoomWindow* window : {&lead, &other}) {
     const AgendaVote shown = vote_at(*window, id);
