@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <thread>
 
+#include <gtest/gtest.h>
+
 #include <GLFW/glfw3.h>
 #include <nlohmann/json.hpp>
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include <gtest/gtest.h>
+
 #include "core/guest/room_guest.h"
 #include "tests/core/serve/running_server.h"
 #include "tests/support/deadline.h"
