@@ -158,6 +158,7 @@ class RoomHost {
   void begin_windows_anew();
   void watch_ticks();
   void tell_ticks();
+  void note_tick();
   /// Those that somebody has asked for in the entries after this one.
   void take_steps(std::int64_t since);
   /// False where the message has a wrong form.
