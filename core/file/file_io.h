@@ -17,8 +17,8 @@ Result<std::string> read_file(const std::string& path);
 /// end.
 Result<std::string> read_plain_file(const std::string& path, std::uintmax_t most);
 
-// The only two ways in which this program writes files, but for session files (core/journal). Links are followed to the file that they mean, unless somebody else has
-// laid them in a folder of everybody's.
+// With those of private_file.h, the only ways in which this program writes files, but for session files (core/journal). Links are
+// followed to the file that they mean, unless somebody else has laid them in a folder of everybody's.
 
 /// Writes to a temporary file beside it, flushes to disk, then renames, so that an interrupted save leaves the old file whole.
 /// Mode and group of the old file are kept. The next save removes the temporary file of an interrupted one.

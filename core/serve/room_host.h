@@ -160,6 +160,7 @@ class RoomHost {
   void begin_windows_anew();
   void watch_ticks();
   void tell_ticks();
+  void note_tick();
   /// Those that somebody has asked for in the entries after this one.
   void take_steps(std::int64_t since);
   // Health (room_health.cpp).

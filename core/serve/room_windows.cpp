@@ -108,6 +108,7 @@ void RoomHost::send_snapshots() {
 // The ticks have gone back: who follows them gets the state to which they did.
 void RoomHost::begin_windows_anew() {
   windows_.mark = {};
+  windows_.untold.clear();
   windows_.packed = {};
   for (auto& [key, visitor] : visitors_) {
     if (!visitor.is_window) continue;
@@ -128,27 +129,42 @@ void RoomHost::hand_out_snapshot() {
   }
 }
 
-// A tick is told once every entry that it has read is stored, and so sent.
+// A tick is told once every entry that it has read is stored, and so sent. While people say something all the time, and the disk
+// is slower than the ticks, the newest tick has always read something that is not stored: so each waits for its own entries.
 void RoomHost::tell_ticks() {
   if (!problem_.empty() || std::none_of(visitors_.begin(), visitors_.end(), [](const auto& v) { return v.second.is_window; }))
-    return;
+    return windows_.untold.clear();
+  note_tick();
+  TickMark& mark = windows_.mark;
+  while (!windows_.untold.empty() && windows_.untold.front().s <= stored_seq_) {
+    const wire::TickOut message = std::move(windows_.untold.front());
+    windows_.untold.pop_front();
+    mark.tick = message.k;
+    mark.is_resting = message.rest;
+    const auto frame = frame_of_message(message);
+    for (auto& [key, visitor] : visitors_)
+      if (visitor.is_window && visitor.is_following) visitor.guest->send(frame);
+  }
+}
+
+void RoomHost::note_tick() {
   const auto moment = session_->moment();
   const State& ticked = *moment->ticked;
   TickMark& mark = windows_.mark;
-  if (ticked.tick < mark.tick || (ticked.tick == mark.tick && moment->is_resting == mark.is_resting)) return;
+  std::deque<wire::TickOut>& untold = windows_.untold;
+  const std::int64_t last = untold.empty() ? mark.tick : untold.back().k;
+  const bool is_resting = untold.empty() ? mark.is_resting : untold.back().rest;
+  if (ticked.tick < last || (ticked.tick == last && moment->is_resting == is_resting)) return;
   const std::int64_t seq = read_by(ticked);
-  if (seq > stored_seq_) return;
   wire::TickOut message{ticked.tick, seq, {}, {}, moment->is_resting};
   if (ticked.tick / kTicksBetweenHashes != mark.hashed / kTicksBetweenHashes || mark.hashed < 0) {
     message.h = hex_digits(ticked.hash);
     if (seq == session_->last_seq()) message.scene = hex_digits(hash_of(session_->said()));
     mark.hashed = ticked.tick;
   }
-  mark.tick = ticked.tick;
-  mark.is_resting = moment->is_resting;
-  const auto frame = frame_of_message(message);
-  for (auto& [key, visitor] : visitors_)
-    if (visitor.is_window && visitor.is_following) visitor.guest->send(frame);
+  // A later tick that has read no more says as much as this one.
+  if (!untold.empty() && untold.back().s == seq && untold.back().h.empty()) untold.pop_back();
+  untold.push_back(std::move(message));
 }
 
 void RoomHost::take_steps(std::int64_t since) {
@@ -163,6 +179,7 @@ void RoomHost::take_steps(std::int64_t since) {
 // Each moment of the ticking thread is told on the room's own.
 void RoomHost::watch_ticks() {
   windows_.mark = {};
+  windows_.untold.clear();
   windows_.packed = {};
   is_packing_ = false;
   session_->subscribe_moments([this, last = std::int64_t{-1}, rested = false, is_alive = std::weak_ptr<bool>(is_alive_)](

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "core/define/payload.h"
+#include "core/wire/messages.h"
 
 namespace bl::serve {
 
@@ -33,6 +35,7 @@ struct Presence {
 
 struct Windows {
   TickMark mark;
+  std::deque<wire::TickOut> untold;  ///< later ticks, which have read what is not stored yet
   PackedScene packed;
   std::map<std::int64_t, Presence> presences;  ///< by seat
   double presence_at = 0;                      ///< when presences were told last [s]

@@ -1,6 +1,7 @@
 // A room and its guests in one process, on a clock that is moved by hand, with connections that lose, delay and break.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -122,7 +123,7 @@ class MemoryRoom {
     options.wall_time = [this] { return at_ += 10; };
     options.on_own_thread = [this](std::function<void()> task) {
       const std::lock_guard lock(mutex_);
-      tasks_.push_back(std::move(task));
+      tasks_.push_back({turns_ + slowness, std::move(task)});
     };
     auto opened = serve::RoomHost::open(path(), "BKRT", std::string(BL_SOURCE_DIR) + "/" + scene_, options);
     ASSERT_TRUE(opened.ok()) << opened.error().text();
@@ -166,7 +167,8 @@ class MemoryRoom {
     std::deque<std::function<void()>> tasks;
     {
       const std::lock_guard lock(mutex_);
-      tasks = std::exchange(tasks_, {});
+      for (; !tasks_.empty() && tasks_.front().first <= turns_; tasks_.pop_front())
+        tasks.push_back(std::move(tasks_.front().second));
     }
     for (auto& task : tasks) task();
     if (turns_++ % 10 == 0) host->turn();
@@ -198,6 +200,7 @@ class MemoryRoom {
   }
 
   Weather weather;
+  std::atomic<int> slowness = 0;  ///< turns until the room hears that something is stored, or that there is another tick
   test::HandClock clock;
   std::unique_ptr<serve::RoomHost> host;
   std::vector<std::unique_ptr<RoomGuest>> guests;
@@ -235,9 +238,10 @@ class MemoryRoom {
   std::string scene_;
   Random random_;
   std::mutex mutex_;
-  std::deque<std::function<void()>> tasks_;
+  std::deque<std::pair<int, std::function<void()>>> tasks_;  // with the turn in which each is due
   std::int64_t at_ = 1000;
-  int turns_ = 0, runs_ = 0;
+  std::atomic<int> turns_ = 0;
+  int runs_ = 0;
 };
 
 }  // namespace bl::guest

@@ -1,6 +1,7 @@
 // Guests of a room in one process: the same scene, the same ticks, nothing lost and nothing doubled, on any network.
 #include "core/guest/room_guest.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -140,6 +141,26 @@ void take_away_together(RoomGuest& one, RoomGuest& other, int& said) {
   const std::string id = both->first;
   for (RoomGuest* guest : {&one, &other})
     if (guest->submit({command<RemoveNode>({.id = id})}).ok()) ++said;
+}
+
+// A disk that is slower than the ticks holds up what people are told by as much, and not for as long as somebody drags.
+TEST(RoomGuests, TicksGoOnWhileSomebodyDragsAndTheDiskIsSlow) {
+  MemoryRoom room(kQuarter);
+  RoomGuest &anna = room.join("facilitator"), &ben = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().has_scene && ben.standing().has_scene; }));
+  room.slowness = 25;  // a quarter of a second, in which the room takes more than two ticks
+  const std::int64_t gesture = anna.new_gesture(), first = ben.follower().agreed(), tick = ben.follower().tick();
+  for (int k = 1; k <= 1000; ++k) {
+    ASSERT_TRUE(anna.show({placed_at("cafe", 60 + 20 * std::sin(0.02 * k), 36, 6)}, gesture).ok());
+    room.turn();
+  }
+  EXPECT_GE(ben.follower().agreed(), first + 2);
+  EXPECT_GE(ben.follower().tick(), tick + 50);
+  room.slowness = 0;
+  ASSERT_TRUE(anna.end_gesture(gesture).ok());
+  ASSERT_TRUE(room.come_to_rest());
+  EXPECT_EQ(anna.differed() + ben.differed(), 0);
+  EXPECT_EQ(hex_digits(ben.moment()->ticked->hash), room.host->health().hash);
 }
 
 // All folds are equal, every marked tick has the same hash, and the file has every operation that was done once.
