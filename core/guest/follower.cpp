@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 
 #include "core/base/hash.h"
 
@@ -189,7 +190,9 @@ void Follower::publish() {
 // While few ticks wait, each comes when the room's clock would have it; who is behind does not wait.
 double Follower::due() const {
   const std::int64_t waiting = marks_.back().tick - simulation_.state()->tick;
-  return waiting > kBuffer ? clock_.now() : last_tick_ + 0.9 / rate_;
+  // Not the present time: who compares it with another look at the clock would find it later each time.
+  constexpr double kAtOnce = -std::numeric_limits<double>::infinity();
+  return waiting > kBuffer ? kAtOnce : last_tick_ + 0.9 / rate_;
 }
 
 // What no tick has read, as the next one will begin with it.

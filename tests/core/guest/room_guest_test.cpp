@@ -143,6 +143,17 @@ void take_away_together(RoomGuest& one, RoomGuest& other, int& said) {
     if (guest->submit({command<RemoveNode>({.id = id})}).ok()) ++said;
 }
 
+// On the clock of the system, where two looks at it never give the same time.
+TEST(Followers, WhoIsBehindTakesTicksAtOnce) {
+  const SceneReading reading = read_scene(project_file(kQuarter), full_registry());
+  Follower follower(full_registry(), 1, host::real_clock());
+  ASSERT_TRUE(follower.begin(reading.scene, nullptr).ok());
+  for (std::int64_t tick = 1; tick <= 60; ++tick) follower.mark({tick, {}, false});
+  const double end = host::real_clock().now() + (test::kIsSanitized ? 120 : 20);
+  while (follower.behind() > Follower::kBuffer && host::real_clock().now() < end) host::real_clock().sleep(0.005);
+  EXPECT_LE(follower.behind(), Follower::kBuffer);
+}
+
 // A disk that is slower than the ticks holds up what people are told by as much, and not for as long as somebody drags.
 TEST(RoomGuests, TicksGoOnWhileSomebodyDragsAndTheDiskIsSlow) {
   MemoryRoom room(kQuarter);
