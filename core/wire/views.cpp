@@ -10,6 +10,7 @@
 #include "core/base/unit.h"
 #include "core/define/codec.h"
 #include "core/host/step_labels.h"
+#include "core/reading/figures.h"
 #include "core/reading/views/people.h"
 #include "core/room/refusals.h"
 #include "core/wire/messages.h"
@@ -292,8 +293,13 @@ std::string change_of(const ViewSources& sources, const Command& step) {
   }
   if (!after.is_number()) return "";
   const auto before = room::value_at(sources.room.scene(), full_registry(), place);
-  const std::string from = before && (*before->read())->is_number() ? shortest((*before->read())->get<double>()) + " to " : "";
-  return ": " + from + shortest(after.get<double>()) + (unit.empty() ? "" : " " + unit);
+  const double now = after.get<double>();
+  const std::string set = reading::readable(now), measure = unit.empty() ? "" : " " + unit;
+  if (!before || !(*before->read())->is_number()) return ": " + set + measure;
+  const double past = (*before->read())->get<double>();
+  // A small change is in digits that people need not read elsewhere.
+  const bool is_told = reading::readable(past) != set;
+  return ": " + (is_told ? reading::readable(past) : shortest(past)) + " to " + (is_told ? set : shortest(now)) + measure;
 }
 
 // A step that was taken back has no words, and keeps its number.
