@@ -96,6 +96,7 @@ void play(const std::string& kind, const std::map<std::string, std::string>& fie
     id = agenda.votes.empty() ? "" : agenda.votes.front().id;
     return !id.empty() && agenda.votes.front().is_open && agenda.may.contains("vote") && lead.room().standing().waiting == 0;
   })) << notices_of(lead.editor());
+  ASSERT_TRUE(frames_until({&lead, &other}, [&] { return vote_at(lead, id).is_open; }));  // each window hears of it by itself
   EXPECT_EQ(vote_at(other, id).question, fields.at("question"));
   EXPECT_EQ(vote_at(other, id).electorate, 2);
   ASSERT_TRUE(frames_until({&lead, &other}, [&] {
