@@ -34,7 +34,7 @@ class SharedList {
   /// The item itself, by which two lists can be compared: the same pointer means the same content.
   const std::shared_ptr<const T>& item(std::size_t i) const { return (*leaves_)[i / kLeaf]->items[i % kLeaf]; }
 
-  /// One for each 32 items, in their order.
+  /// One for each leaf of items, in their order.
   std::size_t leaf_count() const { return leaves_->size(); }
   const Digest& digest(std::size_t leaf) const { return (*leaves_)[leaf]->digest; }
   /// Are all items of this leaf shared with the other list?

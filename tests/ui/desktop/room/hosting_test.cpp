@@ -94,13 +94,13 @@ class HostedRooms : public ::testing::Test {
     }
     return false;
   }
+  bool is_drawn(const std::string& key) { return memory_of(editor()).places.contains(key); }
   // The middle of what was drawn under this key.
   void press(const std::string& key) {
     desktop_->frames(2);
-    const auto& places = memory_of(editor()).places;
-    const auto place = places.find(key);
-    ASSERT_NE(place, places.end()) << key;
-    desktop_->click({(place->second.x + place->second.z) / 2, (place->second.y + place->second.w) / 2});
+    ASSERT_TRUE(frames_until([&] { return is_drawn(key); })) << key;
+    const ImVec4 place = memory_of(editor()).places.at(key);
+    desktop_->click({(place.x + place.z) / 2, (place.y + place.w) / 2});
     desktop_->frames(2);
   }
   void plan(int port) {
@@ -122,8 +122,22 @@ class HostedRooms : public ::testing::Test {
     EXPECT_GE(host().findings().size(), 10u) << host().told();
   }
   guest::RoomGuest* room() { return editor().document ? editor().document->room() : nullptr; }
+  // The room is led from here, all that the dialog has sent is answered, and the dialog, which takes all keys, is gone.
   bool is_hosted() {
-    return frames_until([&] { return room() != nullptr && room()->standing().has_scene && room()->role() == "facilitator"; });
+    return frames_until([&] {
+      return room() != nullptr && room()->standing().has_scene && room()->role() == "facilitator" &&
+             !editor().document->is_unsaved() && !is_drawn("host/next");
+    });
+  }
+  // A room of the copied scene, which this window leads.
+  void host_scene() {
+    Port port;
+    ASSERT_TRUE(open_scene());
+    port.free();
+    walk_to_check(port.number());
+    press("host/next");
+    ASSERT_TRUE(is_hosted()) << host().told();
+    ASSERT_TRUE(editor().hosting);
   }
   std::string phase() {
     const auto& view = room()->view("room");
@@ -155,12 +169,12 @@ TEST_F(HostedRooms, AreOpenedJoinedLedAndEndedInOrder) {
   EXPECT_EQ(::kill(server, 0), 0);
   // The first planned phase begins by itself, and the tab offers the others.
   ASSERT_TRUE(frames_until([&] { return phase() == "Look"; }));
-  ASSERT_TRUE(frames_until([&] { return memory_of(editor()).places.contains("roompanel/plan/1"); }));
+  ASSERT_TRUE(frames_until([&] { return is_drawn("roompanel/plan/1"); }));
   press("roompanel/plan/1");
   ASSERT_TRUE(frames_until([&] { return phase() == "Comment"; }));
   ASSERT_TRUE(frames_until([&] { return room()->health().has_value(); }));
   EXPECT_GT(room()->health()->disk_free, 0);
-  EXPECT_TRUE(memory_of(editor()).places.contains("roompanel/health"));
+  EXPECT_TRUE(is_drawn("roompanel/health"));
   // Keys lie in one file, which only this person can read.
   struct stat status {};
   ASSERT_EQ(::stat((folder_ / "quarter.invitations.html").c_str(), &status), 0);
@@ -183,12 +197,7 @@ TEST_F(HostedRooms, AreOpenedJoinedLedAndEndedInOrder) {
 
 TEST_F(HostedRooms, AreFoundAgainWhereTheyWereLeftOpen) {
   const Deadline deadline(300, "a room that is left open");
-  Port port;
-  ASSERT_TRUE(open_scene());
-  port.free();
-  walk_to_check(port.number());
-  press("host/next");
-  ASSERT_TRUE(is_hosted()) << host().told();
+  ASSERT_NO_FATAL_FAILURE(host_scene());
   const pid_t server = editor().hosting->number();
   const std::string code = room()->code(), address = editor().hosting->address();
   const std::int64_t seat = room()->seat();
@@ -202,7 +211,7 @@ TEST_F(HostedRooms, AreFoundAgainWhereTheyWereLeftOpen) {
   ASSERT_TRUE(editor().open(editor().person.recent_rooms.front()));
   ASSERT_TRUE(is_hosted());
   EXPECT_EQ(room()->seat(), seat);
-  EXPECT_TRUE(frames_until([&] { return memory_of(editor()).places.contains("roompanel/plan/1"); })) << "the plan is kept";
+  EXPECT_TRUE(frames_until([&] { return is_drawn("roompanel/plan/1"); })) << "the plan is kept";
   ASSERT_EQ(::kill(server, SIGINT), 0);
   int status = 0;
   ASSERT_EQ(::waitpid(server, &status, 0), server);
@@ -234,12 +243,7 @@ TEST_F(HostedRooms, APortInUseIsToldBeforeAndAtTheOpening) {
 
 TEST_F(HostedRooms, AServerThatDiesIsTold) {
   const Deadline deadline(300, "a server that dies");
-  Port port;
-  ASSERT_TRUE(open_scene());
-  port.free();
-  walk_to_check(port.number());
-  press("host/next");
-  ASSERT_TRUE(is_hosted()) << host().told();
+  ASSERT_NO_FATAL_FAILURE(host_scene());
   ::kill(editor().hosting->number(), SIGKILL);
   ASSERT_TRUE(frames_until([&] { return !editor().hosting; }));
   EXPECT_TRUE(has_notice("The server of the room has ended"));
