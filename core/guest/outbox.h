@@ -39,6 +39,9 @@ class Outbox {
   Result<void> keep(Sent sent, std::int64_t gesture);
   /// Whether it has waited.
   bool answered(std::int64_t id);
+  /// The room has answered all up to `done`: later operations are numbered behind. A file that a power cut has put back by some
+  /// lines would else number others as those that it has forgotten, and the room would take them for repetitions.
+  void go_on_behind(std::int64_t done);
   /// Everything begins anew under another name; what has waited is handed out, because it can never be sent any more.
   std::deque<Sent> begin_anew(const std::string& run);
 

@@ -154,6 +154,7 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   attempts_ = 0;
   ping_at_ = answer_at_ = began_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
+  outbox_.go_on_behind(welcome.done);
   for (const Sent& sent : outbox_.waiting()) send(sent.frame);
   if (!looked_at_.empty()) say_wishes();
   follower_.nudge();

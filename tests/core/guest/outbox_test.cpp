@@ -160,6 +160,45 @@ TEST(RoomGuests, LawOfCrashesEachOperationIsDoneOnce) {
   EXPECT_EQ(hex_digits(last.moment()->ticked->hash), room.host->health().hash);
 }
 
+// A power cut takes whole lines, also of operations that were sent and answered. Nothing that the next window says may be taken
+// for one of them.
+TEST(RoomGuests, LawOfPowerCutsNumbersMeanOneOperationEach) {
+  const OutboxFolder folder;
+  MemoryRoom room("scenes/start/quarter.json", 22);
+  std::string token;
+  room.before_joining = [&](RoomGuestOptions& options) {
+    if (!token.empty()) options.invite.clear();
+    options.token = token;
+    options.keep_token = [&](const std::string& given) { token = given; };
+    options.outbox = folder.stem();
+  };
+  room.join("facilitator");
+  Random& random = room.random();
+  std::set<std::string> said;
+  const int turns = test::kIsSanitized ? 10 : 60;
+  for (int k = 0; k < turns; ++k) {
+    RoomGuest& guest = *room.guests[0];
+    ASSERT_TRUE(room.turn_until([&] { return guest.standing().has_scene; }));
+    const std::string before = *read_file(folder.file());
+    for (int j = 0; j < 3; ++j) {
+      const std::string mark = "mark_" + std::to_string(3 * k + j);
+      ASSERT_TRUE(guest.submit({command<AddNode>({mark, JsonValue::of({{"name", mark}})})}, guest.new_gesture()).ok());
+      said.insert(mark);
+    }
+    ASSERT_TRUE(room.turn_until([&] { return guest.standing().waiting == 0; }));
+    std::string bytes = *read_file(folder.file());
+    ASSERT_EQ(bytes.compare(0, before.size(), before), 0);
+    room.guests.clear();
+    bytes.resize(before.size() + random.below(bytes.size() - before.size()));
+    bytes.resize(bytes.rfind('\n') + 1);
+    ASSERT_TRUE(write_file(folder.file(), bytes).ok());
+    room.join("facilitator");
+  }
+  ASSERT_TRUE(room.come_to_rest());
+  for (const std::string& mark : said) EXPECT_TRUE(has_name(*room.guests[0], mark, mark)) << mark;
+  EXPECT_TRUE(room.guests[0]->take_refusals().empty());
+}
+
 TEST(RoomGuests, WhatWasSaidWithoutAConnectionIsShownAgainByTheNextWindow) {
   const OutboxFolder folder;
   MemoryRoom room("scenes/start/quarter.json");

@@ -348,6 +348,7 @@ export class Connection {
     this.gapsDue = 0;
     // A room that could not store for a while greets its pages again; what it has not answered is sent again.
     this.sent.clear();
+    this.queue.greeted(welcome.done);
     if (welcome.token) this.world.store.set(`${this.options.prefix}token`, welcome.token);
     this.seq = Math.max(this.seq, welcome.seq);
     this.timers.start("calm", 3000, () => {

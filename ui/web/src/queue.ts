@@ -52,6 +52,8 @@ export class Queue {
   readonly items: Item[] = [];
   isKept = true;
   private next = 1;
+  private found = 0; // the last number that this page has found in the store
+  private isGreeted = false;
 
   private constructor(
     private store: Store,
@@ -79,6 +81,7 @@ export class Queue {
     const record = parsed<RunRecord>(this.store.get(`${this.prefix}run/${this.run}`));
     const last = this.items[this.items.length - 1];
     this.next = Math.max(record ? record.next : 1, last ? last.id + 1 : 1);
+    this.found = this.next - 1;
     return this;
   }
 
@@ -172,6 +175,21 @@ export class Queue {
     this.live(at);
     this.items.push(item);
     return item;
+  }
+
+  /// The first welcome of this page: the room has answered all up to `done`. A browser that ends badly may lose the last seconds of
+  /// its store; the room would take what gets the same numbers again for repetitions. So what was added here is numbered behind.
+  greeted(done: number): void {
+    const shift = this.isGreeted ? 0 : done - this.found;
+    this.isGreeted = true;
+    if (shift <= 0) return;
+    for (const item of this.items.filter((one) => one.id > this.found)) {
+      this.store.remove(`${this.prefix}op/${this.run}/${item.id}`);
+      item.id += shift;
+    }
+    for (const item of this.items.filter((one) => one.id > done))
+      this.keep(`${this.prefix}op/${this.run}/${item.id}`, JSON.stringify(item));
+    this.next += shift;
   }
 
   /// The operation has its answer; nothing where it had one before.

@@ -370,6 +370,37 @@ test("a server that has lost its memory of answers goes on from what the page kn
   expect_each_once(room, [page], ["a", "no", "b"]);
 });
 
+test("a browser that has lost the end of its store gives no number twice", () => {
+  for (const isBusy of [false, true]) {
+    const { clock, room, network, store } = setting();
+    const first = new Page(network, store);
+    clock.run(200);
+    network.isDown = true;
+    first.say("a");
+    const before = new Map(store.map);
+    network.isDown = false;
+    clock.run(30000);
+    for (const value of ["b", "c"]) first.say(value);
+    clock.run(1000);
+    const run = first.end({ isOrderly: false });
+    store.map = before; // as the disk had it when the browser was killed
+    network.isDown = isBusy;
+    clock.run(10000);
+    const next = new Page(network, store, { run });
+    if (isBusy) next.say("said before the welcome");
+    clock.run(1000);
+    network.isDown = false;
+    clock.run(30000);
+    next.say("d");
+    clock.run(3000);
+    assert.deepEqual(
+      room.applied.map((one) => one.value),
+      ["a", "b", "c", ...(isBusy ? ["said before the welcome"] : []), "d"],
+    );
+    assert.equal(next.connection.waiting, 0);
+  }
+});
+
 test("a room that cannot store for a moment gets the operation again", () => {
   const { clock, room, network, store } = setting();
   const page = new Page(network, store);
