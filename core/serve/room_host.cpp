@@ -387,6 +387,7 @@ void RoomHost::turn() {
 void RoomHost::publish() {
   const auto moment = session_->moment();
   if (next_ || (moment == seen_ && !is_changed_)) return;
+  const bool is_same_state = seen_ && now_ && seen_->state == moment->state;
   seen_ = moment;
   is_changed_ = false;
   Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
@@ -394,6 +395,8 @@ void RoomHost::publish() {
   for (const auto& [key, visitor] : visitors_)
     for (const std::string& name : visitor.wanted) {
       auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
+      if (!place && is_same_state && wire::is_of_state(name))
+        if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
       if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
     }
   next_ = std::move(made);
@@ -404,6 +407,7 @@ void RoomHost::show() {
   if (!next_ || next_->seq > stored_seq_) return;
   now_ = std::move(next_);
   next_.reset();
+  steps_.clear();
   for (auto& [key, visitor] : visitors_) show(visitor);
 }
 
@@ -422,10 +426,18 @@ void RoomHost::show(Visitor& visitor) {
     }
     std::shared_ptr<const wire::View>& shown = visitor.shown[name];
     if (shown == view) continue;
-    if (auto changes = wire::changes_of(name, shown.get(), *view, now_->tick, now_->seq))
-      visitor.guest->send(frame_of(std::move(*changes)));
+    if (const auto& frame = step(name, shown, view)) visitor.guest->send(frame);
     shown = view;
   }
+}
+
+const std::shared_ptr<const std::string>& RoomHost::step(const std::string& name, const std::shared_ptr<const wire::View>& before,
+                                                         const std::shared_ptr<const wire::View>& now) {
+  const auto [place, is_new] = steps_.try_emplace({before.get(), now.get()}, Step{before, now, nullptr});
+  if (is_new)
+    if (auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq))
+      place->second.frame = frame_of(std::move(*changes));
+  return place->second.frame;
 }
 
 wire::View RoomHost::view(std::string_view name, std::int64_t seat) {

@@ -110,6 +110,11 @@ class RoomHost {
     std::map<std::string, std::shared_ptr<const wire::View>> shared;
     std::map<std::int64_t, std::map<std::string, std::shared_ptr<const wire::View>>> by_seat;
   };
+  /// What leads from one view to the next, for all who were shown the same one before; no frame where nothing differs.
+  struct Step {
+    std::shared_ptr<const wire::View> before, now;  ///< held, so that no other view gets their addresses
+    std::shared_ptr<const std::string> frame;
+  };
 
   RoomHost(std::string code, RoomHostOptions options) : code_(std::move(code)), options_(std::move(options)) {}
   Result<void> begin(const journal::Loaded& loaded);
@@ -143,6 +148,8 @@ class RoomHost {
   void publish();
   void show();
   void show(Visitor& visitor);
+  const std::shared_ptr<const std::string>& step(const std::string& name, const std::shared_ptr<const wire::View>& before,
+                                                 const std::shared_ptr<const wire::View>& now);
   /// The last entry that this state has read; those that are said now belong to later ticks.
   std::int64_t read_by(const State& ticked) const;
   void store_hash();
@@ -198,10 +205,11 @@ class RoomHost {
   std::optional<double> snapshot_stored_;  // when, of this run of the program [s]
   std::string journal_path_;
   std::int64_t snapshot_seq_ = 0, last_hash_tick_ = -1;
-  bool is_changed_ = true;                                 // since the last views
-  std::shared_ptr<const host::Moment> seen_;               // the moment of the last views
-  std::optional<Published> next_, now_;                    // views that wait for the disk, and those that are shown
-  std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
+  bool is_changed_ = true;                    // since the last views
+  std::shared_ptr<const host::Moment> seen_;  // the moment of the last views
+  std::optional<Published> next_, now_;       // views that wait for the disk, and those that are shown
+  std::map<std::pair<const wire::View*, const wire::View*>, Step> steps_;  // to the views that are shown
+  std::map<std::int64_t, std::int64_t> plain_operations_;                  // by seat
   TrialRunner trials_;
   std::unique_ptr<host::DeviceDoor> devices_;
   std::int64_t brought_ = -1;   // the tick for which readings were brought last

@@ -399,6 +399,8 @@ bool is_of_seat(std::string_view view) {
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
+bool is_of_state(std::string_view view) { return view == "plan"; }
+
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat) {
   if (name == "room") return room_view(sources);
   if (name == "plan") return plan_view(sources.state);

@@ -32,6 +32,8 @@ inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figu
                                                   "comments", "proposals", "drafts",  "draft_plans", "keys"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
+/// Whether it is the same as long as the scene's state is, whatever happens in the room.
+bool is_of_state(std::string_view view);
 
 /// One view, as this seat sees it; empty for an unknown name.
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat);
