@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
+#include "core/serve/certificate.h"
 #include "core/serve/machine.h"
 #include "core/serve/measuring.h"
 
@@ -41,5 +43,8 @@ Finding judge_reach(const std::string& url, std::size_t count);
 /// An address of a server. `reached`: how many other devices have come by it; missing where no room is open.
 Finding judge_address(const NetworkAddress& address, const std::string& url, const Machine& machine,
                       std::optional<std::size_t> reached);
+/// What encrypts a server. `hosts`: the names and addresses by which people come, as they were asked about when it was read;
+/// empty where they are not known, as behind a proxy. `now`: [ms since 1970].
+Finding judge_certificate(const Result<Certificate>& certificate, const std::vector<std::string>& hosts, std::int64_t now);
 
 }  // namespace bl::serve

@@ -63,6 +63,11 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
   auto* certificate = c.add_option("--certificate", o.certificate, "Certificate chain for TLS, as PEM.")->type_name("FILE");
   auto* key = c.add_option("--key", o.key, "Its private key, as PEM.")->type_name("FILE")->needs(certificate);
   certificate->needs(key);
+  c.add_option(
+       "--name", o.name,
+       "The host name by which people find this computer, such as that of its certificate. Addresses that are told have it. "
+       "Default: the addresses of this computer.")
+      ->type_name("HOST");
   c.add_flag("--live", o.is_live,
              "Connects sensors and actuators, and lets facilitators set their addresses and names of files.");
   c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
