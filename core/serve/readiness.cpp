@@ -24,6 +24,8 @@ constexpr double kLowBattery = 0.3;
 // A tick that takes more than this share of the time between two leaves too little for what people say meanwhile.
 constexpr double kBusy = 0.5, kTooBusy = 0.95;
 constexpr double kWeakWireless = 0.4;
+// What comes within a quarter of a second feels as if it followed at once; whoever waits for two seconds presses again. [s]
+constexpr double kSlowToFeel = 0.25, kTooSlowToFeel = 2;
 // Whoever sees it a week ahead still has the time to get another one. [ms]
 constexpr std::int64_t kSoon = std::int64_t{7} * 24 * 3600 * 1000;
 
@@ -196,6 +198,40 @@ Finding judge_certificate(const Result<Certificate>& certificate, const std::vec
   if (!doubt.empty()) text += " " + doubt;
   else if (!is_soon) text += " Phones believe it where they know the authority that has signed it.";
   return finding(is_soon || !doubt.empty() ? Verdict::look : Verdict::good, text);
+}
+
+namespace {
+
+Finding judge_wait(const char* subject, const std::string& what, const std::optional<double>& seconds) {
+  if (!seconds) return {Verdict::look, subject, "Nothing of this was seen. Let more bots take part, or for longer."};
+  const Verdict verdict = *seconds > kTooSlowToFeel ? Verdict::bad : *seconds > kSlowToFeel ? Verdict::look : Verdict::good;
+  return {verdict, subject,
+          "Of 100 " + what + " within " + reading::duration(*seconds) + "." +
+              (verdict == Verdict::good ? "" : " People feel such a wait. Close other programs, or take a smaller scene.")};
+}
+
+}  // namespace
+
+std::vector<Finding> judge_rehearsal(const Rehearsed& r) {
+  const std::size_t absent = r.bots - r.came;
+  std::vector<Finding> findings;
+  findings.push_back({absent > 0               ? Verdict::bad
+                      : r.lost_connections > 0 ? Verdict::look
+                                               : Verdict::good,
+                      "people",
+                      std::to_string(r.came) + " of " + std::to_string(r.bots) +
+                          " bots came in. Connections that were lost: " + std::to_string(r.lost_connections) + "." +
+                          (absent > 0 && !r.why_absent.empty() ? " The last reason: " + r.why_absent + "." : "")});
+  Finding answers = judge_wait("answers", "operations 95 were answered", r.answers);
+  answers.text = std::to_string(r.said) + " operations: " + std::to_string(r.unanswered) + " without an answer, " +
+                 std::to_string(r.refused) + " refused. " + answers.text;
+  if (r.unanswered > 0) answers.verdict = Verdict::bad;
+  findings.push_back(std::move(answers));
+  findings.push_back({r.lost + r.doubled > 0 ? Verdict::bad : Verdict::good, "stored",
+                      std::to_string(r.lost) + " lost of " + std::to_string(r.told) + " stored comments and proposals, and " +
+                          std::to_string(r.doubled) + " operations stored twice."});
+  findings.push_back(judge_wait("screens", "comments and proposals 95 were on all screens", r.screens));
+  return findings;
 }
 
 }  // namespace bl::serve

@@ -85,6 +85,7 @@ struct RehearseOptions {
   int bots = 20;
   double seconds = 60;
   long long seed = 1;
+  bool shows_progress = false;
 };
 int rehearse_command(const RehearseOptions& options);
 

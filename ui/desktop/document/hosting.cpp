@@ -66,8 +66,8 @@ std::vector<std::string> words_of(const HostingPlan& plan, bool is_check) {
   return words;
 }
 
-Result<std::unique_ptr<Hosting>> Hosting::begin(const std::string& program, HostingPlan plan) {
-  auto process = ServerProcess::start(program, words_of(plan, false));
+Result<std::unique_ptr<Hosting>> Hosting::begin(const std::string& program, HostingPlan plan, ServerProcess::Lives lives) {
+  auto process = ServerProcess::start(program, words_of(plan, false), lives);
   if (!process) return process.error();
   std::unique_ptr<Hosting> hosting(new Hosting());
   hosting->plan_ = std::move(plan);
