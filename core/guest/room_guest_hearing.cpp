@@ -279,10 +279,10 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   if (found == waiting.end()) return;
   refusals_.push_back({found->what, nack.why, nack.place, nack.text});
   const auto said = wire::read_frame(found->frame);
-  const bool is_beginning = said && work_ && is_beginning_of(*said) && text_in(*said, "draft") == work_->id();
+  const std::string begun = said && is_beginning_of(*said) ? text_in(*said, "draft") : "";
   const bool is_shown = own().has_own();
   hear_answer(nack.id, false);
-  if (is_beginning) give_up_draft(std::string(work_->id()));
+  if (!begun.empty()) give_up_draft(begun);
   // What was shown of it is shown no more: everything may look different.
   else if (is_shown) tell_all_changed();
 }

@@ -219,6 +219,12 @@ TEST(Drafts, OneThatMayNotBeBegunIsLeftAndToldWithItsReason) {
   const auto refusals = at.anna.take_refusals();
   ASSERT_EQ(refusals.size(), 2u) << "the draft, and the step in it";
   EXPECT_EQ(refusals.front().why, "phase");
+  // The same where it was left before the answer came.
+  ASSERT_TRUE(at.anna.begin_draft("Too late").ok());
+  const std::string draft = at.anna.draft()->id();
+  at.anna.leave_draft();
+  at.rest();
+  EXPECT_FALSE(at.anna.enter_draft(draft).ok());
 }
 
 TEST(Drafts, AProposalIsLeftAndShownToWhoLeads) {

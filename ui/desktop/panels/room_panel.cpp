@@ -202,6 +202,7 @@ constexpr RoomBlock kBlocks[] = {
     {"now", true, true, draw_now},
     {"now", true, false, draw_plan},
     {"now", true, false, draw_leading},
+    {"now", true, true, draw_drafts},
     {"now", false, true, draw_votes},
     {"votes", true, false, draw_votes},
     {"votes", true, false, draw_new_vote},
