@@ -78,6 +78,15 @@ void Follower::set_scene(std::int64_t tick, Scene scene, Placed placed) {
   changed();
 }
 
+void Follower::set_next(Scene scene, Placed placed) {
+  const std::lock_guard lock(mutex_);
+  if (difference_) return;
+  Setting& setting = settings_[settings_.empty() ? reached_ : std::max(reached_, settings_.rbegin()->first)];
+  setting.scene = std::move(scene);
+  setting.placed.merge(placed);
+  changed();
+}
+
 void Follower::mark(Mark mark) {
   const std::lock_guard lock(mutex_);
   if (difference_) return;

@@ -53,6 +53,8 @@ class Follower {
   Result<void> begin(const Scene& scene, const SavedState* state);
   /// The scene that is read by the tick after `tick`. Ascending; a later one for the same tick replaces it, and `placed` add up.
   void set_scene(std::int64_t tick, Scene scene, Placed placed);
+  /// The same for the next tick that has not begun, where the ticks are nobody else's.
+  void set_next(Scene scene, Placed placed);
   void mark(Mark mark);
   /// What is shown beside what the ticks know: `scene` with everything that has been said, also where nobody has answered yet.
   void show(Scene scene, Placed placed);

@@ -85,9 +85,11 @@ Result<void> RoomGuest::say_values(std::int64_t gesture, std::vector<Command> co
   op.gesture = gesture;
   op.c = JsonValue::of(command_to_json(*registry_, one));
   const std::int64_t id = outbox_.next_id();
-  if (auto done = fold_.add(id, one); !done) return done;
+  if (work_) op.draft = work_->id();
+  if (auto done = work_ ? work_->say(id, one) : fold_.add(id, one); !done) return done;
   if (auto kept = send_operation(std::move(op), what, gesture); !kept) {
-    (void)fold_.answered(id);
+    if (work_) work_->unsay(id);
+    else (void)fold_.answered(id);
     fold_.show_again();
     return kept;
   }
@@ -101,7 +103,7 @@ Result<void> RoomGuest::say_values(std::int64_t gesture, std::vector<Command> co
 
 Result<void> RoomGuest::end_gestures(std::int64_t but) {
   Result<void> first;
-  for (const std::int64_t gesture : fold_.open()) {
+  for (const std::int64_t gesture : own().open()) {
     if (gesture == but) continue;
     auto ended = end_gesture(gesture);
     if (first && !ended) first = std::move(ended);
@@ -120,41 +122,55 @@ Result<void> RoomGuest::show(const std::vector<Command>& commands, std::int64_t 
   if (commands.empty()) return {};
   if (!end_.empty() || !has_scene_) return say_values(gesture, commands);
   if (auto ended = end_gestures(gesture); !ended) return ended;
-  if (auto shown = fold_.show(gesture, as_one(commands)); !shown) return shown;
+  if (auto shown = own().show(gesture, as_one(commands)); !shown) return shown;
   is_stale_ = true;
-  auto said = say_values(gesture, fold_.take_due(gesture, options_.clock->now(), false));
+  // In a draft each value that is said is a step, so only the last ones are said.
+  auto said = work_ ? Result<void>() : say_values(gesture, fold_.take_due(gesture, options_.clock->now(), false));
   refresh();
   return said;
 }
 
 Result<void> RoomGuest::end_gesture(std::int64_t gesture) {
-  auto said = say_values(gesture, fold_.take_due(gesture, options_.clock->now(), true));
-  fold_.end(gesture);
-  if (!said) fold_.show_again();
+  auto said = say_values(gesture, own().take_due(gesture, options_.clock->now(), true));
+  own().end(gesture);
+  if (!said) own().show_again();
   is_stale_ = true;
   refresh();
   return said;
 }
 
 void RoomGuest::abandon(std::int64_t gesture) {
-  const std::vector<Command> back = fold_.drop(gesture);
+  const std::vector<Command> back = own().drop(gesture);
   is_stale_ = true;
   if (!back.empty())
     if (auto said = say_values(gesture, back); !said) notices_.push_back(said.error().text());
   refresh();
 }
 
+Result<void> RoomGuest::say_of_draft(wire::DraftOp::What what, const std::string& id, const std::string& words,
+                                     const std::string& title) {
+  wire::DraftOp op;
+  op.what = what;
+  op.draft = id;
+  op.title = title;
+  return send_operation(std::move(op), words);
+}
+
 // The room knows what can be undone; what it does comes back as entries.
 Result<TakenBack> RoomGuest::undo() {
   if (auto ended = end_gestures(0); !ended) return ended.error();
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
-  if (auto said = send_operation(wire::UndoOp{}, "Undo"); !said) return said.error();
+  if (work_ && work_->step_count() == 0) return Error{ErrorCode::not_found, "", "The draft has no step to take back."};
+  auto said =
+      work_ ? say_of_draft(wire::DraftOp::What::undo, work_->id(), "Undo in the draft") : send_operation(wire::UndoOp{}, "Undo");
+  if (!said) return said.error();
   return TakenBack{};
 }
 
 Result<TakenBack> RoomGuest::redo() {
   if (auto ended = end_gestures(0); !ended) return ended.error();
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
+  if (work_) return Error{ErrorCode::conflict, "", "A step of a draft that was taken back is gone."};
   if (auto said = send_operation(wire::RedoOp{}, "Redo"); !said) return said.error();
   return TakenBack{};
 }
@@ -214,6 +230,11 @@ void RoomGuest::say_event(const std::string& event, const JsonValue& arguments) 
 }
 
 void RoomGuest::look_at(std::vector<std::string> drafts) {
+  // The own one comes first, where it is one of too many.
+  if (work_) {
+    std::erase(drafts, work_->id());
+    drafts.insert(drafts.begin(), work_->id());
+  }
   if (drafts.size() > wire::Want::kMostDrafts) drafts.resize(wire::Want::kMostDrafts);
   if (drafts == looked_at_) return;
   looked_at_ = std::move(drafts);
@@ -224,6 +245,7 @@ void RoomGuest::say_wishes() {
   wire::Want message;
   message.views = kViews;
   message.drafts = looked_at_;
+  if (!looked_at_.empty()) message.views.emplace_back("draft_plans");
   send(wire::write_message(message));
 }
 
@@ -243,8 +265,9 @@ void RoomGuest::set_whereabouts(Whereabouts where) {
 // --- Turns ----------------------------------------------------------------------------------------------------------
 
 void RoomGuest::say_due(double now) {
-  for (const std::int64_t gesture : fold_.waiting())
-    if (auto said = say_values(gesture, fold_.take_due(gesture, now, false)); !said) notices_.push_back(said.error().text());
+  if (has_waiting_values())
+    for (const std::int64_t gesture : fold_.waiting())
+      if (auto said = say_values(gesture, fold_.take_due(gesture, now, false)); !said) notices_.push_back(said.error().text());
   if (!is_welcome_) return;
   if (wished_pace_ && now - pace_at_ >= kBetweenPaces) {
     say_event("set_pace", JsonValue::of({{"rate", wished_pace_->second}, {"is_paused", wished_pace_->first}}));
@@ -267,6 +290,8 @@ void RoomGuest::say_due(double now) {
 Result<void> RoomGuest::keep_up() {
   const double now = options_.clock->now();
   fold_.forget_past();
+  left_.clear();
+  if (work_) work_->fold().forget_past();
   if (link_)
     for (const Heard& heard : link_->take()) hear(heard);
   if (!link_ && end_.empty() && now >= retry_at_) connect();
@@ -287,6 +312,7 @@ Result<void> RoomGuest::keep_up() {
   if (wants_resync_ && is_welcome_ && now - resync_at_ >= kBetweenResyncs) resync(asked_why_, asked_);
   say_due(now);
   refresh();
+  if (work_) draft_turn_ = work_->keep_ticking(now, people_.rate, !people_.is_paused && !people_.is_closed);
   return {};
 }
 
@@ -298,13 +324,16 @@ double RoomGuest::next_turn() const {
   if (wished_pace_) next = std::min(next, pace_at_ + kBetweenPaces);
   if (!is_where_sent_ && is_welcome_) next = std::min(next, where_at_ + kBetweenPresences);
   if (wants_resync_) next = std::min(next, resync_at_ + kBetweenResyncs);
+  if (work_) next = std::min(next, draft_turn_);
   return std::max(next, now);
 }
 
 // Once after everything that was heard: what is shown, and what the ticks' thread shows beside its state.
 void RoomGuest::refresh() {
   if (!std::exchange(is_stale_, false)) return;
-  if (fold_.has_own()) follower_.show(fold_.shown(), fold_.placed());
+  if (work_ && work_->has_ticks()) work_->show();
+  if (work_ && !work_->has_ticks()) follower_.show(own().shown(), work_->placed());
+  else if (fold_.has_own()) follower_.show(fold_.shown(), fold_.placed());
   else follower_.show_nothing_more();
   while (entry_ticks_.size() > kKeptEntryTicks) entry_ticks_.pop_front();
 }
@@ -321,7 +350,7 @@ Standing RoomGuest::standing() const {
   return {.is_connected = is_welcome_,
           .has_scene = has_scene_,
           .lost_since = lost_since_,
-          .waiting = outbox_.waiting().size() + fold_.waiting().size(),
+          .waiting = outbox_.waiting().size() + own().waiting().size(),
           .end = end_,
           .can_store = can_store_,
           .takes_ticks = mode_ != "values"};

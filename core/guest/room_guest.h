@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/guest/draft_work.h"
 #include "core/guest/fold.h"
 #include "core/guest/follower.h"
 #include "core/guest/link.h"
@@ -62,14 +63,15 @@ class RoomGuest final : public host::Running {
   static constexpr double kBetweenPings = 5, kPongWithin = 4;                                         // [s]
   static constexpr double kBetweenPresences = 0.25, kBetweenPaces = 0.2, kBetweenValues = 1;          // [s]
   static constexpr double kBetweenResyncs = 1;                                                        // [s]
-  static inline const std::vector<std::string> kViews = {"room", "votes", "comments", "proposals"};   // that are followed
-  static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                     // [s]
+  static inline const std::vector<std::string> kViews = {"room",      "votes",  "comments",
+                                                         "proposals", "drafts", "draft_steps"};  // that are followed
+  static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                // [s]
 
   RoomGuest(const Registry& registry, RoomGuestOptions options);
   ~RoomGuest() override;
 
   // As Running has them.
-  const Scene& scene() const override { return fold_.shown(); }
+  const Scene& scene() const override { return own().shown(); }
   const std::vector<LogEntry>& log() const override { return log_; }
   const std::vector<host::HistoryStep>& history() const override { return history_.steps(); }
   std::int64_t last_step() const override { return 0; }
@@ -81,8 +83,8 @@ class RoomGuest final : public host::Running {
   Result<TakenBack> undo() override;
   Result<TakenBack> redo() override;
   Result<void> keep_up() override;
-  bool has_waiting_values() const override { return !fold_.waiting().empty(); }
-  std::shared_ptr<const host::Moment> moment() const override { return follower_.moment(); }
+  bool has_waiting_values() const override { return !work_ && !fold_.waiting().empty(); }
+  std::shared_ptr<const host::Moment> moment() const override;
   std::size_t subscribe_moments(Follower::Listener listener) override { return follower_.subscribe(std::move(listener)); }
   void unsubscribe_moments(std::size_t number) override { follower_.unsubscribe(number); }
   bool has_news() const override { return (link_ && link_->has_news()) || follower_.has_difference(); }
@@ -95,7 +97,7 @@ class RoomGuest final : public host::Running {
   void rewind(std::int64_t ticks) override;
   void let_rest(bool) override {}
   void watch_times(bool is_watched) override { follower_.watch_times(is_watched); }
-  std::shared_ptr<const State> coming_state() override { return follower_.state_with(scene(), fold_.placed()); }
+  std::shared_ptr<const State> coming_state() override;
 
   // Of the room.
   const std::string& code() const { return options_.code; }
@@ -116,8 +118,25 @@ class RoomGuest final : public host::Running {
   void say_event(const std::string& event, const JsonValue& arguments);
   /// For facilitators: takes back the last gesture of that seat, or the named one of the log.
   void undo_of(std::int64_t seat, std::int64_t gesture = 0);
-  /// The drafts that somebody looks at here: the server tries them, as many as it can, and tells their figures.
+  /// The drafts that somebody looks at here: the server tries them, as many as it can, and tells their figures. The draft that
+  /// the holder works in is one of them.
   void look_at(std::vector<std::string> drafts);
+  /// The plan as this window has it, as the view `plan` of pages.
+  std::map<std::string, JsonValue> plan() const;
+
+  // Drafts. In a draft, scene() and moment() are those of the draft, what is submitted becomes a step of it, and undo() takes its
+  // last step back. A gesture is one step, which is said at its end.
+  /// Begins a draft, and works in it.
+  Result<void> begin_draft(const std::string& title);
+  /// Works in an open draft of this seat.
+  Result<void> enter_draft(const std::string& id);
+  /// Back to the scene of the room; the draft stays.
+  void leave_draft();
+  /// Shows the draft to whoever leads, and leaves it.
+  void propose_draft(const std::string& id, const std::string& title, const std::string& why);
+  void drop_draft(const std::string& id);
+  /// The draft that the holder works in; none: they change the scene of the room.
+  const DraftWork* draft() const { return work_.get(); }
   /// Where this person is; sent when it changes, four times a second at most.
   void set_whereabouts(Whereabouts where);
   /// Refusals and notices since the last call.
@@ -142,7 +161,10 @@ class RoomGuest final : public host::Running {
   void hear_snapshot(const wire::SnapshotOut& snapshot);
   void hear_entries(const wire::Ops& ops);
   void hear_tick(const wire::TickOut& mark);
-  void hear_answer(std::int64_t id);
+  void hear_answer(std::int64_t id, bool is_stored = true);
+  void hear_drafts();
+  void give_up_draft(const std::string& id);
+  void hear_answer_of_draft(const Sent& sent, bool is_stored);
   void hear_refusal(const wire::Nack& nack);
   void hear_view(const wire::StateOut& view);
   void hear_say(const wire::Say& say);
@@ -163,6 +185,16 @@ class RoomGuest final : public host::Running {
   void open_outbox();
   /// What a window before this one has said is shown again.
   void show_kept();
+  // The scene that the holder changes: that of the room, or of a draft.
+  Fold& own() { return work_ ? work_->fold() : fold_; }
+  const Fold& own() const { return work_ ? work_->fold() : fold_; }
+  void work_in(std::string id, std::string title);
+  Result<void> say_of_draft(wire::DraftOp::What what, const std::string& id, const std::string& words,
+                            const std::string& title = "");
+  /// The draft follows the room's scene and the steps that it tells.
+  void follow_draft();
+  /// Everything that is shown may be another.
+  void tell_all_changed();
   void give_up_run();
   void send(std::string frame);
   void refresh();
@@ -205,6 +237,11 @@ class RoomGuest final : public host::Running {
   double where_at_ = -1e9;
   std::vector<Refused> refusals_;
   std::vector<std::string> notices_;
+  double draft_turn_ = 0;
+  std::map<std::string, std::unique_ptr<DraftWork>>
+      parked_;                                    // drafts that were left: what was said in them may have no answer yet
+  std::vector<std::unique_ptr<DraftWork>> left_;  // that are given up; their scenes can be read until keep_up()
+  std::unique_ptr<DraftWork> work_;               // last: its ticks wake those of the room
 };
 
 }  // namespace bl::guest

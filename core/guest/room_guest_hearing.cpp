@@ -21,6 +21,12 @@ namespace {
 constexpr int kBadFrame = 4400, kNoSeat = 4401, kRemoved = 4403, kReplaced = 4409;
 constexpr std::int64_t kTooFarBehind = 200;  // ticks: this machine is too slow for the room
 
+// What a message leaves out is as it is by itself; of a draft that is its beginning.
+bool is_beginning_of(const Json& frame) {
+  const std::string what = text_in(frame, "do");
+  return text_in(frame, "t") == "draft" && (what.empty() || what == "begin");
+}
+
 }  // namespace
 
 // --- Connections ----------------------------------------------------------------------------------------------------
@@ -186,11 +192,8 @@ void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
   fold_.begin(std::move(reading.scene), snapshot.s);
   if (!std::exchange(has_scene_, true)) show_kept();
   wants_resync_ = false;
-  is_stale_ = true;
-  // For whoever looks at what has changed: everything may have.
-  LogEntry all{.seq = snapshot.s, .tick = snapshot.k};
-  all.command = command<Batch>({});
-  log_.push_back(std::move(all));
+  follow_draft();
+  tell_all_changed();
 }
 
 // Commands that do not fit the scene any more are not shown; the room's answer says what becomes of them.
@@ -225,6 +228,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
   if (!has_changed) return;
   fold_.show_again();
   is_stale_ = true;
+  follow_draft();
 }
 
 void RoomGuest::hear_tick(const wire::TickOut& mark) {
@@ -249,9 +253,13 @@ void RoomGuest::hear_tick(const wire::TickOut& mark) {
 
 // --- Answers --------------------------------------------------------------------------------------------------------
 
-void RoomGuest::hear_answer(std::int64_t id) {
+void RoomGuest::hear_answer(std::int64_t id, bool is_stored) {
+  const std::deque<Sent>& waiting = outbox_.waiting();
+  const auto found = std::find_if(waiting.begin(), waiting.end(), [&](const Sent& sent) { return sent.id == id; });
+  const std::optional<Sent> sent = found == waiting.end() ? std::nullopt : std::optional(*found);
   if (!outbox_.answered(id)) return;
   answer_at_ = options_.clock->now();
+  if (sent) hear_answer_of_draft(*sent, is_stored);
   if (!fold_.answered(id)) return;
   fold_.show_again();
   is_stale_ = true;
@@ -271,13 +279,13 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   const auto found = std::find_if(waiting.begin(), waiting.end(), [&](const Sent& sent) { return sent.id == nack.id; });
   if (found == waiting.end()) return;
   refusals_.push_back({found->what, nack.why, nack.place, nack.text});
-  const bool is_shown = fold_.has_own();
-  hear_answer(nack.id);
-  if (!is_shown) return;
+  const auto said = wire::read_frame(found->frame);
+  const std::string begun = said && is_beginning_of(*said) ? text_in(*said, "draft") : "";
+  const bool is_shown = own().has_own();
+  hear_answer(nack.id, false);
+  if (!begun.empty()) give_up_draft(begun);
   // What was shown of it is shown no more: everything may look different.
-  LogEntry back{.tick = follower_.tick()};
-  back.command = command<Batch>({});
-  log_.push_back(std::move(back));
+  else if (is_shown) tell_all_changed();
 }
 
 void RoomGuest::hear_view(const wire::StateOut& view) {
@@ -288,6 +296,12 @@ void RoomGuest::hear_view(const wire::StateOut& view) {
   for (const std::string& key : view.drop) known.erase(key);
   ++views_revision_;
   follower_.nudge();
+  if (view.view == "drafts") {
+    hear_drafts();
+  } else if (work_ && view.view == "draft_steps") {
+    follow_draft();
+    tell_all_changed();
+  }
   if (view.view != "room") return;
   people_.take_view(**set);
   if (const auto own = people_.seats.find(seat_); own != people_.seats.end()) role_ = own->second.role;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/moment.h"
 #include "core/base/text.h"
 #include "core/reading/figures.h"
 
@@ -23,6 +24,10 @@ constexpr double kLowBattery = 0.3;
 // A tick that takes more than this share of the time between two leaves too little for what people say meanwhile.
 constexpr double kBusy = 0.5, kTooBusy = 0.95;
 constexpr double kWeakWireless = 0.4;
+// What comes within a quarter of a second feels as if it followed at once; whoever waits for two seconds presses again. [s]
+constexpr double kSlowToFeel = 0.25, kTooSlowToFeel = 2;
+// Whoever sees it a week ahead still has the time to get another one. [ms]
+constexpr std::int64_t kSoon = std::int64_t{7} * 24 * 3600 * 1000;
 
 std::string percent(double share) { return std::to_string(static_cast<int>(100 * share + 0.5)) + " %"; }
 std::string size(std::int64_t bytes) {
@@ -149,6 +154,84 @@ Finding judge_address(const NetworkAddress& address, const std::string& url, con
   if (reached) add(judge_reach("it", *reached));
   else add({Verdict::good, "", "Open the room, then the address on a phone: only that shows that phones reach it."});
   return finding;
+}
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+  return all;
+}
+
+// Whether those who come by these hosts will believe the certificate; empty where nothing stands against it.
+std::string doubt_of(const Certificate& certificate, const std::vector<std::string>& hosts) {
+  if (hosts.empty()) return "Look whether its names hold the address that people open.";
+  if (certificate.fitting.empty())
+    return "Browsers will warn people who open " + joined(hosts) + ": it is not made for that. Take a certificate for " +
+           (hosts.size() > 1 ? "one of these addresses" : hosts.front()) + ", or say with --name which name people open.";
+  if (certificate.is_of_itself)
+    return "Browsers will warn people, because no authority has signed it. Take one that an authority has signed.";
+  return "";
+}
+
+}  // namespace
+
+Finding judge_certificate(const Result<Certificate>& certificate, const std::vector<std::string>& hosts, std::int64_t now) {
+  const auto finding = [](Verdict verdict, std::string text) { return Finding{verdict, "encryption", std::move(text)}; };
+  if (!certificate) return finding(Verdict::bad, certificate.error().text() + ".");
+  const std::string of = certificate->subject.empty() ? "" : " of " + certificate->subject;
+  const std::string names = certificate->names.empty() ? "no name of a host" : joined(certificate->names);
+  const std::string what = "The certificate" + of + " for " + names;
+  if (!certificate->fits_key)
+    return finding(Verdict::bad, what + " has another key than the one in the file of --key, so the room cannot be opened.");
+  if (now >= certificate->ends)
+    return finding(Verdict::bad,
+                   what + " has ended on " + moment_text(certificate->ends) + ". Browsers refuse it. Get a new one.");
+  if (now < certificate->begins)
+    return finding(Verdict::bad, what + " is not valid before " + moment_text(certificate->begins) +
+                                     ". Browsers refuse it. Look whether the clock of this computer is right.");
+  std::string text = "Connections are encrypted. " + what + " ends on " + moment_text(certificate->ends) + ".";
+  const bool is_soon = certificate->ends - now <= kSoon;
+  if (is_soon) text += " That is soon: get a new one before the session.";
+  const std::string doubt = doubt_of(*certificate, hosts);
+  if (!doubt.empty()) text += " " + doubt;
+  else if (!is_soon) text += " Phones believe it where they know the authority that has signed it.";
+  return finding(is_soon || !doubt.empty() ? Verdict::look : Verdict::good, text);
+}
+
+namespace {
+
+Finding judge_wait(const char* subject, const std::string& what, const std::optional<double>& seconds) {
+  if (!seconds) return {Verdict::look, subject, "Nothing of this was seen. Let more bots take part, or for longer."};
+  const Verdict verdict = *seconds > kTooSlowToFeel ? Verdict::bad : *seconds > kSlowToFeel ? Verdict::look : Verdict::good;
+  return {verdict, subject,
+          "Of 100 " + what + " within " + reading::duration(*seconds) + "." +
+              (verdict == Verdict::good ? "" : " People feel such a wait. Close other programs, or take a smaller scene.")};
+}
+
+}  // namespace
+
+std::vector<Finding> judge_rehearsal(const Rehearsed& r) {
+  const std::size_t absent = r.bots - r.came;
+  std::vector<Finding> findings;
+  findings.push_back({absent > 0               ? Verdict::bad
+                      : r.lost_connections > 0 ? Verdict::look
+                                               : Verdict::good,
+                      "people",
+                      std::to_string(r.came) + " of " + std::to_string(r.bots) +
+                          " bots came in. Connections that were lost: " + std::to_string(r.lost_connections) + "." +
+                          (absent > 0 && !r.why_absent.empty() ? " The last reason: " + r.why_absent + "." : "")});
+  Finding answers = judge_wait("answers", "operations 95 were answered", r.answers);
+  answers.text = std::to_string(r.said) + " operations: " + std::to_string(r.unanswered) + " without an answer, " +
+                 std::to_string(r.refused) + " refused. " + answers.text;
+  if (r.unanswered > 0) answers.verdict = Verdict::bad;
+  findings.push_back(std::move(answers));
+  findings.push_back({r.lost + r.doubled > 0 ? Verdict::bad : Verdict::good, "stored",
+                      std::to_string(r.lost) + " lost of " + std::to_string(r.told) + " stored comments and proposals, and " +
+                          std::to_string(r.doubled) + " operations stored twice."});
+  findings.push_back(judge_wait("screens", "comments and proposals 95 were on all screens", r.screens));
+  return findings;
 }
 
 }  // namespace bl::serve

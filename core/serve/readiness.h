@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
+#include "core/serve/certificate.h"
 #include "core/serve/machine.h"
 #include "core/serve/measuring.h"
 
@@ -41,5 +43,20 @@ Finding judge_reach(const std::string& url, std::size_t count);
 /// An address of a server. `reached`: how many other devices have come by it; missing where no room is open.
 Finding judge_address(const NetworkAddress& address, const std::string& url, const Machine& machine,
                       std::optional<std::size_t> reached);
+/// What has come of bots that took part in a room.
+struct Rehearsed {
+  std::size_t bots = 0, came = 0;  ///< how many there are, and how many came in
+  std::string why_absent = {};     ///< the last reason, where some did not come
+  int lost_connections = 0;
+  std::int64_t said = 0, refused = 0, unanswered = 0;  ///< operations
+  std::int64_t doubled = 0;                            ///< those that were stored more than once
+  std::int64_t told = 0, lost = 0;                     ///< stored comments and proposals, and those that some screen lacks
+  std::optional<double> answers = {}, screens = {};    ///< 95 of 100 were answered, and were on all screens, within [s]
+};
+/// A line each for `people`, `answers`, `stored` and `screens`.
+std::vector<Finding> judge_rehearsal(const Rehearsed& figures);
+/// What encrypts a server. `hosts`: the names and addresses by which people come, as they were asked about when it was read;
+/// empty where they are not known, as behind a proxy. `now`: [ms since 1970].
+Finding judge_certificate(const Result<Certificate>& certificate, const std::vector<std::string>& hosts, std::int64_t now);
 
 }  // namespace bl::serve

@@ -79,7 +79,7 @@ void Want::declare(MessageBuilder<Want>& m) {
   m.field(&Want::views, "views")
       .required()
       .doc(
-          "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, "
+          "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, "
           "`draft_plans`, `keys`.");
   m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }

@@ -363,6 +363,19 @@ View drafts_view(const ViewSources& sources, std::int64_t seat) {
   return view;
 }
 
+// The commands of the seat's own drafts, for windows, which make the scene of a draft themselves. A step that was taken back has
+// none.
+View draft_steps_view(const ViewSources& sources, std::int64_t seat) {
+  View view;
+  for (const auto& [id, draft] : sources.room.drafts()) {
+    if (draft.seat() != seat || draft.state() != room::DraftState::open) continue;
+    const std::vector<Command>& steps = draft.steps();
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (!steps[k].id.empty()) put(view, id + "/" + std::to_string(k), command_to_json(full_registry(), steps[k]));
+  }
+  return view;
+}
+
 // Of the drafts that pages of this seat look at, those that it may see: its own, and what was proposed.
 View draft_plans_view(const ViewSources& sources, std::int64_t seat) {
   View view;
@@ -395,7 +408,7 @@ bool is_view(std::string_view name) {
 }
 
 bool is_of_seat(std::string_view view) {
-  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_plans", "keys"};
+  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_steps", "draft_plans", "keys"};
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
@@ -410,6 +423,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "comments") return comments_view(sources, seat);
   if (name == "proposals") return proposals_view(sources);
   if (name == "drafts") return drafts_view(sources, seat);
+  if (name == "draft_steps") return draft_steps_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
   if (name == "keys") return keys_view(sources, seat);
   return {};

@@ -95,7 +95,35 @@ class Check(unittest.TestCase):
         _, found = self.check(scene=broken)
         self.assertEqual(found["scene"][0][0], "bad")
         _, found = self.check("--certificate", broken, "--key", broken)
-        self.assertEqual(found["port"][0][0], "bad")
+        self.assertEqual(found["encryption"][0][0], "bad")
+        self.assertEqual(found["port"][0][0], "good", "the port is not to blame")
+
+    def certificate(self, name, days, host="DNS:session.example.org"):
+        paper, key = (os.path.join(self.folder, name + end) for end in (".pem", ".key"))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", key, "-out", paper, "-days", str(days),
+                        "-subj", "/CN=room", "-addext", "subjectAltName=" + host], check=True, capture_output=True)
+        return paper, key
+
+    def test_a_certificate_is_judged_by_its_key_its_end_and_its_names(self):
+        def encryption(paper, key, *more):
+            _, found = self.check("--certificate", paper, "--key", key, *more)
+            self.assertEqual(found["port"][0][0], "good")
+            return found["encryption"][0]
+
+        paper, key = self.certificate("long", 90)
+        verdict, text = encryption(paper, key, "--name", "session.example.org")
+        self.assertEqual(verdict, "look", "no authority has signed it: " + text)
+        self.assertIn("no authority", text)
+        self.assertNotIn("soon", text)
+        self.assertIn("not made for that", encryption(paper, key)[1], "people come by the address of --bind")
+        self.assertNotIn("not made", encryption(*self.certificate("here", 90, "IP:127.0.0.1"))[1])
+        short, short_key = self.certificate("short", 3)
+        verdict, text = encryption(short, short_key)
+        self.assertEqual(verdict, "look")
+        self.assertRegex(text, r"ends on \d{4}-\d{2}-\d{2} .*soon")
+        verdict, text = encryption(paper, short_key)
+        self.assertEqual(verdict, "bad")
+        self.assertIn("another key", text)
 
     def test_wrong_calls_are_refused(self):
         for words in (["serve", "--check"], ["serve", self.scene, "--check", "--port", "70000"],

@@ -50,6 +50,12 @@ class Rehearse(unittest.TestCase):
         print(done.stdout, file=sys.stderr)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("9 of 9 bots came in. Connections that were lost: 0.", done.stdout)
+        lines = dict(re.findall(r"^(?:good|look|bad) +(\w+) +(\S.*)$", done.stdout, re.M))
+        self.assertEqual(set(lines), {"people", "answers", "stored", "screens"}, done.stdout)
+        told = kinds["comment"][0] + kinds["propose"][0]
+        self.assertIn(f"0 lost of {told} stored comments and proposals, and 0 operations stored twice", lines["stored"])
+        self.assertIn(f"{sum(kind[0] for kind in kinds.values())} operations: 0 without an answer", lines["answers"])
+        self.assertRegex(lines["screens"], r"on all screens within \d")
         self.assertEqual(set(kinds), {"lead", "move", "vote", "comment", "draft", "propose", "rate"})
         for said, answered, refused, why in kinds.values():
             self.assertEqual(said, answered)
@@ -62,6 +68,14 @@ class Rehearse(unittest.TestCase):
         entries = [json.dumps(entry) for entry in self.stored() if entry.get("author") != "room"]
         self.assertEqual(sum('"set_port"' in entry for entry in entries), kinds["move"][0])
         self.assertEqual(sum('"event": "comment"' in entry for entry in entries), kinds["comment"][0])
+
+    def test_who_waits_is_told_how_far_it_is(self):
+        done, kinds = self.rehearse("", "--bots", "2", "--seconds", "3", "--progress")
+        lines = re.findall(r"^progress: (\d+) of 3 s, (\d+) operations, \d+ without an answer$", done.stdout, re.M)
+        self.assertIn(len(lines), (3, 4), done.stdout)
+        said = [int(line[1]) for line in lines]
+        self.assertEqual(said, sorted(said))
+        self.assertLessEqual(said[-1], sum(kind[0] for kind in kinds.values()))
 
     def test_by_the_code_bots_are_participants(self):
         done, kinds = self.rehearse("", "--bots", "4", "--seconds", "4")

@@ -64,7 +64,7 @@ int minutes_command(const MinutesOptions& options);
 struct ServeOptions {
   std::vector<std::string> sources;  ///< scenes and session files
   int port = 8080;
-  std::string bind = "0.0.0.0", journal, invites, page, certificate, key, proxy;
+  std::string bind = "0.0.0.0", journal, invites, page, certificate, key, name, proxy;
   bool is_live = false, scripts = false;
   std::string follow, token, trust;  ///< of a second laptop: the room of the first, its key, and whose certificates are believed
   bool is_safe = false;
@@ -85,6 +85,7 @@ struct RehearseOptions {
   int bots = 20;
   double seconds = 60;
   long long seed = 1;
+  bool shows_progress = false;
 };
 int rehearse_command(const RehearseOptions& options);
 

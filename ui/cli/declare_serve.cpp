@@ -63,6 +63,11 @@ void declare_serve(CLI::App& app, ServeOptions& o) {
   auto* certificate = c.add_option("--certificate", o.certificate, "Certificate chain for TLS, as PEM.")->type_name("FILE");
   auto* key = c.add_option("--key", o.key, "Its private key, as PEM.")->type_name("FILE")->needs(certificate);
   certificate->needs(key);
+  c.add_option(
+       "--name", o.name,
+       "The host name by which people find this computer, such as that of its certificate. Addresses that are told have it. "
+       "Default: the addresses of this computer.")
+      ->type_name("HOST");
   c.add_flag("--live", o.is_live,
              "Connects sensors and actuators, and lets facilitators set their addresses and names of files.");
   c.add_flag("--scripts", o.scripts, "Lets facilitators and designers write link kinds in Lua.");
@@ -102,6 +107,7 @@ void declare_rehearse(CLI::App& app, RehearseOptions& o) {
   c.add_option("--seed", o.seed, "Another number gives other bots. Default: 1.")->type_name("K");
   c.add_option("--trust", o.trust, "Whose certificates are believed, as PEM. Default: the system's authorities.")
       ->type_name("FILE");
+  c.add_flag("--progress", o.shows_progress, "Says each second how far it is.");
   files_of(c).reads({"--trust"});
   c.footer(
       "Bots comment, vote, move the controls of their role cards, and propose. What they say stays in the room, so rehearse in "
@@ -111,8 +117,10 @@ void declare_rehearse(CLI::App& app, RehearseOptions& o) {
       "another\n"
       "role, the bots come in by that key.\n\n"
       "Example:\n  behaviourlinks rehearse room://192.168.1.5:8080/BKRT#k=KEY --bots 30 --seconds 120\n\n"
-      "Exit codes: 0 everything got an answer; 2 bad input; 3 something got no answer, or a bot did not come in; 130 stopped by\n"
-      "Ctrl-C.");
+      "At the end each line says good, look or bad: whether all bots came in, how long answers took, whether something was lost "
+      "or\n"
+      "stored twice, and how long comments and proposals took to be on all screens.\n\n"
+      "Exit codes: 0 nothing is bad; 2 bad input; 3 something is bad; 130 stopped by Ctrl-C.");
 }
 
 }  // namespace bl::cli

@@ -17,6 +17,12 @@ std::vector<std::string> hosts() {
 
 }  // namespace
 
+std::vector<std::string> own_hosts(const ServeOptions& options) {
+  if (!options.name.empty()) return {options.name};
+  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
+  return is_everywhere ? hosts() : std::vector{options.bind};
+}
+
 std::string url_of(const ServeOptions& options, const std::string& host, int port) {
   const bool is_long = host.find(':') != std::string::npos;  // IPv6
   return (options.certificate.empty() ? "http://" : "https://") + (is_long ? "[" + host + "]" : host) + ":" +
@@ -24,8 +30,7 @@ std::string url_of(const ServeOptions& options, const std::string& host, int por
 }
 
 std::vector<std::string> own_addresses(const ServeOptions& options, int port) {
-  const bool is_everywhere = options.bind == "0.0.0.0" || options.bind == "::";
-  std::vector<std::string> all = is_everywhere ? hosts() : std::vector{options.bind};
+  std::vector<std::string> all = own_hosts(options);
   for (std::string& one : all) one = url_of(options, one, port);
   return all;
 }

@@ -73,7 +73,7 @@ void RehearsalBot::hear(const std::string& text, double now) {
   if (!frame) return;
   const std::string t = text_of(*frame, "t");
   if (t == "ack" || t == "nack") return hear_answer(*frame, t == "nack", now);
-  if (t == "state") return hear_view(*frame);
+  if (t == "state") return hear_view(*frame, now);
   if (t != "welcome") return;
   const Json& you = (*frame)["you"];
   seat_ = static_cast<std::int64_t>(number_of(you, "seat", 0));
@@ -91,8 +91,14 @@ void RehearsalBot::hear(const std::string& text, double now) {
 // `gap`, `storage` and `draining` decide nothing: what was said waits, and is said again.
 void RehearsalBot::hear_answer(const Json& frame, bool is_refused, double now) {
   const auto id = static_cast<std::int64_t>(number_of(frame, "id", 0));
+  const auto entry = static_cast<std::int64_t>(number_of(frame, "s", 0));
   const auto said = waiting_.find(id);
-  if (said == waiting_.end()) return;
+  if (said == waiting_.end()) {
+    // The same number again gets the same answer.
+    const auto known = entries_.find(id);
+    if (!is_refused && known != entries_.end() && known->second != entry) ++doubled_;
+    return;
+  }
   const std::string why = is_refused ? text_of(frame, "why") : "";
   if (why == "gap" || why == "storage" || why == "draining") {
     again_at_ = std::min(again_at_, now + 1);
@@ -101,35 +107,47 @@ void RehearsalBot::hear_answer(const Json& frame, bool is_refused, double now) {
   RehearsalTally& tally = (*tallies_)[said->second.kind];
   tally.answers.push_back(now - said->second.at);
   if (is_refused) ++tally.refused[why];
+  else entries_[id] = entry;
+  if (const auto told = told_.find(said->second.name); told != told_.end()) told->second.is_stored = !is_refused;
   last_answered_ = std::max(last_answered_, id);
   waiting_.erase(said);
 }
 
-void RehearsalBot::hear_view(const Json& frame) {
-  Json& view = shown_->views[text_of(frame, "view")];
+void RehearsalBot::hear_view(const Json& frame, double now) {
+  const std::string name = text_of(frame, "view");
+  const bool is_for_all = name == "comments" || name == "proposals";
+  Json& view = shown_->views[name];
   if (!view.is_object()) view = Json::object();
   if (frame.contains("set") && frame["set"].is_object())
-    for (const auto& [key, content] : frame["set"].items()) view[key] = content;
+    for (const auto& [key, content] : frame["set"].items()) {
+      view[key] = content;
+      if (is_for_all) seen_.emplace(key, now);
+    }
   if (frame.contains("drop") && frame["drop"].is_array())
     for (const Json& key : frame["drop"])
-      if (key.is_string()) view.erase(key.get<std::string>());
+      if (key.is_string()) {
+        view.erase(key.get<std::string>());
+        if (is_for_all) seen_.erase(key.get<std::string>());
+      }
 }
 
 double RehearsalBot::longest_silence(double now) const { return heard_at_ < 0 ? 0 : std::max(longest_silence_, now - heard_at_); }
 
 // --- Saying ---------------------------------------------------------------------------------------------------------
 
-void RehearsalBot::say_operation(const std::string& kind, Json message, double now) {
+void RehearsalBot::say_operation(const std::string& kind, Json message, double now, const std::string& name) {
   message["id"] = ++last_id_;
   if (waiting_.empty()) again_at_ = now + kAnswerWithin;
   std::string frame = write_json_line(message);
   ++(*tallies_)[kind].said;
   out_.push_back(frame);
-  waiting_[last_id_] = {kind, std::move(frame), now};
+  waiting_[last_id_] = {kind, std::move(frame), name, now};
+  if (!name.empty()) told_[name] = {now, false};
 }
 
-void RehearsalBot::say_event(const std::string& kind, const std::string& event, Json arguments, double now) {
-  say_operation(kind, {{"t", "room"}, {"e", {{"event", event}, {"arguments", std::move(arguments)}}}}, now);
+void RehearsalBot::say_event(const std::string& kind, const std::string& event, Json arguments, double now,
+                             const std::string& name) {
+  say_operation(kind, {{"t", "room"}, {"e", {{"event", event}, {"arguments", std::move(arguments)}}}}, now, name);
 }
 
 std::vector<std::string> RehearsalBot::say(double now, bool is_over) {
@@ -258,13 +276,13 @@ void RehearsalBot::propose(double now) {
   const Json& control = card["controls"][random_.below(card["controls"].size())];
   say_operation("draft", {{"t", "draft"}, {"do", "begin"}, {"draft", name}, {"title", "Rehearsal"}}, now);
   say_operation("draft", {{"t", "op"}, {"draft", name}, {"c", command_for(control)}}, now);
-  say_event("propose", "propose", {{"draft", name}, {"title", "Rehearsal"}, {"why", "Because this is a rehearsal."}}, now);
+  say_event("propose", "propose", {{"draft", name}, {"title", "Rehearsal"}, {"why", "Because this is a rehearsal."}}, now, name);
 }
 
 void RehearsalBot::comment(double now) {
   if (!may("comment")) return;
   const std::string id = "rehearsal_" + std::to_string(seat_) + "_" + std::to_string(++names_);
-  say_event("comment", "comment", {{"id", id}, {"text", kComments[random_.below(std::size(kComments))]}}, now);
+  say_event("comment", "comment", {{"id", id}, {"text", kComments[random_.below(std::size(kComments))]}}, now, id);
 }
 
 void RehearsalBot::rate(double now) {

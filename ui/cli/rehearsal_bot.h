@@ -21,6 +21,12 @@ struct RehearsalTally {
 };
 using RehearsalTallies = std::map<std::string, RehearsalTally>;
 
+/// Something that everybody is shown, such as a comment.
+struct RehearsalTold {
+  double said = 0;  ///< when [s]
+  bool is_stored = false;
+};
+
 class RehearsalBot {
  public:
   /// Between two things that a bot does [s]; a slider sends while it is dragged.
@@ -54,12 +60,18 @@ class RehearsalBot {
   std::size_t waiting() const { return waiting_.size(); }
   std::size_t bytes() const { return bytes_; }
   bool has_card() const;
+  /// By its name: what this bot has said to everybody.
+  const std::map<std::string, RehearsalTold>& told() const { return told_; }
+  /// By its name: when it was first on this bot's screen [s]. What has left the screen since has no time.
+  const std::map<std::string, double>& seen() const { return seen_; }
+  /// How many of its operations were answered as two entries.
+  std::int64_t doubled() const { return doubled_; }
   /// The longest time between two frames of the server, from the first welcome on [s].
   double longest_silence(double now) const;
 
  private:
   struct Said {
-    std::string kind, frame;
+    std::string kind, frame, name;
     double at = 0;
   };
   struct Drag {
@@ -68,9 +80,10 @@ class RehearsalBot {
     double due = 0;
   };
   void hear_answer(const Json& frame, bool is_refused, double now);
-  void hear_view(const Json& frame);
-  void say_event(const std::string& kind, const std::string& event, Json arguments, double now);
-  void say_operation(const std::string& kind, Json message, double now);
+  void hear_view(const Json& frame, double now);
+  void say_event(const std::string& kind, const std::string& event, Json arguments, double now, const std::string& name = "");
+  /// `name`: of what everybody will be shown.
+  void say_operation(const std::string& kind, Json message, double now, const std::string& name = "");
   void act(double now);
   void act_as_lead(double now);
   bool vote(double now);
@@ -91,12 +104,15 @@ class RehearsalBot {
   std::set<std::int64_t> led_, given_;
   std::set<std::string> voted_, opened_;
   struct Shown;
-  std::unique_ptr<Shown> shown_;          // what a page would show, and what is being dragged
-  std::map<std::int64_t, Said> waiting_;  // by number: what has no answer
+  std::unique_ptr<Shown> shown_;                  // what a page would show, and what is being dragged
+  std::map<std::int64_t, Said> waiting_;          // by number: what has no answer
+  std::map<std::int64_t, std::int64_t> entries_;  // by number: the entry of what is stored
+  std::map<std::string, RehearsalTold> told_;
+  std::map<std::string, double> seen_;
   std::vector<std::string> out_;
   Drag drag_;
   bool is_welcome_ = false, has_begun_phase_ = false;
-  std::int64_t seat_ = 0, last_id_ = 0, last_answered_ = 0, last_gesture_ = 0, names_ = 0, acts_ = 0;
+  std::int64_t seat_ = 0, last_id_ = 0, last_answered_ = 0, last_gesture_ = 0, names_ = 0, acts_ = 0, doubled_ = 0;
   std::size_t bytes_ = 0;
   double act_at_ = 0, again_at_ = 0, ping_at_ = 0, heard_at_ = -1, longest_silence_ = 0;
 };

@@ -10,7 +10,9 @@
 
 #include "core/room/secrets.h"
 #include "core/serve/client.h"
+#include "core/serve/readiness.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/finding_lines.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/rehearsal_bot.h"
 #include "ui/cli/terminal.h"
@@ -20,7 +22,8 @@ namespace bl::cli {
 namespace {
 
 // Phones come one after the other. A connection that ends is made again, but where the room said that it is useless. [s]
-constexpr double kBetweenArrivals = 0.03, kRetry = 1, kComingIn = 15, kLastAnswers = 10;
+constexpr double kBetweenArrivals = 0.03, kRetry = 1, kComingIn = 15, kLastAnswers = 10, kLastScreens = 2, kBetweenLines = 1;
+constexpr double kMostOf = 0.95;
 constexpr int kBadFrame = 4400, kNoSeat = 4401, kRemoved = 4403, kReplaced = 4409;
 
 class Bell {
@@ -62,10 +65,17 @@ class Rehearsal {
     print_line(lead_ == nullptr ? std::to_string(bots_.size()) + " bots take part."
                                 : "One bot is the facilitator, and " + std::to_string(bots_.size() - 1) + " take part.");
     const double began = now();
-    turn_until([&] { return now() - began >= options_->seconds; }, false);
+    turn_until(
+        [&] {
+          tell_progress(now() - began);
+          return now() - began >= options_->seconds;
+        },
+        false);
     if (lead_ != nullptr) lead_->bot->close_votes(now());
     const double over = now(), seconds = over - began;
     turn_until([&] { return unanswered() == 0 || now() - over > kLastAnswers; }, true);
+    const double answered = now();
+    turn_until([&] { return screens().second == 0 || now() - answered > kLastScreens; }, true);
     return tell(seconds);
   }
 
@@ -157,6 +167,8 @@ class Rehearsal {
     return sum;
   }
 
+  void tell_progress(double seconds);
+  std::pair<std::vector<double>, std::int64_t> screens() const;
   int tell(double seconds) const;
   void print_answers() const;
 
@@ -165,6 +177,7 @@ class Rehearsal {
   RehearsalTallies tallies_;
   std::string last_end_;
   int lost_ = 0;
+  double line_at_ = 0;
   bool has_lead_ = false;
   Bell bell_;
   std::vector<Attendant> bots_;  // after what their threads use
@@ -203,29 +216,72 @@ void Rehearsal::print_answers() const {
   table.print();
 }
 
+// A line each second, for programs that wait for the end.
+void Rehearsal::tell_progress(double seconds) {
+  if (!options_->shows_progress || seconds < line_at_) return;
+  line_at_ = seconds + kBetweenLines;
+  std::int64_t said = 0;
+  for (const auto& [kind, tally] : tallies_) said += tally.said;
+  print_line("progress: " + decimals(seconds, 0) + " of " + decimals(options_->seconds, 0) + " s, " + std::to_string(said) +
+             " operations, " + std::to_string(unanswered()) + " without an answer");
+  std::fflush(stdout);  // whoever reads it waits
+}
+
+// How long each stored comment and proposal took to be on all screens, and how many are missing on some. A bot that is away has
+// none.
+std::pair<std::vector<double>, std::int64_t> Rehearsal::screens() const {
+  std::vector<double> times;
+  std::int64_t missing = 0;
+  for (const Attendant& author : bots_)
+    for (const auto& [name, told] : author.bot->told()) {
+      if (!told.is_stored) continue;
+      double last = told.said;
+      bool is_everywhere = true;
+      for (const Attendant& one : bots_) {
+        if (!one.bot->is_welcome()) continue;
+        const auto seen = one.bot->seen().find(name);
+        if (seen == one.bot->seen().end()) is_everywhere = false;
+        else last = std::max(last, seen->second);
+      }
+      if (is_everywhere) times.push_back(last - told.said);
+      else ++missing;
+    }
+  return {std::move(times), missing};
+}
+
 int Rehearsal::tell(double seconds) const {
   print_answers();
-  std::size_t came = 0, bytes = 0, with_card = 0;
+  serve::Rehearsed figures{.bots = bots_.size(), .lost_connections = lost_};
+  std::size_t bytes = 0, with_card = 0;
   double silence = 0;
   for (const Attendant& one : bots_) {
-    came += one.has_come ? 1 : 0;
+    figures.came += one.has_come ? 1 : 0;
+    figures.doubled += one.bot->doubled();
     bytes += one.bot->bytes();
     with_card += one.bot->has_card() ? 1 : 0;
     silence = std::max(silence, one.bot->longest_silence(now()));
   }
-  const std::size_t absent = bots_.size() - came, without = unanswered();
-  print_line(std::to_string(came) + " of " + std::to_string(bots_.size()) +
-             " bots came in. Connections that were lost: " + std::to_string(lost_) + ".");
+  figures.why_absent = last_end_;
+  std::vector<double> answers;
+  for (const auto& [kind, tally] : tallies_) {
+    figures.said += tally.said;
+    for (const auto& [why, count] : tally.refused) figures.refused += count;
+    answers.insert(answers.end(), tally.answers.begin(), tally.answers.end());
+  }
+  figures.unanswered = static_cast<std::int64_t>(unanswered());
+  const auto [times, missing] = screens();
+  figures.lost = missing;
+  figures.told = missing + static_cast<std::int64_t>(times.size());
+  if (!answers.empty()) figures.answers = quantile(std::move(answers), kMostOf);
+  if (!times.empty()) figures.screens = quantile(times, kMostOf);
   print_line("The longest silence of the room was " + decimals(silence, 1) + " s. Each bot was sent " +
-             decimals(static_cast<double>(bytes) / 1000 / seconds / static_cast<double>(came), 1) + " kB a second.");
+             decimals(static_cast<double>(bytes) / 1000 / seconds / static_cast<double>(figures.came), 1) + " kB a second.");
   if (with_card == 0)
     print_line("No bot had a role card, so none moved or proposed anything." +
                std::string(has_lead_ ? " The scene has none." : " With the facilitator's key, the cards are dealt out."));
-  if (without > 0) print_line("Without an answer: " + std::to_string(without) + ".", Colour::red);
-  else print_line("Everything got an answer.", Colour::green);
-  if (absent > 0) print_line("Did not come in: " + std::to_string(absent) + ". " + last_end_, Colour::red);
+  const bool is_bad = print_findings(serve::judge_rehearsal(figures));
   if (is_interrupted()) return interrupt_exit_code();
-  return without > 0 || absent > 0 ? kNotMet : kDone;
+  return is_bad ? kNotMet : kDone;
 }
 
 }  // namespace

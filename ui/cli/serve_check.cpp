@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
@@ -21,6 +22,7 @@
 #include "core/serve/readiness.h"
 #include "core/serve/server.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/finding_lines.h"
 #include "ui/cli/own_addresses.h"
 #include "ui/cli/terminal.h"
 
@@ -79,12 +81,12 @@ struct PortCheck {
 
 PortCheck check_port(const ServeOptions& options) {
   const std::string port = std::to_string(options.port);
-  // The server itself tries, so that certificates are looked at as well.
+  // The server itself tries; the certificate has a line of its own.
   const auto server = serve::Server::open({.address = options.bind,
                                            .port = static_cast<std::uint16_t>(options.port),
                                            .page_folder = {},
-                                           .certificate = options.certificate,
-                                           .key = options.key,
+                                           .certificate = {},
+                                           .key = {},
                                            .watched_folder = {},
                                            .proxy = options.proxy});
   if (server && options.port == 0)
@@ -99,6 +101,28 @@ PortCheck check_port(const ServeOptions& options) {
   for (const std::string& code : rooms->codes) codes += (codes.empty() ? "" : ", ") + code;
   return {{Verdict::look, "port", "Port " + port + " has an open room already: " + codes + ". Another room needs another port."},
           std::move(rooms)};
+}
+
+Finding check_encryption(const ServeOptions& options) {
+  if (options.certificate.empty())
+    return {Verdict::look, "encryption",
+            "Without a certificate everybody in this network can read along. Use a Wi-Fi of your own with a password, "
+            "and ask for no names."};
+  using namespace std::chrono;
+  const std::int64_t now = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+  const bool is_known = options.proxy.empty() || !options.name.empty();  // else people open the proxy's address
+  const std::vector<std::string> hosts = is_known ? own_hosts(options) : std::vector<std::string>();
+  Finding finding = serve::judge_certificate(serve::read_certificate(options.certificate, options.key, hosts), hosts, now);
+  if (finding.verdict == Verdict::bad) return finding;
+  // The server itself tries: it refuses some that can be read, such as those with a weak key.
+  const auto server = serve::Server::open({.address = "127.0.0.1",
+                                           .port = 0,
+                                           .page_folder = {},
+                                           .certificate = options.certificate,
+                                           .key = options.key,
+                                           .watched_folder = {},
+                                           .proxy = {}});
+  return server ? finding : Finding{Verdict::bad, "encryption", server.error().text() + "."};
 }
 
 std::vector<Finding> check_network(const ServeOptions& options, const serve::Machine& machine, const PortCheck& port) {
@@ -120,15 +144,7 @@ std::vector<Finding> check_network(const ServeOptions& options, const serve::Mac
                         "No other device can open the room: " +
                             (is_everywhere ? std::string("this computer is in no network. Join the Wi-Fi of the session.")
                                            : options.bind + " is an address of this computer alone. Choose another --bind.")});
-  if (options.certificate.empty())
-    findings.push_back(
-        {Verdict::look, "encryption",
-         "Without a certificate everybody in this network can read along. Use a Wi-Fi of your own with a password, "
-         "and ask for no names."});
-  else
-    findings.push_back({Verdict::good, "encryption",
-                        "Connections are encrypted. Phones believe the certificate where a known authority has signed it for the "
-                        "name in the address."});
+  findings.push_back(check_encryption(options));
   return findings;
 }
 
@@ -239,10 +255,6 @@ Finding check_numbers() {
                    : "The self-test cannot run: " + self.fingerprint + ". Install the program again."};
 }
 
-Colour colour_of(Verdict verdict) {
-  return verdict == Verdict::good ? Colour::green : verdict == Verdict::look ? Colour::yellow : Colour::red;
-}
-
 }  // namespace
 
 int check_before_serving(const ServeOptions& options) {
@@ -257,8 +269,7 @@ int check_before_serving(const ServeOptions& options) {
        serve::judge_clock(serve::is_clock_set()), check_numbers()});
   add(check_network(options, machine, port));
   add(check_people(options));
-  for (const Finding& finding : findings) print_line(serve::line_of(finding), colour_of(finding.verdict));
-  const bool is_bad = std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.verdict == Verdict::bad; });
+  const bool is_bad = print_findings(findings);
   if (!options.json.empty()) {
     Json all = Json::array();
     for (const Finding& f : findings)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/define/codec.h"
 #include "core/wire/views.h"
 #include "tests/core/room/room_world.h"
 
@@ -54,6 +55,30 @@ TEST(DraftTrials, ConflictsAreToldInWordsWithBothValues) {
                                          {"by", "Heron"},
                                          {"live", 500},
                                          {"draft", 300}}));
+}
+
+TEST(DraftTrials, StepsAreForTheirAuthorWhileTheDraftIsOpen) {
+  room::RoomWorld world;
+  const auto lead = world.seat(Role::facilitator), anna = world.seat(Role::stakeholder);
+  (void)world.say(anna, room::OperationKind::draft_begin, R"({"draft": "d"})");
+  for (const double demand : {300, 400, 500}) (void)world.command(anna, room::set_demand("north", demand), "d");
+  World state = World::from_text(room::kTable);
+  const ViewSources sources{state.state(), world.room(), "", ""};
+  const auto keys = [&](std::int64_t seat) {
+    std::vector<std::string> found;
+    for (const auto& [key, content] : make_view("draft_steps", sources, seat)) found.push_back(key);
+    return found;
+  };
+  EXPECT_EQ(keys(anna), (std::vector<std::string>{"d/0", "d/1", "d/2"}));
+  EXPECT_TRUE(keys(lead).empty()) << "it is private";
+  const auto last = command_from_json(full_registry(), *parse_json(make_view("draft_steps", sources, anna).at("d/2")), "");
+  ASSERT_TRUE(last.ok());
+  EXPECT_EQ(last->id, "set_port");
+  (void)world.say(anna, room::OperationKind::draft_undo, R"({"draft": "d"})");
+  (void)world.command(anna, room::set_demand("north", 600), "d");
+  EXPECT_EQ(keys(anna), (std::vector<std::string>{"d/0", "d/1", "d/3"})) << "numbers never change";
+  (void)world.event(anna, "propose", R"({"draft": "d"})");
+  EXPECT_TRUE(keys(anna).empty()) << "nothing can be changed in it";
 }
 
 TEST(DraftTrials, APlanIsForThoseWhoLookAtItAndMaySeeIt) {

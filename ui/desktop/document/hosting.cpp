@@ -57,7 +57,8 @@ std::string fault_of_place(const HostingPlan& plan) {
 
 std::vector<std::string> words_of(const HostingPlan& plan, bool is_check) {
   std::vector<std::string> words{"serve", plan.scene, "--port", plan.port, "--bind", plan.bind, "--journal", plan.journal};
-  if (!plan.certificate.empty()) words.insert(words.end(), {"--certificate", plan.certificate, "--key", plan.key});
+  if (!plan.certificate.empty())
+    words.insert(words.end(), {"--certificate", plan.certificate, "--key", plan.key, "--name", plan.name});
   if (plan.is_live) words.emplace_back("--live");
   if (plan.scripts) words.emplace_back("--scripts");
   if (is_check) words.emplace_back("--check");
@@ -65,8 +66,8 @@ std::vector<std::string> words_of(const HostingPlan& plan, bool is_check) {
   return words;
 }
 
-Result<std::unique_ptr<Hosting>> Hosting::begin(const std::string& program, HostingPlan plan) {
-  auto process = ServerProcess::start(program, words_of(plan, false));
+Result<std::unique_ptr<Hosting>> Hosting::begin(const std::string& program, HostingPlan plan, ServerProcess::Lives lives) {
+  auto process = ServerProcess::start(program, words_of(plan, false), lives);
   if (!process) return process.error();
   std::unique_ptr<Hosting> hosting(new Hosting());
   hosting->plan_ = std::move(plan);

@@ -33,7 +33,8 @@ class Hosting {
  public:
   enum class Stage { opening, open, ending, ended };
 
-  static Result<std::unique_ptr<Hosting>> begin(const std::string& program, HostingPlan plan);
+  static Result<std::unique_ptr<Hosting>> begin(const std::string& program, HostingPlan plan,
+                                                ServerProcess::Lives lives = ServerProcess::Lives::on);
   /// A room that is not open yet is given up. An open one goes on.
   ~Hosting();
   Hosting(const Hosting&) = delete;

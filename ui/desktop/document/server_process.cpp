@@ -2,6 +2,7 @@
 #include "ui/desktop/document/server_process.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,7 +61,8 @@ void sweep(const fs::path& rooms) {
   for (const fs::path& one : gone) fs::remove_all(one, error);
 }
 
-[[noreturn]] void become(const char* program, char* const* arguments, int output, int complaints, int nothing) {
+[[noreturn]] void become(const char* program, char* const* arguments, int output, int complaints, int nothing, bool lives_on) {
+  if (!lives_on) ::prctl(PR_SET_PDEATHSIG, SIGINT);
   ::setsid();  // a terminal that closes, and its Ctrl-C, are nothing to a room
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
@@ -79,7 +81,8 @@ std::string server_program() {
   return "";
 }
 
-Result<std::unique_ptr<ServerProcess>> ServerProcess::start(const std::string& program, const std::vector<std::string>& words) {
+Result<std::unique_ptr<ServerProcess>> ServerProcess::start(const std::string& program, const std::vector<std::string>& words,
+                                                            Lives lives) {
   if (program.empty() || ::access(program.c_str(), X_OK) != 0)
     return Error{ErrorCode::not_found, "", "The program `behaviourlinks` is not beside the window's program. Install it again."};
   std::unique_ptr<ServerProcess> process(new ServerProcess());
@@ -101,7 +104,7 @@ Result<std::unique_ptr<ServerProcess>> ServerProcess::start(const std::string& p
   arguments.push_back(nullptr);
   const bool is_ready = output >= 0 && complaints >= 0 && secrets >= 0 && nothing >= 0;
   process->number_ = is_ready ? ::fork() : -1;
-  if (process->number_ == 0) become(program.c_str(), arguments.data(), output, complaints, nothing);
+  if (process->number_ == 0) become(program.c_str(), arguments.data(), output, complaints, nothing, lives == Lives::on);
   for (const int file : {output, complaints, secrets, nothing})
     if (file >= 0) ::close(file);
   if (process->number_ < 0) return Error{ErrorCode::io, program, std::string("cannot be started: ") + std::strerror(errno)};

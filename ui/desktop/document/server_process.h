@@ -19,7 +19,9 @@ std::string server_program();
 /// ends, and this one shall go on when the window has ended or has crashed.
 class ServerProcess {
  public:
-  static Result<std::unique_ptr<ServerProcess>> start(const std::string& program, const std::vector<std::string>& words);
+  enum class Lives { on, with_this_one };  ///< when this program ends or crashes, it goes on, or is interrupted
+  static Result<std::unique_ptr<ServerProcess>> start(const std::string& program, const std::vector<std::string>& words,
+                                                      Lives lives = Lives::on);
   /// Lets a process that runs go on, without the files of `private_file`; of one that has ended nothing stays.
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;

@@ -29,6 +29,16 @@ std::int64_t hosting_clock() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
+std::vector<serve::Finding> findings_in(const std::string& text) {
+  std::vector<serve::Finding> findings;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (auto finding = serve::finding_of_line(text.substr(begin, end - begin))) findings.push_back(std::move(*finding));
+    begin = end + 1;
+  }
+  return findings;
+}
+
 std::string program_of(const Workbench& editor) {
   return editor.server_program.empty() ? server_program() : editor.server_program;
 }
@@ -47,6 +57,7 @@ void HostDialog::begin() {
   page_ = Page::scene;
   told_.clear();
   findings_.clear();
+  rehearsed_.clear();
   addresses_ = serve::network_addresses();
 }
 
@@ -54,6 +65,7 @@ void HostDialog::stop() {
   if (checking_) checking_->interrupt();
   checking_.reset();
   opening_.reset();
+  rehearsing_.reset();
 }
 
 // A file of another scene is not taken for this one.
@@ -78,7 +90,7 @@ std::string HostDialog::missing() const {
         if (phase.name.empty()) return "Each phase needs a title.";
       return "";
     case Page::place: return fault_of_place(plan_);
-    case Page::check: return checking_ ? "The check is running." : "";
+    case Page::check: return checking_ ? "The check is running." : rehearsing_ ? "The rehearsal is running." : "";
   }
   return "";
 }
@@ -86,6 +98,7 @@ std::string HostDialog::missing() const {
 void HostDialog::go(Page page) {
   page_ = page;
   told_.clear();
+  rehearsing_.reset();
   if (page_ == Page::check) begin_check();
   else if (checking_) checking_->interrupt(), checking_.reset();
 }
@@ -117,16 +130,31 @@ void HostDialog::turn_check() {
   if (!checking_) return;
   editor_->wake_at(editor_->now + kBetweenLooks);
   if (!checking_->exit_code()) return;
-  const std::string text = checking_->output();
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (auto finding = serve::finding_of_line(text.substr(begin, end - begin))) findings_.push_back(std::move(*finding));
-    begin = end + 1;
-  }
+  findings_ = findings_in(checking_->output());
   if (findings_.empty()) told_ = "The check could not run: " + checking_->complaints();
   // What needs somebody comes first.
   std::stable_sort(findings_.begin(), findings_.end(), [](const auto& a, const auto& b) { return a.verdict > b.verdict; });
   checking_.reset();
+}
+
+// --- The rehearsal --------------------------------------------------------------------------------------------------
+
+void HostDialog::begin_rehearsal() {
+  rehearsed_.clear();
+  told_.clear();
+  auto run = RehearsalRun::begin(program_of(*editor_), plan_, rehearsal_);
+  if (!run) told_ = run.error().text();
+  else rehearsing_ = std::move(*run);
+}
+
+void HostDialog::turn_rehearsal() {
+  if (!rehearsing_) return;
+  editor_->wake_at(editor_->now + kBetweenLooks);
+  if (rehearsing_->turn() != RehearsalRun::Stage::ended) return;
+  if (!rehearsing_->is_cancelled()) rehearsed_ = findings_in(rehearsing_->output());
+  if (!rehearsing_->why().empty()) told_ = rehearsing_->why();
+  else if (rehearsed_.empty() && !rehearsing_->is_cancelled()) told_ = "The rehearsal has ended without a result.";
+  rehearsing_.reset();
 }
 
 // --- The room -------------------------------------------------------------------------------------------------------
@@ -205,6 +233,7 @@ void begin_phase(guest::RoomGuest& room, const PlannedPhase& phase, const std::v
 
 bool HostDialog::draw(bool takes_enter) {
   turn_check();
+  turn_rehearsal();
   if (turn_opening()) return true;
   draw_steps();
   const float foot = ImGui::GetFrameHeightWithSpacing() + editor_->theme.px(54);

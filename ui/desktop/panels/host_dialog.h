@@ -9,6 +9,7 @@
 
 #include "core/serve/readiness.h"
 #include "ui/desktop/document/hosting.h"
+#include "ui/desktop/document/rehearsal.h"
 #include "ui/desktop/panels/file_chooser.h"
 #include "ui/desktop/panels/workbench.h"
 
@@ -32,6 +33,10 @@ class HostDialog {
   bool is_opening() const { return opening_ != nullptr; }
   bool is_checking() const { return checking_ != nullptr; }
   const std::vector<serve::Finding>& findings() const { return findings_; }
+  bool is_rehearsing() const { return rehearsing_ != nullptr; }
+  RehearsalSize& rehearsal() { return rehearsal_; }
+  /// What the last rehearsal has shown; empty where there was none, or where it was cancelled.
+  const std::vector<serve::Finding>& rehearsed() const { return rehearsed_; }
   /// Why the last try has not gone well.
   const std::string& told() const { return told_; }
 
@@ -46,6 +51,8 @@ class HostDialog {
   void draw_place();
   void draw_certificate();
   void draw_check();
+  void draw_rehearsal();
+  void draw_findings(const char* id, const std::vector<serve::Finding>& findings);
   void draw_file(const char* label, const char* key, std::string& path, FileChooser::Purpose purpose,
                  std::vector<std::string> endings);
   void quiet(const std::string& words) const;
@@ -57,6 +64,8 @@ class HostDialog {
   void name_files();
   void begin_check();
   void turn_check();
+  void begin_rehearsal();
+  void turn_rehearsal();
   void open_room();
   /// True once the room is open and this window has joined it.
   bool turn_opening();
@@ -68,7 +77,9 @@ class HostDialog {
   std::vector<serve::NetworkAddress> addresses_;
   std::unique_ptr<ServerProcess> checking_;
   std::unique_ptr<Hosting> opening_;
-  std::vector<serve::Finding> findings_;
+  std::unique_ptr<RehearsalRun> rehearsing_;
+  RehearsalSize rehearsal_;
+  std::vector<serve::Finding> findings_, rehearsed_;
   std::string told_, planned_scene_;
 };
 

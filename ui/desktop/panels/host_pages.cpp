@@ -25,7 +25,8 @@ constexpr std::array kPeople = {
     RoleOfPeople{"viewer", "Viewers", "only look"},
 };
 constexpr std::array kMayDo = {"change", "draft", "comment", "vote"};
-constexpr int kMostPeople = 500;
+constexpr int kMostPeople = 500, kMostBots = 199;
+constexpr double kShortestRehearsal = 3, kLongestRehearsal = 3600;  // [s]
 
 ImU32 colour_of_verdict(const Colours& c, serve::Verdict verdict) {
   return verdict == serve::Verdict::good ? c.good : verdict == serve::Verdict::look ? c.warning : c.bad;
@@ -240,11 +241,47 @@ void HostDialog::draw_check() {
   if (ImGui::Button("Check again")) begin_check();
   note_place(*editor_, "host/again");
   ImGui::Dummy({0, editor_->theme.px(4)});
-  if (!ImGui::BeginTable("findings", 3)) return;
+  draw_rehearsal();
+  draw_findings("findings", findings_);
+}
+
+void HostDialog::draw_rehearsal() {
+  const Theme& theme = editor_->theme;
+  strong("Rehearse with bots");
+  if (rehearsing_) {
+    ImGui::ProgressBar(static_cast<float>(rehearsing_->part()), {theme.px(300), 0});
+    ImGui::SameLine();
+    if (ImGui::Button("Stop the rehearsal")) rehearsing_->cancel();
+    note_place(*editor_, "host/rehearse/stop");
+    quiet(rehearsing_->progress().empty() ? "The room of the rehearsal is opened." : rehearsing_->progress());
+    return ImGui::Dummy({0, theme.px(6)});
+  }
+  quiet(
+      "Bots take part in a room of their own on this computer, over the same protocol as people. They comment, vote, move the "
+      "values "
+      "of role cards and propose. The room is thrown away: your session file and your scene file stay as they are. Wi-Fi and "
+      "phones "
+      "are not tried.");
+  ImGui::SetNextItemWidth(theme.px(110));
+  ImGui::InputInt("bots", &rehearsal_.bots, 1, 10);
+  rehearsal_.bots = std::clamp(rehearsal_.bots, 1, kMostBots);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(theme.px(110));
+  ImGui::InputDouble("seconds", &rehearsal_.seconds, 10, 60, "%.0f");
+  rehearsal_.seconds = std::clamp(rehearsal_.seconds, kShortestRehearsal, kLongestRehearsal);
+  ImGui::SameLine();
+  if (ImGui::Button("Rehearse")) begin_rehearsal();
+  note_place(*editor_, "host/rehearse");
+  draw_findings("rehearsed", rehearsed_);
+  ImGui::Dummy({0, theme.px(6)});
+}
+
+void HostDialog::draw_findings(const char* id, const std::vector<serve::Finding>& findings) {
+  if (findings.empty() || !ImGui::BeginTable(id, 3)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, editor_->theme.px(52));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, editor_->theme.px(90));
   ImGui::TableSetupColumn("");
-  for (const serve::Finding& finding : findings_) {
+  for (const serve::Finding& finding : findings) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, colour_of_verdict(editor_->theme.colours(), finding.verdict));

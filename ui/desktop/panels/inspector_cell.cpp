@@ -91,7 +91,10 @@ void scrub(Workbench& editor, const std::string& key, CellEvent& event) {
 }  // namespace
 
 void note_place(Workbench& editor, const std::string& key) {
-  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  note_area(editor, key, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+}
+
+void note_area(Workbench& editor, const std::string& key, const ImVec2& a, const ImVec2& b) {
   PanelMemory& memory = memory_of(editor);
   if (memory.places_frame != ImGui::GetFrameCount()) memory.places.clear();
   memory.places_frame = ImGui::GetFrameCount();

@@ -55,6 +55,8 @@ int chips(Workbench& editor, const std::string& key, const std::vector<std::stri
 std::string fitted(const std::string& text, float width);
 /// Remembers where a field stands.
 void note_place(Workbench& editor, const std::string& key);
+/// The same of what is no field, from its upper left to its lower right corner.
+void note_area(Workbench& editor, const std::string& key, const ImVec2& a, const ImVec2& b);
 /// A card with a heading and quieter lines, at the mouse.
 void card(Workbench& editor, const std::string& heading, const std::string& text, const std::string& facts = "");
 void small_text(Workbench& editor, const std::string& text, ImU32 colour, float wrap_width = 0);

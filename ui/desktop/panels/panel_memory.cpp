@@ -3,6 +3,7 @@
 
 #include "ui/desktop/panels/import_list.h"
 #include "ui/desktop/panels/inspector.h"
+#include "ui/desktop/panels/plan_picture.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/room_agenda.h"
 #include "ui/desktop/panels/statistics_record.h"
@@ -14,7 +15,8 @@ PanelMemory::PanelMemory()
     : problems(std::make_unique<ProblemList>()),
       record(std::make_unique<RunRecord>()),
       imports(std::make_unique<ImportList>()),
-      times(std::make_unique<TimeList>()) {}
+      times(std::make_unique<TimeList>()),
+      plans(std::make_unique<PlanPictures>()) {}
 PanelMemory::~PanelMemory() = default;
 
 PanelMemory& memory_of(Workbench& editor) {

@@ -20,6 +20,7 @@ namespace bl::desktop {
 struct Agenda;
 class ImportList;
 class InspectorView;
+struct PlanPictures;
 class ProblemList;
 class RunRecord;
 class TimeList;
@@ -79,6 +80,7 @@ struct PanelMemory {
   std::map<std::string, vote::Ballot> ballots;             ///< that are filled in and not cast yet, by vote
   std::optional<DotPlacing> placing;                       ///< clicks in the 3D view set dots
   std::map<std::string, std::set<std::int64_t>> left_out;  ///< steps of proposals, by draft
+  std::unique_ptr<PlanPictures> plans;                     ///< of the room as it is, and with drafts
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.

@@ -128,18 +128,10 @@ std::string trial_words(const Json& trial) {
                                           : "The trial has ended before the model was at rest.";
 }
 
-AgendaProposal proposal_of(const std::string& draft, const Json& json) {
-  AgendaProposal proposal;
-  proposal.draft = draft;
-  proposal.title = guest::text_in(json, "title");
-  proposal.why = guest::text_in(json, "why");
-  proposal.seat = agenda_integer(json, "seat");
-  proposal.kept = agenda_integer(json, "kept");
-  proposal.count = agenda_integer(json, "steps");
-  proposal.is_decided = guest::text_in(json, "state") != "proposed";
-  proposal.is_accepted = guest::text_in(json, "state") == "accepted";
+// What drafts and proposals have both: steps in words, what stands against them, and what has come of the trial.
+void read_content(AgendaProposal& proposal, const Json& json, const char* steps) {
   // A step that was taken back has no words.
-  const std::vector<std::string> words = agenda_texts(agenda_part(json, "words"));
+  const std::vector<std::string> words = agenda_texts(agenda_part(json, steps));
   for (std::size_t k = 0; k < words.size(); ++k)
     if (!words[k].empty()) proposal.steps.push_back({static_cast<std::int64_t>(k), words[k], {}});
   if (const Json& misfits = agenda_part(json, "misfits"); misfits.is_array())
@@ -157,6 +149,28 @@ AgendaProposal proposal_of(const std::string& draft, const Json& json) {
       proposal.figures.push_back(
           {guest::text_in(one, "name"), guest::text_in(one, "unit"), guest::text_in(agenda_part(one, "after"), "status"),
            agenda_optional(agenda_part(one, "before"), "value"), agenda_optional(agenda_part(one, "after"), "value")});
+}
+
+AgendaProposal draft_of(const std::string& draft, const Json& json) {
+  AgendaProposal own;
+  own.draft = draft;
+  own.title = guest::text_in(json, "title");
+  read_content(own, json, "steps");
+  own.count = static_cast<std::int64_t>(own.steps.size());
+  return own;
+}
+
+AgendaProposal proposal_of(const std::string& draft, const Json& json) {
+  AgendaProposal proposal;
+  proposal.draft = draft;
+  proposal.title = guest::text_in(json, "title");
+  proposal.why = guest::text_in(json, "why");
+  proposal.seat = agenda_integer(json, "seat");
+  proposal.kept = agenda_integer(json, "kept");
+  proposal.count = agenda_integer(json, "steps");
+  proposal.is_decided = guest::text_in(json, "state") != "proposed";
+  proposal.is_accepted = guest::text_in(json, "state") == "accepted";
+  read_content(proposal, json, "words");
   return proposal;
 }
 
@@ -191,6 +205,9 @@ Agenda agenda_of(const guest::RoomGuest& room) {
     if (const auto json = content.read()) agenda.proposals.push_back(proposal_of(id, **json));
   std::stable_sort(agenda.proposals.begin(), agenda.proposals.end(),
                    [](const AgendaProposal& a, const AgendaProposal& b) { return !a.is_decided && b.is_decided; });
+  for (const auto& [id, content] : room.view("drafts"))
+    if (const auto json = content.read(); json && guest::text_in(**json, "state") == "open")
+      agenda.drafts.push_back(draft_of(id, **json));
   for (const auto& [id, content] : room.view("comments")) {
     const auto json = content.read();
     if (!json || guest::text_in(**json, "state") != "open") continue;

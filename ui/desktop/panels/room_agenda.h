@@ -69,6 +69,7 @@ struct Agenda {
   std::vector<AgendaSeat> seats;             ///< who is here first
   std::vector<AgendaVote> votes;             ///< open ones first
   std::vector<AgendaProposal> proposals;     ///< those without a decision first
+  std::vector<AgendaProposal> drafts;        ///< of this seat, which can still be changed; nobody else sees them
   std::vector<AgendaComment> comments;       ///< without an answer
 };
 

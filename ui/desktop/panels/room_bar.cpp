@@ -32,6 +32,8 @@ Told standing_of(const Workbench& editor, const guest::RoomGuest& room) {
   }
   if (!standing.has_scene) return {"the scene is coming", c.warning};
   if (standing.waiting > 0) return {std::to_string(standing.waiting) + " wait", c.warning};
+  if (const guest::DraftWork* draft = room.draft())
+    return {"in your draft, " + reading::counted(draft->step_count(), "change"), c.accent};
   return {standing.takes_ticks ? "saved" : "saved; the server's values", c.good};
 }
 
@@ -124,6 +126,11 @@ void draw_room(Workbench& editor) {
   if (!standing.takes_ticks)
     ImGui::TextUnformatted(
         "This program computes other results than the room's server.\nIt shows the server's values, a second old at most.");
+  if (room->draft() != nullptr) {
+    ImGui::TextUnformatted("What you change now is a step of your draft. Nobody else sees it.");
+    if (ImGui::SmallButton("Leave the draft")) room->leave_draft();
+    note_place(editor, "room/draft/leave");
+  }
   draw_people(editor, *room);
   if (ImGui::SmallButton("Show the tab Room")) {
     editor.person.shows_bottom = true;

@@ -202,6 +202,7 @@ constexpr RoomBlock kBlocks[] = {
     {"now", true, true, draw_now},
     {"now", true, false, draw_plan},
     {"now", true, false, draw_leading},
+    {"now", false, true, draw_drafts},
     {"now", false, true, draw_votes},
     {"votes", true, false, draw_votes},
     {"votes", true, false, draw_new_vote},
@@ -209,6 +210,7 @@ constexpr RoomBlock kBlocks[] = {
     {"queue", true, false, draw_comments},
     {"room", true, true, draw_address},
     {"room", true, false, draw_health},
+    {"room", true, false, draw_drafts},
     {"house", true, false, draw_house},
 };
 

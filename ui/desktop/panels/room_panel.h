@@ -37,6 +37,12 @@ void draw_votes(const RoomDesk& desk);
 /// The form of one's own ballot.
 void draw_ballot(const RoomDesk& desk, const AgendaVote& vote);
 
+/// The own drafts: to begin one, to work in it, to propose and to discard it.
+void draw_drafts(const RoomDesk& desk);
+/// What has come of a draft that the server tries: its figures, and its plan beside the one of now; and what others have changed
+/// since.
+void draw_trial(const RoomDesk& desk, const AgendaProposal& draft);
+
 // Of facilitators:
 /// Phase and pace.
 void draw_leading(const RoomDesk& desk);

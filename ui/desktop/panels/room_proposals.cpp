@@ -8,6 +8,7 @@
 #include "core/guest/room_guest.h"
 #include "core/reading/figures.h"
 #include "ui/desktop/panels/inspector_cell.h"
+#include "ui/desktop/panels/plan_picture.h"
 #include "ui/desktop/panels/room_panel.h"
 
 namespace bl::desktop {
@@ -53,6 +54,28 @@ void draw_conflicts(const RoomDesk& desk, const AgendaProposal& proposal) {
   }
 }
 
+// The plan of now is made anew once a second, because a scene of a thousand volumes takes a while.
+void draw_trial_plan(const RoomDesk& desk, const std::string& draft) {
+  constexpr double kBetweenPlans = 1;  // [s]
+  PlanPictures& plans = *memory_of(desk.editor).plans;
+  if (plans.revision != desk.room.views_revision()) plans.with.clear();
+  plans.revision = desk.room.views_revision();
+  if (!plans.with.contains(draft)) plans.with[draft] = plan_in(desk.room.view("draft_plans"), draft + "/");
+  const PlanPicture& with = plans.with[draft];
+  if (with.empty()) return;
+  if (desk.editor.now - plans.made_at >= kBetweenPlans) {
+    plans.now = plan_in(desk.room.plan(), "");
+    plans.made_at = desk.editor.now;
+  }
+  ImGui::BeginGroup();
+  draw_two_plans(desk.editor.theme, plans.now, with);
+  ImGui::EndGroup();
+  note_place(desk.editor, "roompanel/plan_of/" + draft);
+  const std::size_t count = differing_volumes(plans.now, with).size();
+  desk.quiet(count == 0 ? "No volume differs in the plan."
+                        : "Thick outlines: " + reading::counted(count, "volume") + " that differ in the plan.");
+}
+
 // The steps with a tick each; the numbers of those that are taken.
 std::vector<std::int64_t> choose_steps(const RoomDesk& desk, const AgendaProposal& proposal) {
   std::set<std::int64_t>& left_out = memory_of(desk.editor).left_out[proposal.draft];
@@ -81,8 +104,7 @@ void draw_proposal(const RoomDesk& desk, const AgendaProposal& proposal) {
   const std::string key = "roompanel/proposal/" + proposal.draft;
   desk.heading((proposal.title.empty() ? "Proposal" : proposal.title).c_str());
   desk.quiet("By " + desk.seat_name(proposal.seat) + (proposal.why.empty() ? "." : ": " + proposal.why));
-  draw_figures(desk, proposal);
-  draw_conflicts(desk, proposal);
+  draw_trial(desk, proposal);
   const std::vector<std::int64_t> kept = choose_steps(desk, proposal);
   std::string& answer = desk.text(key);
   ImGui::SetNextItemWidth(-1);
@@ -121,6 +143,12 @@ void draw_decided(const RoomDesk& desk, const AgendaProposal& proposal) {
 }
 
 }  // namespace
+
+void draw_trial(const RoomDesk& desk, const AgendaProposal& draft) {
+  draw_figures(desk, draft);
+  draw_trial_plan(desk, draft.draft);
+  draw_conflicts(desk, draft);
+}
 
 void draw_proposals(const RoomDesk& desk) {
   desk.heading("Proposals");

@@ -103,6 +103,7 @@ void SceneView::draw_overlay() {
   draw_card();
   draw_typed();
   draw_sun_strip();
+  draw_draft_banner();
   ImGui::GetWindowDrawList()->PopClipRect();
   if (editor_->is_beamer) draw_title();
   else draw_tools();

@@ -161,6 +161,7 @@ class SceneView {
   void draw_labels();
   void draw_media_notes();
   void draw_others();
+  void draw_draft_banner();
   void draw_pin();
   // scene_view_dots.cpp
   bool is_placing() const;
