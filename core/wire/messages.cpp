@@ -215,6 +215,11 @@ void HealthOut::declare(MessageBuilder<HealthOut>& m) {
   m.field(&HealthOut::memory_free, "memory_free").required().doc("Bytes of memory that programs may still take.");
   m.field(&HealthOut::disk_free, "disk_free").required().doc("Bytes that are free on the disk of the session file.");
   m.field(&HealthOut::reached, "reached").required().doc("{ADDRESS: how many other devices have come by it}.");
+  m.field(&HealthOut::verdicts, "verdicts")
+      .required()
+      .doc(
+          "{FIGURE: `good`, `look` or `bad`}, of `ticks`, `disk`, `power`, `memory`, `space`, `wireless/INTERFACE` and "
+          "`reached/ADDRESS`.");
 }
 void Pong::declare(MessageBuilder<Pong>& m) {
   m.id("pong").doc("The connection lives.");

@@ -142,7 +142,7 @@ struct HealthOut {
   std::int64_t journal = -1, snapshot_age = -1, followers = 0;
   double battery = -1;
   Mains mains = Mains::unknown;
-  JsonValue wireless = {}, reached = {};
+  JsonValue wireless = {}, reached = {}, verdicts = {};
   std::int64_t memory_free = -1, disk_free = -1;
   static void declare(MessageBuilder<HealthOut>& m);
 };
@@ -155,5 +155,7 @@ struct Pong {
 std::vector<const MessageDefinition*> message_kinds();
 /// JSON Schema (2020-12) of all messages: `#/$defs/from_page/NAME` and `#/$defs/from_server/NAME`.
 Json message_schema();
+/// The same as TypeScript: the interfaces `FromPage` and `FromServer`, with a type for each kind of message.
+std::string message_types();
 
 }  // namespace bl::wire

@@ -388,7 +388,7 @@ export class Connection {
       this.retries.set(id, tries);
       if (tries <= kRetries) return this.hold(hold_off(tries, this.world.chance()), id);
     }
-    this.answer(id, { kind: "refused", why, place: nack.place, text: nack.text, args: nack.args ?? {} });
+    this.answer(id, { kind: "refused", why, place: nack.place ?? "", text: nack.text ?? "", args: nack.args ?? {} });
   }
 
   private answer(id: number, answer: Answer): void {
