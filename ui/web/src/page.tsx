@@ -197,13 +197,16 @@ function start(): void {
   const root = document.getElementById("page");
   if (!root) return;
   const address = read_address();
-  // Words of another language may still be on their way: the connection does not wait for them.
+  // Words of another language may still be on their way: the connection does not wait for them. The first screen is a task of its own,
+  // so that a slow phone stays awake to touches, and to messages, between the two.
   const show = (screen: () => JSX.Element): void =>
-    void speak(wanted_language(address.language)).then(() => {
-      document.documentElement.lang = locale();
-      root.textContent = "";
-      render(screen(), root);
-    });
+    void speak(wanted_language(address.language)).then(() =>
+      window.setTimeout(() => {
+        document.documentElement.lang = locale();
+        root.textContent = "";
+        render(screen(), root);
+      }),
+    );
   if (address.code === "")
     return show(() => <CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />);
   if (address.wifi) keep_wifi(address.code, address.wifi);

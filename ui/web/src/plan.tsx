@@ -205,8 +205,9 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
       const rect = box.current?.getBoundingClientRect();
       if (rect && rect.width > 0 && rect.height > 0) setSize([rect.width, rect.height]);
     };
-    measure();
+    // It tells the first size after the browser has laid the page out, and before it is painted. Asking here would lay it out at once.
     if (typeof ResizeObserver === "undefined") {
+      measure();
       window.addEventListener("resize", measure);
       return () => window.removeEventListener("resize", measure);
     }

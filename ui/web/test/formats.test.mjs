@@ -27,6 +27,7 @@ import {
   wifi_of_address,
   wifi_text,
   wifi_to_address,
+  written,
 } from "../../../build/web_test/modules.mjs";
 import { seeded } from "./fakes.mjs";
 
@@ -47,6 +48,21 @@ test("a number that is written can be typed back, in each language", () => {
       const value = Math.round((chance() - 0.5) * 10 ** (1 + Math.floor(chance() * 6)) * 100) / 100;
       assert.equal(typed_number(number(value, 0.01)), value, `${language}: ${number(value, 0.01)}`);
     }
+  });
+});
+
+test("numbers and plural forms are those of the rules of each language", () => {
+  each_language((language) => {
+    for (let value = -1200; value <= 1200; ++value)
+      assert.equal(written(value), new Intl.NumberFormat(language).format(value === 0 ? 0 : value), `${language}: ${value}`);
+    for (const value of [0.5, 1234.5678, 1e6])
+      for (const digits of [0, 2])
+        assert.equal(written(value, "decimal", digits), new Intl.NumberFormat(language, { maximumFractionDigits: digits }).format(value));
+    // One form for 1 and one for the rest is all that the page knows: a language that has more needs more of it.
+    const rules = new Intl.PluralRules(language);
+    for (let n = 0; n <= 1200; ++n) assert.ok(n === 1 ? ["one", "other"].includes(rules.select(n)) : rules.select(n) === "other", `${language}: ${n}`);
+    if (rules.select(1) === "other")
+      for (const [key, text] of Object.entries(kTables[language])) assert.ok(typeof text === "string" || text.one === text.other, `${language}: ${key}`);
   });
 });
 
