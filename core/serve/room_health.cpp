@@ -76,6 +76,8 @@ wire::HealthOut RoomHost::health_message() const {
   health.disk_ms = latency.median * 1000;
   health.disk_slow_ms = latency.p95 * 1000;
   std::error_code error;
+  const auto file = std::filesystem::absolute(journal_path_, error);
+  health.file = error ? journal_path_ : file.string();
   std::int64_t bytes = 0;
   for (const char* part : {"", "-wal"})
     if (const auto size = std::filesystem::file_size(journal_path_ + part, error); !error)

@@ -200,6 +200,7 @@ void HealthOut::declare(MessageBuilder<HealthOut>& m) {
       .required()
       .doc("Duration of storing: half of the last hundred took no longer, in milliseconds.");
   m.field(&HealthOut::disk_slow_ms, "disk_slow_ms").required().doc("The same of 95 in a hundred.");
+  m.field(&HealthOut::file, "file").doc("The session file, as its computer finds it: minutes are made of it.");
   m.field(&HealthOut::journal, "journal").required().doc("Bytes of the session file.");
   m.field(&HealthOut::snapshot_age, "snapshot_age")
       .required()

@@ -137,7 +137,7 @@ struct HealthOut {
   double tick_ms = 0, rate = 0, wanted = 0;
   bool settled = false;
   double worst = 0;
-  std::string worst_of, failure, problem;
+  std::string worst_of, failure, problem, file;
   double disk_ms = 0, disk_slow_ms = 0;
   std::int64_t journal = -1, snapshot_age = -1, followers = 0;
   double battery = -1;

@@ -317,6 +317,7 @@ TEST_F(RoomHosts, OnlyFacilitatorsHearHowTheRoomIs) {
   ASSERT_TRUE(read) << read.error().text();
   EXPECT_GT(read->wanted, 0);
   EXPECT_GT(read->journal, 0);
+  EXPECT_EQ(read->file, path_.string());
   EXPECT_EQ(read->battery, -1) << "nobody has said anything of this computer";
   EXPECT_EQ(health["verdicts"], (Json{{"ticks", "good"}, {"disk", health["disk_slow_ms"] > 50 ? "look" : "good"}}))
       << "what nobody knows has no verdict";

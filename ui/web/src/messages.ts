@@ -297,6 +297,8 @@ export interface FromServer {
     disk_ms: number;
     /** The same of 95 in a hundred. */
     disk_slow_ms: number;
+    /** The session file, as its computer finds it: minutes are made of it. */
+    file?: string;
     /** Bytes of the session file. */
     journal: number;
     /** Seconds since the last snapshot was stored, since the room was opened. */

@@ -4,6 +4,7 @@ export * from "./connection";
 export * from "./format";
 export * from "./handover";
 export * from "./health";
+export * from "./minutes";
 export * from "./outline";
 export * from "./places";
 export * from "./presence";

@@ -135,7 +135,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
         <Refusals s={s} />
         {s.views.room.closed ? (
           <p class="notice" role="status">
-            <b>{t("closed_title")}.</b> {t(you?.role === "facilitator" ? "closed_minutes" : "closed")}
+            <b>{t("closed_title")}.</b> {you?.role === "facilitator" ? t("closed_minutes", { tab: t("tab_lead") }) : t("closed")}
           </p>
         ) : null}
         {screen_of(s, ui, isWide)}

@@ -9,7 +9,7 @@ export const kLongestWait = 5000;
 // Most outages last seconds: so long a page asks very often.
 const kSoon = 5000;
 const kAskSoon = 250;
-const kAskLater = 550;
+const kAskLater = 400;
 
 const grown = (from: number, n: number): number => from * Math.pow(kGrowth, n);
 const jittered = (delay: number, chance: number): number => Math.min(kLongestWait, delay) * (1 + kJitter * (2 * chance - 1));

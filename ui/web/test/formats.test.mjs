@@ -1,5 +1,6 @@
 // Numbers, sentences and outlines.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
 import test from "node:test";
 import {
@@ -14,6 +15,7 @@ import {
   in_steps,
   kLanguages,
   ko,
+  minutes_of,
   nl,
   number,
   points_of,
@@ -216,6 +218,16 @@ function read_wifi(text) {
   for (const [, name, value] of text.slice(5).matchAll(/([A-Z]):((?:\\.|[^;\\])*);/g)) fields[name] = value.replace(/\\(.)/g, "$1");
   return fields;
 }
+
+test("the command of the minutes takes any name of a file as one word", () => {
+  const plain = minutes_of("/home/a/scene.blsession");
+  assert.equal(plain.command, "./bl minutes /home/a/scene.blsession --out /home/a/scene-minutes");
+  assert.equal(plain.page, "/home/a/scene-minutes/minutes.html");
+  for (const file of ["/home/An na/it's; $(rm) `x`.blsession", "/tmp/\"q\"&é.blsession", "/tmp/plain.db"]) {
+    const words = execFileSync("sh", ["-c", minutes_of(file).command.replace("./bl", "printf '%s\\n'")], { encoding: "utf8" }).split("\n");
+    assert.deepEqual(words, ["minutes", file, "--out", minutes_of(file).page.replace("/minutes.html", ""), ""]);
+  }
+});
 
 test("phones read the Wi-Fi as it was typed, and so does the beamer", () => {
   const chance = seeded(5),

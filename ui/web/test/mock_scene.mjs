@@ -103,6 +103,7 @@ export const health = () => ({
   worst_of: "hotel",
   disk_ms: 4.1,
   disk_slow_ms: 8.3,
+  file: "/home/anna/Sessions of spring/quarter.blsession",
   journal: 2400000,
   snapshot_age: 45,
   followers: 1,

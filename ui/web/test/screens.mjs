@@ -239,6 +239,13 @@ async function walk_facilitator(server, size, scheme) {
   await look(page, `lead_code_${at}`);
   await page.click('button:has-text("Close")');
   room.open_votes();
+  await page.click('button:has-text("End the session")');
+  await page.click(".sure .danger");
+  await page.waitForSelector('h2:has-text("Minutes")');
+  const command = await page.inputValue('label:has-text("Command for the minutes") input');
+  assert.equal(command, "./bl minutes '/home/anna/Sessions of spring/quarter.blsession' --out '/home/anna/Sessions of spring/quarter-minutes'");
+  await look(page, `lead_minutes_${at}`);
+  room.room.closed = false;
   await page.context().close();
 }
 

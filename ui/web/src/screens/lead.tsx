@@ -12,6 +12,7 @@ import { findings_of } from "../health";
 import { Answer, Decide } from "./deciding";
 import { HealthPart } from "./health";
 import { JoinPart, KeysPart, join_address } from "./invitations";
+import { MinutesPart } from "./minutes";
 import { People } from "./people";
 import { ResultOf, Turnout } from "./votes";
 
@@ -35,6 +36,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
   // Until something is typed, the form shows what holds now.
   const plan = typed ?? { name: "", activities: phase?.activities ?? [], minutes: "10" };
   const allowed = kActivities.filter((one) => phase?.activities.includes(one)).map((one) => t(`lead_${one}` as Key));
+  if (phase && phase.forms.length > 0) allowed.push(t("form_title"));
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
     { key: "lead_look", activities: [] },
@@ -285,8 +287,13 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     s,
     proposals.map(([id]) => id),
   );
-  // The page says above what to do after the end.
-  if (s.views.room.closed) return <Title>{t("tab_lead")}</Title>;
+  if (s.views.room.closed)
+    return (
+      <>
+        <Title>{t("tab_lead")}</Title>
+        <MinutesPart s={s} />
+      </>
+    );
   const join = <JoinPart key="join" s={s} ui={ui} />;
   const now = (
     <>
