@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/drawing/markup.h"
+#include "core/reading/figures.h"
 
 namespace bl::serve {
 
@@ -60,6 +61,9 @@ std::string plan_of(RoomHost& room) {
   return svg + "</svg>";
 }
 
+// In the words of the page with scripts.
+std::string status_of(const std::string& status) { return status == "met" ? "Met" : status == "close" ? "Nearly" : "Not yet"; }
+
 std::string figures_of(RoomHost& room) {
   const auto figures = content_of(room.view("figures", 0));
   if (figures.empty()) return "";
@@ -68,7 +72,7 @@ std::string figures_of(RoomHost& room) {
     const std::string unit = text_in(one, "unit");
     table += "<tr><td>" + escape_xml(text_in(one, "name")) + "</td><td>" +
              escape_xml(rough(one["value"].get<double>()) + " " + unit) + "</td><td>" +
-             escape_xml(rough(one["target"].get<double>()) + " " + unit) + "</td><td>" + escape_xml(text_in(one, "status")) +
+             escape_xml(rough(one["target"].get<double>()) + " " + unit) + "</td><td>" + status_of(text_in(one, "status")) +
              "</td></tr>";
   }
   return table + "</table>";
@@ -210,6 +214,41 @@ std::string ballot_fields(RoomHost& room, const Json& vote) {
   return inside;
 }
 
+// Numbers have no shares: their mean and their median say what people want.
+std::string result_of(const Json& vote) {
+  if (text_in(vote, "kind") == "slider") {
+    if (!vote["mean"].is_number() || !vote["median"].is_number() || vote["count"] == 0) return "";
+    const auto row = [&vote](const char* label, const char* key) {
+      return std::string("<tr><td>") + label + "</td><td>" +
+             escape_xml(rough(vote[key].get<double>()) + " " + text_in(vote, "unit")) + "</td></tr>";
+    };
+    return "<table>" + row("Mean", "mean") + row("Median", "median") + "</table>";
+  }
+  if (!vote["result"].is_array()) return "";
+  std::string table = "<table><tr><th>Answer</th><th>Points</th><th>Share</th></tr>";
+  for (const Json& row : vote["result"])
+    table += "<tr><td>" + escape_xml(text_in(row, "label").empty() ? text_in(row, "option") : text_in(row, "label")) +
+             "</td><td>" + rough(row["points"].get<double>()) + "</td><td>" + fixed(100 * row["share"].get<double>(), 0) +
+             " %</td></tr>";
+  return table + "</table>";
+}
+
+std::string vote_of(RoomHost& room, const std::string& id, const Json& vote, const std::string& token) {
+  std::string page = "<section><h2>" + escape_xml(text_in(vote, "question")) + "</h2>";
+  const std::string kind = text_in(vote, "kind");
+  if (vote["open"] == true) {
+    const char* how = kind == "rank" ? "<p>Give 1 to the best, 2 to the next, and so on.</p>" : "";
+    const std::string coins = kind == "coins" ? "<p>You have " + shortest(vote["points"].get<double>()) + " coins.</p>" : "";
+    page += how + coins +
+            form_of(room, "vote", token,
+                    "<input type=\"hidden\" name=\"vote\" value=\"" + escape_xml(id) + "\">" + ballot_fields(room, vote), "Vote");
+  } else page += "<p>This vote is closed.</p>";
+  const auto count = vote["count"].get<std::size_t>();
+  return page + result_of(vote) + "<p>" + reading::counted(count, "ballot") + (count == 1 ? " is" : " are") +
+         " counted.</p></section>";
+}
+
+// What can be done comes before what is over.
 std::string votes_of(RoomHost& room, std::int64_t seat, const std::string& token, const PlainWish* taken) {
   std::string page;
   auto votes = content_of(room.view("votes", seat));
@@ -217,27 +256,9 @@ std::string votes_of(RoomHost& room, std::int64_t seat, const std::string& token
     const Json& said = (**taken->content.read()).at("arguments");
     if (const auto vote = votes.find(text_in(said, "node")); vote != votes.end()) vote->second["mine"] = said.at("ballot");
   }
-  for (const auto& [id, vote] : votes) {
-    page += "<section><h2>" + escape_xml(text_in(vote, "question")) + "</h2>";
-    const std::string kind = text_in(vote, "kind");
-    if (vote["open"] == true) {
-      const char* how = kind == "rank" ? "<p>Give 1 to the best, 2 to the next, and so on.</p>" : "";
-      const std::string coins = kind == "coins" ? "<p>You have " + shortest(vote["points"].get<double>()) + " coins.</p>" : "";
-      page +=
-          how + coins +
-          form_of(room, "vote", token,
-                  "<input type=\"hidden\" name=\"vote\" value=\"" + escape_xml(id) + "\">" + ballot_fields(room, vote), "Vote");
-    } else page += "<p>This vote is closed.</p>";
-    if (vote["result"].is_array()) {
-      page += "<table><tr><th>Answer</th><th>Points</th><th>Share</th></tr>";
-      for (const Json& row : vote["result"])
-        page += "<tr><td>" + escape_xml(text_in(row, "label").empty() ? text_in(row, "option") : text_in(row, "label")) +
-                "</td><td>" + rough(row["points"].get<double>()) + "</td><td>" + fixed(100 * row["share"].get<double>(), 0) +
-                " %</td></tr>";
-      page += "</table>";
-    }
-    page += "<p>" + shortest(vote["count"].get<double>()) + " ballots are counted.</p></section>";
-  }
+  for (const bool is_open : {true, false})
+    for (const auto& [id, vote] : votes)
+      if ((vote["open"] == true) == is_open) page += vote_of(room, id, vote, token);
   return page;
 }
 
@@ -268,6 +289,7 @@ std::string plain_style() {
          "0}.choice{padding:.6rem 0;min-height:1.6rem}"
          "input:not([type=radio]),select,textarea{display:block;width:100%;box-sizing:border-box;font:inherit;padding:.6rem;"
          "border:1px solid #6b675e;border-radius:.4rem;background:#fff;color:inherit}"
+         "fieldset{margin:1rem 0;border:1px solid #6b675e;border-radius:.4rem}"
          "input[type=radio]{width:1.5rem;height:1.5rem;vertical-align:middle}button{font:inherit;min-height:3rem;padding:.6rem "
          "1.4rem;border:0;border-radius:.5rem;background:#1b4f72;color:#fff}"
          ":focus-visible{outline:3px solid "

@@ -23,6 +23,8 @@ constexpr std::int64_t kLowMemory = 1 << 30, kBadMemory = 256 << 20;
 constexpr double kLowBattery = 0.3;
 // A tick that takes more than this share of the time between two leaves too little for what people say meanwhile.
 constexpr double kBusy = 0.5, kTooBusy = 0.95;
+// In a room that runs, ticks come late from the first share on. From the second one on, half of them are missing.
+constexpr double kBehind = 0.8, kFarBehind = 2;
 constexpr double kWeakWireless = 0.4;
 // What comes within a quarter of a second feels as if it followed at once; whoever waits for two seconds presses again. [s]
 constexpr double kSlowToFeel = 0.25, kTooSlowToFeel = 2;
@@ -120,6 +122,22 @@ Finding judge_ticks(const Durations& times, double rate) {
   if (times.median > kBusy * most || times.worst > kTooBusy * most)
     return {Verdict::look, "ticks", figure + " This is close. Close other programs, or set fewer ticks a second in the room."};
   return {Verdict::good, "ticks", figure};
+}
+
+Finding judge_pace(double tick_seconds, double rate, bool is_paused) {
+  const double share = is_paused ? 0 : tick_seconds * rate;
+  const Verdict verdict = share > kFarBehind ? Verdict::bad : share > kBehind ? Verdict::look : Verdict::good;
+  const std::string wanted = is_paused ? "The model is paused." : shortest(rate) + " ticks a second are wanted.";
+  return {verdict, "ticks",
+          "A tick takes " + reading::duration(tick_seconds) + " on the server. " + wanted +
+              (verdict != Verdict::good ? " The model is slower than it should be: close other programs there." : "")};
+}
+
+Finding judge_storing(double median, double slow) {
+  const Verdict verdict = median > kBadCommit ? Verdict::bad : slow > kBadCommit ? Verdict::look : Verdict::good;
+  return {verdict, "disk",
+          "Storing takes " + reading::duration(median) + ", seldom more than " + reading::duration(slow) + "." +
+              (verdict != Verdict::good ? " People feel such a delay: close what else writes to this disk." : "")};
 }
 
 Finding judge_wireless(const std::string& interface, double quality) {

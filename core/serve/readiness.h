@@ -36,6 +36,10 @@ Finding judge_memory(std::optional<std::int64_t> bytes);
 Finding judge_clock(std::optional<bool> is_set);
 /// `rate`: the ticks in a second that a room wants.
 Finding judge_ticks(const Durations& times, double rate);
+/// Of a room that runs: how long a tick takes there [s], and how many a second it wants.
+Finding judge_pace(double tick_seconds, double rate, bool is_paused);
+/// Of a room that runs: how long storing takes mostly, and in the slow cases [s].
+Finding judge_storing(double median, double slow);
 /// `quality`: 0 to 1.
 Finding judge_wireless(const std::string& interface, double quality);
 /// How many other devices have come by an address of an open room.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/reading/survey.h"
+#include "core/serve/readiness.h"
 #include "core/serve/room_address.h"
 #include "core/serve/room_frames.h"
 #include "core/serve/room_host.h"
@@ -14,6 +15,21 @@ namespace bl::serve {
 namespace {
 
 constexpr double kBetweenHealth = 2;  // [s]
+
+// One verdict for each figure that has one. What the computer does not say has none.
+Json verdicts_of(const Surroundings& around, const std::map<std::string, std::size_t>& reached) {
+  const Machine& machine = around.machine;
+  Json verdicts = Json::object();
+  const auto note = [&verdicts](const std::string& figure, const Finding& finding) {
+    verdicts[figure] = word_of(finding.verdict);
+  };
+  if (machine.battery || machine.is_on_mains) note("power", judge_power(machine));
+  if (machine.memory_free) note("memory", judge_memory(machine.memory_free));
+  if (machine.disk_free) note("space", judge_free_disk(machine.disk_free));
+  for (const auto& [interface, quality] : machine.wireless) note("wireless/" + interface, judge_wireless(interface, quality));
+  for (const auto& [url, count] : reached) note("reached/" + url, judge_reach(url, count));
+  return verdicts;
+}
 
 }  // namespace
 
@@ -60,6 +76,8 @@ wire::HealthOut RoomHost::health_message() const {
   health.disk_ms = latency.median * 1000;
   health.disk_slow_ms = latency.p95 * 1000;
   std::error_code error;
+  const auto file = std::filesystem::absolute(journal_path_, error);
+  health.file = error ? journal_path_ : file.string();
   std::int64_t bytes = 0;
   for (const char* part : {"", "-wal"})
     if (const auto size = std::filesystem::file_size(journal_path_ + part, error); !error)
@@ -75,7 +93,12 @@ wire::HealthOut RoomHost::health_message() const {
   health.wireless = JsonValue::of(Json(machine.wireless));
   health.memory_free = machine.memory_free.value_or(-1);
   health.disk_free = machine.disk_free.value_or(-1);
-  health.reached = JsonValue::of(Json(reached_addresses(around)));
+  const auto reached = reached_addresses(around);
+  health.reached = JsonValue::of(Json(reached));
+  Json verdicts = verdicts_of(around, reached);
+  verdicts["ticks"] = word_of(judge_pace(moment->tick_seconds, health.wanted, room_->state().is_paused).verdict);
+  verdicts["disk"] = word_of(judge_storing(latency.median, latency.p95).verdict);
+  health.verdicts = JsonValue::of(verdicts);
   return health;
 }
 

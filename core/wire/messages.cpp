@@ -200,6 +200,7 @@ void HealthOut::declare(MessageBuilder<HealthOut>& m) {
       .required()
       .doc("Duration of storing: half of the last hundred took no longer, in milliseconds.");
   m.field(&HealthOut::disk_slow_ms, "disk_slow_ms").required().doc("The same of 95 in a hundred.");
+  m.field(&HealthOut::file, "file").doc("The session file, as its computer finds it: minutes are made of it.");
   m.field(&HealthOut::journal, "journal").required().doc("Bytes of the session file.");
   m.field(&HealthOut::snapshot_age, "snapshot_age")
       .required()
@@ -215,6 +216,11 @@ void HealthOut::declare(MessageBuilder<HealthOut>& m) {
   m.field(&HealthOut::memory_free, "memory_free").required().doc("Bytes of memory that programs may still take.");
   m.field(&HealthOut::disk_free, "disk_free").required().doc("Bytes that are free on the disk of the session file.");
   m.field(&HealthOut::reached, "reached").required().doc("{ADDRESS: how many other devices have come by it}.");
+  m.field(&HealthOut::verdicts, "verdicts")
+      .required()
+      .doc(
+          "{FIGURE: `good`, `look` or `bad`}, of `ticks`, `disk`, `power`, `memory`, `space`, `wireless/INTERFACE` and "
+          "`reached/ADDRESS`.");
 }
 void Pong::declare(MessageBuilder<Pong>& m) {
   m.id("pong").doc("The connection lives.");

@@ -137,12 +137,12 @@ struct HealthOut {
   double tick_ms = 0, rate = 0, wanted = 0;
   bool settled = false;
   double worst = 0;
-  std::string worst_of, failure, problem;
+  std::string worst_of, failure, problem, file;
   double disk_ms = 0, disk_slow_ms = 0;
   std::int64_t journal = -1, snapshot_age = -1, followers = 0;
   double battery = -1;
   Mains mains = Mains::unknown;
-  JsonValue wireless = {}, reached = {};
+  JsonValue wireless = {}, reached = {}, verdicts = {};
   std::int64_t memory_free = -1, disk_free = -1;
   static void declare(MessageBuilder<HealthOut>& m);
 };
@@ -155,5 +155,7 @@ struct Pong {
 std::vector<const MessageDefinition*> message_kinds();
 /// JSON Schema (2020-12) of all messages: `#/$defs/from_page/NAME` and `#/$defs/from_server/NAME`.
 Json message_schema();
+/// The same as TypeScript: the interfaces `FromPage` and `FromServer`, with a type for each kind of message.
+std::string message_types();
 
 }  // namespace bl::wire

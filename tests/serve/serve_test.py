@@ -396,6 +396,24 @@ class WithoutScripts(RoomCase):
         self.assertIn('value="17.5"', voted)
         self.assertNotIn('value="99"', self.post(f"/plain/{self.server.code}/vote", token=token, vote="height", value="99"))
 
+        async def close():
+            lead = await self.page("facilitator", views=["votes"]).connect()
+            self.assertEqual((await lead.event("set_pace", rate=10, is_paused=False))["t"], "ack")
+            self.assertEqual((await lead.event("close_vote", vote="height"))["t"], "ack")
+            await lead.until(lambda: lead.view.get("votes", {}).get("height", {}).get("mean") is not None)
+            vote = lead.view["votes"]["height"]
+            await lead.close()
+            return vote
+        vote = wait(close())
+        after = self.post(f"/plain/{self.server.code}", token=token)
+        section = next(part for part in after.split("<section>") if vote["question"] in part)
+        ballots = "1\u00a0ballot is counted." if vote["count"] == 1 else f"{vote['count']}\u00a0ballots are counted."
+        self.assertIn(ballots, section)
+        for label, key in (("Mean", "mean"), ("Median", "median")):
+            said = re.search(label + r"</td><td>([-0-9.]+) " + vote["unit"] + "</td>", section)
+            self.assertAlmostEqual(float(said[1]), vote[key], delta=0.5)
+        self.assertNotIn("Share", section, "a number has no share")
+
 
 class BuiltPage(unittest.TestCase):
     def test_only_what_stands_in_the_built_page_may_run_in_it(self):

@@ -124,7 +124,7 @@ int docs_command(const DocsOptions& options);
 
 struct SchemaOptions {
   std::string out;
-  bool is_of_messages = false;
+  bool is_of_messages = false, is_types = false;
 };
 int schema_command(const SchemaOptions& options);
 

@@ -166,6 +166,8 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files, or of the messages of rooms.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
   s.add_flag("--messages", schema.is_of_messages, "The schema of the messages between a room and its pages instead.");
+  s.add_flag("--typescript", schema.is_types, "The messages as types of TypeScript, as the page has them.")
+      ->needs(s.get_option("--messages"));
   files_of(s).writes("--out", FileKind::figures);
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }

@@ -1,4 +1,4 @@
-// `schema`: the JSON Schema of scene files, or of the messages of rooms.
+// `schema`: the JSON Schema of scene files or of the messages of rooms, and these as types of TypeScript.
 #include <nlohmann/json.hpp>
 
 #include "core/define/schema.h"
@@ -11,8 +11,9 @@
 namespace bl::cli {
 
 int schema_command(const SchemaOptions& options) {
-  const std::string text =
-      write_json(options.is_of_messages ? wire::message_schema() : scene_schema(full_registry(), settings_type(), kSceneVersion));
+  const std::string text = options.is_types         ? wire::message_types()
+                           : options.is_of_messages ? write_json(wire::message_schema())
+                                                    : write_json(scene_schema(full_registry(), settings_type(), kSceneVersion));
   if (options.out.empty()) {
     print_page(text);
     return kDone;

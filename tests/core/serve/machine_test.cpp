@@ -145,6 +145,11 @@ TEST(Verdicts, OnlyGetWorseWithWhatHarms) {
   expect_monotone(rising, [](double s) { return judge_ticks({s, 2 * s, 50}, 10); });
   expect_monotone(rising, [](double s) { return judge_free_disk(static_cast<std::int64_t>(1e9 / s)); });
   expect_monotone(rising, [](double s) { return judge_memory(static_cast<std::int64_t>(1e9 / s)); });
+  expect_monotone(rising, [](double s) { return judge_pace(s, 10, false); });
+  expect_monotone(rising, [](double s) { return judge_storing(s, 2 * s); });
+  EXPECT_EQ(judge_pace(0.09, 10, false).verdict, Verdict::look) << "ticks come late";
+  EXPECT_EQ(judge_pace(9, 10, true).verdict, Verdict::good) << "a model that stands still is not late";
+  EXPECT_EQ(judge_storing(0.004, 0.06).verdict, Verdict::look) << "a disk that is slow at times";
   EXPECT_EQ(judge_commits({0.004, 0.01, 50}).verdict, Verdict::good) << "a usual disk";
   EXPECT_EQ(judge_ticks({0.005, 0.01, 50}, 10).verdict, Verdict::good);
   EXPECT_EQ(judge_ticks({0.005, 0.2, 50}, 10).verdict, Verdict::look) << "a single slow tick";

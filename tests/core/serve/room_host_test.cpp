@@ -57,6 +57,7 @@ class RoomHosts : public ::testing::Test {
     RoomHostOptions options;
     options.wall_time = [this] { return at_ += 10; };
     options.addresses = addresses_;
+    options.surroundings = surroundings_;
     options.keys_renewed = [this](const RoomHost&) { ++renewals_; };
     options.on_own_thread = [this](std::function<void()> task) {
       const std::lock_guard lock(mutex_);
@@ -122,6 +123,7 @@ class RoomHosts : public ::testing::Test {
   std::filesystem::path folder_, path_;
   std::unique_ptr<RoomHost> host_;
   std::vector<std::string> addresses_;
+  std::function<Surroundings()> surroundings_;
   int renewals_ = 0;  // that the host has told of
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -315,8 +317,36 @@ TEST_F(RoomHosts, OnlyFacilitatorsHearHowTheRoomIs) {
   ASSERT_TRUE(read) << read.error().text();
   EXPECT_GT(read->wanted, 0);
   EXPECT_GT(read->journal, 0);
+  EXPECT_EQ(read->file, path_.string());
   EXPECT_EQ(read->battery, -1) << "nobody has said anything of this computer";
+  EXPECT_EQ(health["verdicts"], (Json{{"ticks", "good"}, {"disk", health["disk_slow_ms"] > 50 ? "look" : "good"}}))
+      << "what nobody knows has no verdict";
   EXPECT_EQ(other->last("health"), nullptr);
+}
+
+TEST_F(RoomHosts, HealthJudgesWhatTheComputerSays) {
+  host_.reset();
+  addresses_ = {"http://192.168.1.5:8080", "http://10.0.0.2:8080"};
+  surroundings_ = [] {
+    Surroundings around;
+    around.machine.battery = 0.1;
+    around.machine.is_on_mains = false;
+    around.machine.disk_free = 1 << 20;
+    around.reached["10.0.0.2"] = 3;
+    around.machine.wireless["wlan0"] = 0.2;
+    return around;
+  };
+  open();
+  const auto lead = join("lead", "facilitator", {"room"});
+  run_until([&] { return lead->last("health") != nullptr; });
+  Json verdicts = (*lead->last("health"))["verdicts"];
+  EXPECT_TRUE(verdicts.contains("ticks") && verdicts.contains("disk"));
+  verdicts.erase("ticks"), verdicts.erase("disk");
+  EXPECT_EQ(verdicts, (Json{{"power", "bad"},
+                            {"space", "bad"},
+                            {"wireless/wlan0", "look"},
+                            {"reached/http://10.0.0.2:8080", "good"},
+                            {"reached/http://192.168.1.5:8080", "look"}}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/file/file_io.h"
 #include "core/room/refusals.h"
 #include "core/wire/operations.h"
 
@@ -58,6 +59,22 @@ TEST(Messages, TheSchemaHasEveryMessageAndField) {
       EXPECT_FALSE(port.doc.empty()) << kind->id << " " << port.id;
     }
   }
+}
+
+TEST(Messages, ThePageHasTheTypesOfEveryMessage) {
+  const std::string types = message_types();
+  for (const MessageDefinition* kind : message_kinds()) {
+    EXPECT_NE(types.find("    t: \"" + kind->id + "\";\n"), std::string::npos) << kind->id;
+    for (const PortDefinition& port : kind->ports)
+      EXPECT_NE(types.find("    " + port.id + (port.is_required ? ": " : "?: ")), std::string::npos)
+          << kind->id << " " << port.id;
+  }
+  EXPECT_NE(types.find("    mains?: \"unknown\" | \"yes\" | \"no\";\n"), std::string::npos);
+  EXPECT_NE(types.find("    views?: string[];\n"), std::string::npos);
+  EXPECT_NE(types.find("    verdicts: unknown;\n"), std::string::npos);
+  const auto kept = read_file(BL_SOURCE_DIR "/ui/web/src/messages.ts");
+  ASSERT_TRUE(kept) << kept.error().text();
+  EXPECT_EQ(types + "\n", *kept) << "make it anew: behaviourlinks schema --messages --typescript >ui/web/src/messages.ts";
 }
 
 }  // namespace

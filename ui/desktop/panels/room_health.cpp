@@ -28,16 +28,8 @@ void draw_finding(const RoomDesk& desk, const serve::Finding& finding) {
   ImGui::PopStyleColor();
 }
 
-std::string health_time(double value) { return reading::duration(value / 1000); }
-
 void add_ticks(const RoomDesk& desk, const wire::HealthOut& health, Findings& findings) {
-  constexpr double kBehind = 0.8;
-  const bool is_paused = desk.room.people().is_paused;
-  const bool is_slow = !is_paused && health.tick_ms * health.wanted > 1000 * kBehind;
-  const std::string rate = is_paused ? "The model is paused." : shortest(health.wanted) + " ticks a second are wanted.";
-  findings.push_back({is_slow ? serve::Verdict::look : serve::Verdict::good, "ticks",
-                      "A tick takes " + health_time(health.tick_ms) + " on the server. " + rate +
-                          (is_slow ? " The model is slower than it should be." : "")});
+  findings.push_back(serve::judge_pace(health.tick_ms / 1000, health.wanted, desk.room.people().is_paused));
   if (!health.failure.empty()) findings.push_back({serve::Verdict::bad, "ticks", "The ticks have stopped: " + health.failure});
   const std::string worst = health.worst_of.empty() ? ""
                                                     : " The largest error is " + reading::percent(health.worst) + ", of " +
@@ -46,11 +38,8 @@ void add_ticks(const RoomDesk& desk, const wire::HealthOut& health, Findings& fi
 }
 
 void add_storing(const wire::HealthOut& health, Findings& findings) {
-  constexpr double kSlow = 50;  // [ms]
   if (!health.problem.empty()) findings.push_back({serve::Verdict::bad, "disk", "Nothing can be stored: " + health.problem});
-  findings.push_back(
-      {health.disk_slow_ms > kSlow ? serve::Verdict::look : serve::Verdict::good, "disk",
-       "Storing takes " + health_time(health.disk_ms) + ", seldom more than " + health_time(health.disk_slow_ms) + "."});
+  findings.push_back(serve::judge_storing(health.disk_ms / 1000, health.disk_slow_ms / 1000));
   findings.push_back({serve::Verdict::good, "disk",
                       "The session file has " + reading::readable(static_cast<double>(health.journal) / 1e6) + " MB. " +
                           (health.snapshot_age < 0

@@ -121,12 +121,35 @@ function open(address: string): Link {
   return link;
 }
 
+// An answer that takes longer is not waited for: what was sent while the network was away is sent again too late [ms].
+const kAskFor = 2000;
+
+// Where the server answers at all, it is there, whatever it says; a proxy that misses it says so by a number from 500 on.
+function ask(then: (isThere: boolean) => void): () => void {
+  const control = new AbortController(),
+    timer = window.setTimeout(() => control.abort(), kAskFor);
+  let isWanted = true;
+  const answer = (isThere: boolean): void => {
+    window.clearTimeout(timer);
+    if (isWanted) then(isThere);
+  };
+  fetch("/health", { method: "HEAD", cache: "no-store", signal: control.signal }).then(
+    (response) => answer(response.status < 500),
+    () => answer(false),
+  );
+  return () => {
+    isWanted = false;
+    control.abort();
+  };
+}
+
 export function browser_world(address: string): World {
   return {
     now: () => Date.now(),
     set: (milliseconds, then) => window.setTimeout(then, milliseconds),
     clear: (timer) => window.clearTimeout(timer),
     open: () => open(address),
+    ask,
     store,
     chance: () => Math.random(),
     name: () => random_name((bytes) => window.crypto.getRandomValues(bytes)),

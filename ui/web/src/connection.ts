@@ -3,7 +3,7 @@ import { hello_of } from "./hello";
 import { Queue, kLease } from "./queue";
 import type { Item } from "./queue";
 import { PresenceVoice } from "./presence";
-import { Timers, back_off, hold_off, kLongestWait } from "./timers";
+import { Timers, ask_again, back_off, hold_off, kLongestWait } from "./timers";
 import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
 import type { Answer, Link, Listener, Options, Stage, World } from "./world";
 
@@ -12,6 +12,9 @@ const kPing = 5000;
 const kPongWait = 4000;
 const kWakeWait = 1500;
 const kHelloWait = 5000;
+const kSlowOpen = 1500; // a socket that takes longer to open may never do so
+const kMostQuestions = 6; // that have no answer yet; browsers open no more connections at once
+const kUnasked = 20000; // after so long without an answer a socket is tried all the same
 const kLonely = 60000; // after so long, an operation is sent with the value that the person saw
 const kSilence = 8000; // an operation without an answer on a living connection is sent again
 // Below the limits of the server: 30 at once, and 10 in a second.
@@ -45,6 +48,7 @@ export class Connection {
   private gapsDue = 0; // refusals because of it that are still to come on this link
   private isStopped = false;
   private opened = 0; // when the link was asked for
+  private questions = new Set<() => void>(); // whether the server is there; each is ended by calling it
   readonly presence: PresenceVoice;
   private looked: string[] = []; // drafts
   private asked = 0; // how many views the hello of this link has named
@@ -188,7 +192,9 @@ export class Connection {
     this.link = link;
     this.opened = this.world.now();
     link.onopen = () => {
-      if (this.link === link) this.greet();
+      if (this.link !== link) return;
+      this.stopSeeking();
+      this.greet();
     };
     link.onmessage = (text) => {
       if (this.link === link) this.receive(text);
@@ -197,11 +203,42 @@ export class Connection {
       if (this.link === link) this.closed(code, reason);
     };
     this.timers.start("hello", kHelloWait, () => this.lost());
+    // A socket that was asked for while the network was away waits long, although the network is back.
+    this.timers.start("seek", kSlowOpen, () => this.seek());
+  }
+
+  // Browsers delay the sockets of a page of which many have failed, by seconds. They do not delay questions by HTTP, so one is opened
+  // when the server has answered one. Nobody has to pay for that: while nobody answers, a question is a packet.
+  private seek(): void {
+    if (!this.timers.has("retry")) this.timers.start("retry", kUnasked, () => this.tryBlindly());
+    if (this.questions.size < kMostQuestions) {
+      const end = this.world.ask((isThere) => {
+        this.questions.delete(end);
+        if (isThere) this.connect();
+      });
+      this.questions.add(end);
+    }
+    this.timers.start("seek", ask_again(this.world.now() - this.since, this.world.isVisible(), this.world.chance()), () => this.seek());
+  }
+
+  // A way that is too slow for questions, or a proxy that does not pass them on, may still take sockets. Meanwhile it goes on asking.
+  private tryBlindly(): void {
+    this.attempt = 1;
+    this.connect();
+    this.seek();
+  }
+
+  private stopSeeking(): void {
+    this.timers.stop("seek");
+    this.timers.stop("retry");
+    for (const end of this.questions) end();
+    this.questions.clear();
   }
 
   private dropLink(): void {
     const link = this.link;
     this.link = null;
+    this.stopSeeking();
     this.isGreeted = false;
     for (const name of ["hello", "ping", "pong", "pump", "silence", "calm"]) this.timers.stop(name);
     this.presence.gone();
@@ -241,7 +278,8 @@ export class Connection {
     this.dropLink();
     this.setStage(this.stage === "door" ? "door" : "waiting");
     if (delay <= 0) this.connect();
-    else this.timers.start("retry", delay, () => this.connect());
+    // The first attempt is a socket at once: mostly nothing but the old one was lost.
+    else this.timers.start("retry", delay, () => (this.attempt <= 1 ? this.connect() : this.seek()));
   }
 
   private setStage(stage: Stage): void {
@@ -389,7 +427,7 @@ export class Connection {
       this.retries.set(id, tries);
       if (tries <= kRetries) return this.hold(hold_off(tries, this.world.chance()), id);
     }
-    this.answer(id, { kind: "refused", why, place: nack.place, text: nack.text, args: nack.args ?? {} });
+    this.answer(id, { kind: "refused", why, place: nack.place ?? "", text: nack.text ?? "", args: nack.args ?? {} });
   }
 
   private answer(id: number, answer: Answer): void {

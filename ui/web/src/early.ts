@@ -34,14 +34,16 @@ function language(): string {
 }
 
 const early: Early = { socket: null, run: null, heard: [], words: {}, files: WORDS };
+// Two round trips of a handshake cost nothing while the script is on its way. It comes first: a browser takes time to read what it keeps.
+const socket = /^\w+$/.test(room)
+  ? new WebSocket(`${window.location.protocol === "https:" ? "wss:" : "ws:"}//${window.location.host}/ws`, "bl1")
+  : null;
 const lang = language(),
   file = WORDS[lang];
 if (file) early.words[lang] = import(file);
 
-// Two round trips of a handshake cost nothing while the script is on its way. Who has not been here before has no seat and no
-// queue, and is greeted as well.
-if (/^\w+$/.test(room)) {
-  const socket = new WebSocket(`${window.location.protocol === "https:" ? "wss:" : "ws:"}//${window.location.host}/ws`, "bl1");
+// Who has not been here before has no seat and no queue, and is greeted as well.
+if (socket !== null) {
   early.socket = socket;
   const isNew = kept()?.length === 0 && !/[#&][tq]=/.test(hash);
   if (isNew) {

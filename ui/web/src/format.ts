@@ -1,5 +1,5 @@
 // Numbers with units, shares, times and typed numbers, as the language of the page writes them.
-import { locale, t } from "./words";
+import { locale, t, written } from "./words";
 
 /// A number with as many digits as people read at a glance.
 export function number(value: number, step = 0): string {
@@ -7,7 +7,7 @@ export function number(value: number, step = 0): string {
   const size = Math.abs(value);
   let digits = size >= 100 ? 0 : size >= 10 ? 1 : 2;
   if (step > 0) digits = Math.min(6, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
-  return new Intl.NumberFormat(locale(), { maximumFractionDigits: digits }).format(value === 0 ? 0 : value);
+  return written(value === 0 ? 0 : value, "decimal", digits);
 }
 
 /// A unit as people write it: scenes say `m2`.
@@ -22,7 +22,7 @@ export function amount(value: number, unit: string, step = 0): string {
 }
 
 export function share(value: number): string {
-  return new Intl.NumberFormat(locale(), { style: "percent", maximumFractionDigits: 0 }).format(value);
+  return written(value, "percent", 0);
 }
 
 /// A length of time, such as "12 s" or "3 min".

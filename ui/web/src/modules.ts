@@ -3,6 +3,8 @@ export * from "./ballots";
 export * from "./connection";
 export * from "./format";
 export * from "./handover";
+export * from "./health";
+export * from "./minutes";
 export * from "./outline";
 export * from "./places";
 export * from "./presence";

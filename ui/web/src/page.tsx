@@ -135,7 +135,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
         <Refusals s={s} />
         {s.views.room.closed ? (
           <p class="notice" role="status">
-            <b>{t("closed_title")}.</b> {t(you?.role === "facilitator" ? "closed_minutes" : "closed")}
+            <b>{t("closed_title")}.</b> {you?.role === "facilitator" ? t("closed_minutes", { tab: t("tab_lead") }) : t("closed")}
           </p>
         ) : null}
         {screen_of(s, ui, isWide)}
@@ -197,13 +197,16 @@ function start(): void {
   const root = document.getElementById("page");
   if (!root) return;
   const address = read_address();
-  // Words of another language may still be on their way: the connection does not wait for them.
+  // Words of another language may still be on their way: the connection does not wait for them. The first screen is a task of its own,
+  // so that a slow phone stays awake to touches, and to messages, between the two.
   const show = (screen: () => JSX.Element): void =>
-    void speak(wanted_language(address.language)).then(() => {
-      document.documentElement.lang = locale();
-      root.textContent = "";
-      render(screen(), root);
-    });
+    void speak(wanted_language(address.language)).then(() =>
+      window.setTimeout(() => {
+        document.documentElement.lang = locale();
+        root.textContent = "";
+        render(screen(), root);
+      }),
+    );
   if (address.code === "")
     return show(() => <CodeScreen onCode={(code) => window.location.assign(`/${encodeURIComponent(code)}`)} />);
   if (address.wifi) keep_wifi(address.code, address.wifi);

@@ -161,7 +161,7 @@ function names_of(items: [string, PlanItem][], fonts: number[]): Name[] {
 function Label({ name }: { name: Name }): JSX.Element {
   const { lines, x, y, font } = name;
   return (
-    <text class={`name ${name.kind}`} font-size={font} stroke-width={font * 0.22}>
+    <text class={`name ${name.kind}`} font-size={font} stroke-width={font * (name.kind === "street" ? 0.7 : 0.22)}>
       {lines.map((line, i) => (
         <tspan key={line} x={x} y={y + font * (0.35 + (i - (lines.length - 1) / 2) * 1.1)}>
           {line}
@@ -205,8 +205,9 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
       const rect = box.current?.getBoundingClientRect();
       if (rect && rect.width > 0 && rect.height > 0) setSize([rect.width, rect.height]);
     };
-    measure();
+    // It tells the first size after the browser has laid the page out, and before it is painted. Asking here would lay it out at once.
     if (typeof ResizeObserver === "undefined") {
+      measure();
       window.addEventListener("resize", measure);
       return () => window.removeEventListener("resize", measure);
     }

@@ -3,7 +3,7 @@ import { Connection } from "./connection";
 import { packed } from "./handover";
 import { link_to, other_places } from "./places";
 import type { Item, Left } from "./queue";
-import type { Ballot, Deed, Json, PlanItem, Presence, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
+import type { Ballot, Deed, Health, Json, PlanItem, Presence, Seen, StateMessage, ViewName, Views, Vote, Welcome, You } from "./wire";
 import { whole } from "./whole";
 import type { Answer, Options, World } from "./world";
 import type { Key } from "./words";
@@ -53,6 +53,7 @@ export class Session {
   announcement = "";
   lastVote: string | null = null; ///< the last one that was seen open
   presences: Record<string, Presence> = {};
+  health: Health | null = null; ///< of the room and its computer, where the server tells
   latest = 0; ///< when the last message of the server came [ms since 1970]
   readonly connection: Connection;
   private stale = new Set<ViewName>(); // views whose next message has all of them
@@ -238,6 +239,7 @@ export class Session {
   private welcomed(welcome: Welcome): void {
     this.you = welcome.you;
     this.presences = {};
+    this.health = null;
     if (!this.views.room.title)
       this.views = { ...this.views, room: { ...this.views.room, title: welcome.room.title, code: welcome.room.code } };
     for (const view of Object.keys(this.views) as ViewName[]) this.stale.add(view);
@@ -253,7 +255,8 @@ export class Session {
       if (id === "addresses") return this.keepPlaces((message.args as { addresses?: Json } | undefined)?.addresses);
       if (id === "stored") this.notices = this.notices.filter((notice) => notice.id !== "storage");
       this.notices = [...this.notices.filter((notice) => notice.id !== id), { id, at: this.now() }];
-    } else if (message.t === "presence") this.meet(message.seats as Record<string, Presence | null>);
+    } else if (message.t === "health") this.health = message as unknown as Health;
+    else if (message.t === "presence") this.meet(message.seats as Record<string, Presence | null>);
     this.touch();
   }
 

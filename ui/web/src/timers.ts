@@ -1,15 +1,15 @@
-// Timers by name, of which starting one again puts it off; and the delays between attempts to connect.
+// Timers by name, of which starting one again puts it off; and the delays between attempts to connect and questions for the server.
 import type { World } from "./world";
 
 const kAtOnce = 100;
 const kFirst = 200;
 const kGrowth = 1.7;
 const kJitter = 0.4;
-// Most outages last seconds: so long it asks often. Later it may not: Chromium delays each new socket of a page by up to five seconds
-// once some thirty have failed within minutes (its WebSocketPerProcessThrottler).
-const kOften = 550;
-const kOftenFor = 10; // attempts
 export const kLongestWait = 5000;
+// Most outages last seconds: so long a page asks very often.
+const kSoon = 5000;
+const kAskSoon = 250;
+const kAskLater = 400;
 
 const grown = (from: number, n: number): number => from * Math.pow(kGrowth, n);
 const jittered = (delay: number, chance: number): number => Math.min(kLongestWait, delay) * (1 + kJitter * (2 * chance - 1));
@@ -18,7 +18,13 @@ const jittered = (delay: number, chance: number): number => Math.min(kLongestWai
 /// It grows, and never ends.
 export function back_off(n: number, chance: number): number {
   if (n === 0) return kAtOnce * chance;
-  return jittered(n <= kOftenFor ? Math.min(kOften, grown(kFirst, n - 1)) : grown(kOften, n - kOftenFor), chance);
+  return jittered(grown(kFirst, n - 1), chance);
+}
+
+/// The delay between two questions whether the server is there [ms], after it has been away for so long. Somebody who looks at the page
+/// waits for it; a page that is hidden asks as soon as it is looked at.
+export function ask_again(away: number, isVisible: boolean, chance: number): number {
+  return jittered(!isVisible ? kLongestWait : away < kSoon ? kAskSoon : kAskLater, chance);
 }
 
 /// The delay before try `n` (from 1) of an operation that the server cannot take for the moment [ms].

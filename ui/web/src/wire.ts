@@ -1,4 +1,5 @@
-// The messages between a room's server and this page, and the views that the server makes, as TypeScript types.
+// What the page says and reads, as types: messages by their declarations, with the views and contents that the server makes.
+import type { FromServer } from "./messages";
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type Point = [number, number, number];
@@ -48,34 +49,27 @@ export interface You {
   areas: string[];
   card: string;
 }
-export interface Welcome {
-  t: "welcome";
+// The declarations leave open what stands in fields of JSON; it is said here.
+type WelcomeFields = FromServer["welcome"];
+export interface Welcome extends WelcomeFields {
   you: You;
-  epoch: number;
-  seq: number;
-  tick: number;
-  rate: number;
-  done: number;
-  resume: string;
-  token?: string;
-  addresses?: string[];
   room: { code: string; title: string };
 }
-export interface Nack {
-  t: "nack";
-  id: number;
+type NackFields = FromServer["nack"];
+export interface Nack extends NackFields {
   why: Why;
-  place: string;
-  text: string;
   args?: Record<string, Json>;
 }
-export interface StateMessage {
-  t: "state";
-  view: string;
-  k: number;
-  s: number;
-  set?: Record<string, Json>;
-  drop?: string[];
+type StateFields = FromServer["state"];
+export interface StateMessage extends StateFields {
+  set: Record<string, Json>;
+}
+export type Verdict = "good" | "look" | "bad";
+type HealthFields = FromServer["health"];
+export interface Health extends HealthFields {
+  wireless: Record<string, number>; ///< by interface: 0 to 1
+  reached: Record<string, number>; ///< by address: devices
+  verdicts: Record<string, Verdict>; ///< by figure
 }
 
 export interface Phase {

@@ -1,4 +1,4 @@
-// Picks sentences by language, with numbers and plural forms by the rules of that language.
+// Picks sentences by language, with numbers and plural forms as that language has them.
 import { Key, Text, en } from "./words/en";
 
 export type { Key } from "./words/en";
@@ -36,7 +36,6 @@ function pseudo(): Table {
 const tables: Partial<Record<Language, Table>> = { en };
 let language: Language = "en";
 let table: Table = en;
-let plurals = new Intl.PluralRules("en");
 
 export function add_table(of: Language, words: Table): void {
   tables[of] = words;
@@ -48,7 +47,6 @@ export function set_language(next: Language): void {
   if (!words) return;
   language = next;
   table = words;
-  plurals = new Intl.PluralRules(locale());
 }
 
 export function language_now(): Language {
@@ -71,13 +69,26 @@ export function best_language(wanted: readonly string[]): Language {
   return "en";
 }
 
+// The browser reads the rules of a language for each writer that is made: that is slow, so they are kept.
+const writers = new Map<string, Intl.NumberFormat>();
+const kPlain = 1000; // whole numbers below it are the same in all languages here
+
+/// A number as the language of the page writes it.
+export function written(value: number, style: "decimal" | "percent" = "decimal", digits = 3): string {
+  if (style === "decimal" && Number.isInteger(value) && Math.abs(value) < kPlain) return String(value);
+  const key = `${locale()} ${style} ${digits}`;
+  let writer = writers.get(key);
+  if (!writer) writers.set(key, (writer = new Intl.NumberFormat(locale(), { style, maximumFractionDigits: digits })));
+  return writer.format(value);
+}
+
 /// The sentence of a key; numbers in `args` are written as the language writes them, and `n` chooses the plural form.
 export function t(key: Key, args: Record<string, string | number> = {}): string {
   const text = table[key];
-  const form = typeof text === "string" ? text : text[plurals.select(Number(args.n)) === "one" ? "one" : "other"];
+  const form = typeof text === "string" ? text : text[args.n === 1 ? "one" : "other"];
   return form.replace(/\{(\w+)\}/g, (whole, name: string) => {
     const value = args[name];
     if (value === undefined) return whole;
-    return typeof value === "number" ? new Intl.NumberFormat(locale()).format(value) : value;
+    return typeof value === "number" ? written(value) : value;
   });
 }

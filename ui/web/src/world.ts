@@ -18,6 +18,8 @@ export interface World {
   set(milliseconds: number, then: () => void): number;
   clear(timer: number): void;
   open(): Link;
+  /// Asks the server by HTTP whether it is there. `then` is called once, unless the asking is ended by what is given back.
+  ask(then: (isThere: boolean) => void): () => void;
   store: Store;
   chance(): number; ///< in [0, 1)
   name(): string; ///< a new random name

@@ -131,8 +131,24 @@ export class Network {
   breaks = 0; // chance that a message breaks the socket
   latency = 20;
   opened = 0;
+  asked = 0;
+  isRefusing = false; // sockets
+  isAway = false; // refuses everything
   constructor(clock, room, chance) {
     Object.assign(this, { clock, room, chance });
+  }
+  /// A question by HTTP: a server that refuses sockets may still answer it.
+  ask(page, then) {
+    this.asked += 1;
+    let isWanted = true;
+    const answer = (isThere) => isWanted && !page.isFrozen && then(isThere);
+    this.clock.set(this.latency, () => {
+      if (this.isDown) this.clock.set(2000, () => answer(false));
+      else answer(!this.isAway);
+    });
+    return () => {
+      isWanted = false;
+    };
   }
   open(page) {
     this.opened += 1;
@@ -169,7 +185,7 @@ export class Network {
     };
     clock.set(this.latency, () => {
       if (!link.isOpen) return;
-      if (this.isRefusing) deliver(() => link.onclose?.(1006, ""));
+      if (this.isRefusing || this.isAway) deliver(() => link.onclose?.(1006, ""));
       else if (!this.isDown) deliver(() => link.onopen?.());
     });
     return link;

@@ -1,5 +1,6 @@
 // Numbers, sentences and outlines.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
 import test from "node:test";
 import {
@@ -14,6 +15,7 @@ import {
   in_steps,
   kLanguages,
   ko,
+  minutes_of,
   nl,
   number,
   points_of,
@@ -27,6 +29,7 @@ import {
   wifi_of_address,
   wifi_text,
   wifi_to_address,
+  written,
 } from "../../../build/web_test/modules.mjs";
 import { seeded } from "./fakes.mjs";
 
@@ -47,6 +50,21 @@ test("a number that is written can be typed back, in each language", () => {
       const value = Math.round((chance() - 0.5) * 10 ** (1 + Math.floor(chance() * 6)) * 100) / 100;
       assert.equal(typed_number(number(value, 0.01)), value, `${language}: ${number(value, 0.01)}`);
     }
+  });
+});
+
+test("numbers and plural forms are those of the rules of each language", () => {
+  each_language((language) => {
+    for (let value = -1200; value <= 1200; ++value)
+      assert.equal(written(value), new Intl.NumberFormat(language).format(value === 0 ? 0 : value), `${language}: ${value}`);
+    for (const value of [0.5, 1234.5678, 1e6])
+      for (const digits of [0, 2])
+        assert.equal(written(value, "decimal", digits), new Intl.NumberFormat(language, { maximumFractionDigits: digits }).format(value));
+    // One form for 1 and one for the rest is all that the page knows: a language that has more needs more of it.
+    const rules = new Intl.PluralRules(language);
+    for (let n = 0; n <= 1200; ++n) assert.ok(n === 1 ? ["one", "other"].includes(rules.select(n)) : rules.select(n) === "other", `${language}: ${n}`);
+    if (rules.select(1) === "other")
+      for (const [key, text] of Object.entries(kTables[language])) assert.ok(typeof text === "string" || text.one === text.other, `${language}: ${key}`);
   });
 });
 
@@ -200,6 +218,16 @@ function read_wifi(text) {
   for (const [, name, value] of text.slice(5).matchAll(/([A-Z]):((?:\\.|[^;\\])*);/g)) fields[name] = value.replace(/\\(.)/g, "$1");
   return fields;
 }
+
+test("the command of the minutes takes any name of a file as one word", () => {
+  const plain = minutes_of("/home/a/scene.blsession");
+  assert.equal(plain.command, "./bl minutes /home/a/scene.blsession --out /home/a/scene-minutes");
+  assert.equal(plain.page, "/home/a/scene-minutes/minutes.html");
+  for (const file of ["/home/An na/it's; $(rm) `x`.blsession", "/tmp/\"q\"&é.blsession", "/tmp/plain.db"]) {
+    const words = execFileSync("sh", ["-c", minutes_of(file).command.replace("./bl", "printf '%s\\n'")], { encoding: "utf8" }).split("\n");
+    assert.deepEqual(words, ["minutes", file, "--out", minutes_of(file).page.replace("/minutes.html", ""), ""]);
+  }
+});
 
 test("phones read the Wi-Fi as it was typed, and so does the beamer", () => {
   const chance = seeded(5),

@@ -1,7 +1,7 @@
 // Measures the page with the real server in Chromium: how long it takes to come in, and to come back.
 //
 // usage: node measure.mjs PART...   join: scan → card, cold cache, on a LAN. slow: usable at 1.6 Mbit/s and 150 ms. way: the same, with
-// a proxy that slows handshakes and sockets as well. back_1, back_60, back_looking, back_frozen: after so many seconds without a network.
+// a proxy that slows handshakes and sockets as well. back_1, back_60, back_1800, back_looking, back_frozen: after so many seconds without a network.
 // queue: what is said without one, over a reload. BEHAVIOURLINKS names the program, RUNS how often each is done.
 // Times of a machine that is shared are upper bounds; the load is printed with them.
 import assert from "node:assert/strict";
@@ -12,6 +12,7 @@ const room = await start_room();
 // OLD names the folder of another build of the page: the two are measured in turn, so that a machine that is shared treats them alike.
 const old_room = process.env.OLD ? await start_room({ page: process.env.OLD }) : null;
 const kRest = 2000; // [ms]
+const kTogether = 10000; // outages that are longer run beside each other [ms]
 const runs = Number(process.env.RUNS ?? 20);
 const quantile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 const say = (what, times, limit) =>
@@ -84,7 +85,7 @@ async function scan(room, network, origin) {
 let rounds = 0;
 
 // The sockets of Chromium outlive an emulated outage, so the server is reached through a door that can be shut.
-async function back(room, milliseconds, how) {
+async function come_in(room) {
   const browser = await opened();
   const context = await browser.newContext({ viewport: { width: 390, height: 844 }, locale: "en-GB" });
   const page = await context.newPage();
@@ -92,6 +93,10 @@ async function back(room, milliseconds, how) {
   await page.goto(`${door.origin}/${room.code}#k=${room.keys.facilitator}`);
   await page.click(".join .main");
   await page.waitForSelector("nav");
+  return { room, browser, context, page, door };
+}
+
+async function back({ room, browser, context, page, door }, milliseconds, how) {
   await page.waitForTimeout(700);
   const devtools = await context.newCDPSession(page);
   const number = ++rounds; // another run may set a later phase before this page is back
@@ -163,16 +168,18 @@ async function scans(what, network, limits, way = null) {
 }
 
 async function backs(what, milliseconds, how, times) {
-  for (const [name, one] of Object.entries(old_room ? { before: old_room, now: room } : { now: room }))
-    say(
-      `${what}, ${name}`,
-      await Promise.all(
-        Array.from({ length: times }, (_, run) =>
-          new Promise((wait) => setTimeout(wait, run * 2500)).then(() => back(one, milliseconds, how)),
-        ),
-      ),
-      1000,
-    );
+  for (const [name, one] of Object.entries(old_room ? { before: old_room, now: room } : { now: room })) {
+    const waits = [];
+    // Everybody is in before the first outage: a browser that starts takes the time of those that come back.
+    const people = [];
+    if (milliseconds > kTogether) for (let run = 0; run < times; run++) people.push(await come_in(one));
+    for (let run = 0; run < times; run++) {
+      const wait = back(people[run] ?? (await come_in(one)), milliseconds, how);
+      waits.push(wait);
+      await (milliseconds > kTogether ? new Promise((next) => setTimeout(next, 2500)) : wait);
+    }
+    say(`${what}, ${name}`, await Promise.all(waits), 1000);
+  }
 }
 
 const parts = {
@@ -187,6 +194,7 @@ const parts = {
     scans("1.6 Mbit/s and 150 ms, handshakes and sockets too", null, { usable: 1500, paint: 1200, card: 6000 }, { oneWay: 75, down: 200000 }),
   back_1: () => backs("back after 1 s, nobody touches the page", 1000, "waiting", runs),
   back_60: () => backs("back after 60 s, nobody touches the page", 60000, "waiting", runs),
+  back_1800: () => backs("back after 30 min, nobody touches the page", 1800000, "waiting", runs),
   back_looking: () => backs("back after 60 s, somebody looks at the page", 60000, "looking", runs),
   back_frozen: () => backs("back after 20 s frozen", 20000, "frozen", runs),
   queue: queue_over_reload,

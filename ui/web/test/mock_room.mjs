@@ -1,5 +1,5 @@
 // A room with a small scene that speaks the contract of messages, so that the page can be tested without the real server.
-import { disc, first_views } from "./mock_scene.mjs";
+import { disc, first_views, health } from "./mock_scene.mjs";
 
 const kAnimals = ["Heron", "Otter", "Lynx", "Badger", "Curlew", "Marten", "Beaver", "Swift", "Stoat", "Plover"];
 const kColours = ["#1f6f8b", "#8a5a00", "#6d3f9c", "#2c6e49", "#a0341b", "#34507a", "#7a3555", "#4d6b12", "#0b6b60", "#5a4a3a"];
@@ -16,6 +16,7 @@ export class MockRoom {
   presences = {};
   renewals = 0; // of keys
   addresses = []; // where else the room can be found
+  health = health();
   mute = false; // swallows everything, as a network that hangs
   busy = null;
   constructor() {
@@ -224,6 +225,7 @@ export class MockRoom {
       limits: {},
     });
     this.tell(link, { t: "presence", seats: this.presences });
+    if (role === "facilitator") this.tell(link, this.health);
     this.publish();
   }
 
@@ -342,6 +344,11 @@ export class MockRoom {
     return null;
   }
 
+  /// For tests: facilitators hear how the computer is from now on.
+  tell_health(change) {
+    this.health = { ...this.health, ...change };
+    for (const link of this.links) if (this.seats[link.seat].role === "facilitator") this.tell(link, this.health);
+  }
   /// For tests: the phase, and which votes are open.
   phase(name, activities, more = {}) {
     this.room.phase = { name, activities, ends_at: 0, forms: [], ...more };

@@ -92,6 +92,38 @@ function trial(state, before, after) {
   return { state, ticks: 60, is_settled: state === "done", seq: 40, figures };
 }
 
+/// A laptop on mains to which phones have come; nothing has to be done.
+export const health = () => ({
+  t: "health",
+  tick_ms: 4.2,
+  rate: 10,
+  wanted: 10,
+  settled: false,
+  worst: 0.21,
+  worst_of: "hotel",
+  disk_ms: 4.1,
+  disk_slow_ms: 8.3,
+  file: "/home/anna/Sessions of spring/quarter.blsession",
+  journal: 2400000,
+  snapshot_age: 45,
+  followers: 1,
+  battery: 0.87,
+  mains: "yes",
+  wireless: { wlan0: 0.8 },
+  memory_free: 5.2e9,
+  disk_free: 61e9,
+  reached: { "http://192.168.1.5:8080": 12 },
+  verdicts: {
+    ticks: "good",
+    disk: "good",
+    power: "good",
+    memory: "good",
+    space: "good",
+    "wireless/wlan0": "good",
+    "reached/http://192.168.1.5:8080": "good",
+  },
+});
+
 export function first_views() {
   return {
     plan: plan_of_scene(),

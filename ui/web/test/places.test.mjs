@@ -51,6 +51,10 @@ function page(store = new MemoryStore()) {
     now: () => clock.time,
     set: (delay, then) => clock.set(delay, then),
     clear: (id) => clock.clear(id),
+    ask(then) {
+      clock.set(5, () => then(isUp));
+      return () => {};
+    },
     open() {
       const mine = { send: (text) => JSON.parse(text).t === "hello" && answer?.(), close() {} };
       link = mine;

@@ -212,6 +212,23 @@ async function walk_facilitator(server, size, scheme) {
   await look(page, `lead_${at}`);
   await page.click(".people summary >> nth=0");
   await look(page, `lead_person_${at}`);
+  await page.locator("#lead-health").scrollIntoViewIfNeeded();
+  await page.click('summary:has-text("figures are as they should be")');
+  await look(page, `lead_health_${at}`);
+  const { verdicts } = room.health;
+  room.tell_health({
+    problem: "the disk is full",
+    battery: 0.12,
+    mains: "no",
+    reached: { "http://192.168.1.5:8080": 0 },
+    verdicts: { ...verdicts, power: "bad", "reached/http://192.168.1.5:8080": "look" },
+  });
+  await page.click('.waiting button:has-text("2 warnings")');
+  const words = await page.locator(".health .word").allTextContents();
+  assert.deepEqual(words, ["Act now", "Act now", "Have a look"], "the worst stands first");
+  await look(page, `lead_unwell_${at}`);
+  room.tell_health({ problem: "", verdicts });
+  await page.waitForSelector(".health .word", { state: "detached" });
   await page.click('summary:has-text("Wi-Fi")');
   await page.fill('label:has-text("Name of the network") input', "Quarter");
   await page.fill('label:has-text("Password") input', "tulips; in spring");
@@ -222,6 +239,13 @@ async function walk_facilitator(server, size, scheme) {
   await look(page, `lead_code_${at}`);
   await page.click('button:has-text("Close")');
   room.open_votes();
+  await page.click('button:has-text("End the session")');
+  await page.click(".sure .danger");
+  await page.waitForSelector('h2:has-text("Minutes")');
+  const command = await page.inputValue('label:has-text("Command for the minutes") input');
+  assert.equal(command, "./bl minutes '/home/anna/Sessions of spring/quarter.blsession' --out '/home/anna/Sessions of spring/quarter-minutes'");
+  await look(page, `lead_minutes_${at}`);
+  room.room.closed = false;
   await page.context().close();
 }
 

@@ -14,6 +14,7 @@ function played(store = new MemoryStore()) {
     now: () => clock.time,
     set: (delay, then) => clock.set(delay, then),
     clear: (id) => clock.clear(id),
+    ask: () => () => {},
     open() {
       link = { send: (text) => said.push(JSON.parse(text)), close() {} };
       return link;
@@ -126,6 +127,16 @@ test("a room that greets its pages again gets what it has not answered", () => {
   const before = said.filter((message) => message.t === "op").length;
   welcome();
   assert.equal(said.filter((message) => message.t === "op").length, before + 1);
+});
+
+test("what is heard of the health of a room is of this connection", () => {
+  const { session, tell, welcome } = played();
+  assert.equal(session.health, null);
+  tell({ t: "health", battery: 0.5 });
+  tell({ t: "health", battery: 0.4 });
+  assert.equal(session.health.battery, 0.4);
+  welcome();
+  assert.equal(session.health, null, "another connection may be to another laptop, or of another role");
 });
 
 test("names of new things are of the seat", () => {

@@ -123,6 +123,10 @@ try {
   await seen("proposal for the lead", lead, () => lead.waitForSelector('.proposal:has-text("A hall for all")'));
   await lead.locator('.proposal:has-text("A hall for all")').scrollIntoViewIfNeeded();
   await seen("proposal in sight", lead);
+  // More than two proposals are folded.
+  const folded = lead.locator('.proposal:has-text("A hall for all") details:not([open]) summary:has-text("Decide")');
+  if ((await folded.count()) > 0) await folded.click();
+  await seen("proposal open", lead);
   const steps = lead.locator('.proposal:has-text("A hall for all") .tick input');
   if ((await steps.count()) > 1) await steps.last().uncheck();
   await lead.click('.proposal:has-text("A hall for all") button:has-text("Accept")');
@@ -166,7 +170,7 @@ try {
   await lead.click('button:has-text("End the session")');
   await seen("end asks", lead);
   await lead.click(".sure .danger");
-  await seen("ended lead", lead, () => lead.waitForSelector('.notice:has-text("The session is over")'));
+  await seen("ended lead", lead, () => lead.waitForSelector('h2:has-text("Minutes")'));
   await seen("ended phone", phone);
   await seen("ended beamer", beamer);
   bots.kill("SIGINT");

@@ -20,7 +20,7 @@ export function join_address(s: Session): string {
 }
 
 // A page without TLS may not use the clipboard itself, so the text is selected and copied as by hand.
-function AddressRow({ name, address }: { name: string; address: string }): JSX.Element {
+export function AddressRow({ name, address }: { name: string; address: string }): JSX.Element {
   const field = useRef<HTMLInputElement>(null),
     [isCopied, set] = useState("");
   const copy = (): void => {

@@ -8,8 +8,11 @@ import { useLook, useMedia } from "../ui";
 import type { Ui } from "../ui";
 import type { Activity, Layout, Proposal, Vote } from "../wire";
 import { Key, t } from "../words";
+import { findings_of } from "../health";
 import { Answer, Decide } from "./deciding";
+import { HealthPart } from "./health";
 import { JoinPart, KeysPart, join_address } from "./invitations";
+import { MinutesPart } from "./minutes";
 import { People } from "./people";
 import { ResultOf, Turnout } from "./votes";
 
@@ -33,6 +36,7 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
   // Until something is typed, the form shows what holds now.
   const plan = typed ?? { name: "", activities: phase?.activities ?? [], minutes: "10" };
   const allowed = kActivities.filter((one) => phase?.activities.includes(one)).map((one) => t(`lead_${one}` as Key));
+  if (phase && phase.forms.length > 0) allowed.push(t("form_title"));
   const minutes = typed_number(plan.minutes) ?? 0;
   const kinds: { key: Key; activities: Activity[] }[] = [
     { key: "lead_look", activities: [] },
@@ -241,13 +245,13 @@ function EndPart({ s }: { s: Session }): JSX.Element {
 }
 
 /// What waits for the facilitator, wherever the page is scrolled to.
-function Waiting({ proposals, comments }: { proposals: number; comments: number }): JSX.Element | null {
+function Waiting({ proposals, comments, warnings }: { proposals: number; comments: number; warnings: number }): JSX.Element | null {
   const go = (id: string): void => {
     const part = document.getElementById(id);
     part?.scrollIntoView({ block: "start" });
     part?.focus({ preventScroll: true });
   };
-  if (proposals + comments === 0) return null;
+  if (proposals + comments + warnings === 0) return null;
   return (
     <div class="row waiting">
       <span>{t("lead_waiting")}</span>
@@ -259,6 +263,11 @@ function Waiting({ proposals, comments }: { proposals: number; comments: number 
       {comments > 0 ? (
         <button class="quiet" onClick={() => go("lead-comments")}>
           {t("lead_waiting_comments", { n: comments })}
+        </button>
+      ) : null}
+      {warnings > 0 ? (
+        <button class="quiet" onClick={() => go("lead-health")}>
+          {t("lead_waiting_health", { n: warnings })}
         </button>
       ) : null}
     </div>
@@ -273,12 +282,18 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     proposals = proposals_waiting(s),
     isTwo = useMedia("(min-width: 1200px)");
   const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
+  const warnings = s.health ? findings_of(s.health, s.views.room.paused ?? false, String).filter((one) => one.verdict === "bad").length : 0;
   useLook(
     s,
     proposals.map(([id]) => id),
   );
-  // The page says above what to do after the end.
-  if (s.views.room.closed) return <Title>{t("tab_lead")}</Title>;
+  if (s.views.room.closed)
+    return (
+      <>
+        <Title>{t("tab_lead")}</Title>
+        <MinutesPart s={s} />
+      </>
+    );
   const join = <JoinPart key="join" s={s} ui={ui} />;
   const now = (
     <>
@@ -323,6 +338,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <DecisionPart s={s} />
       <People s={s} />
       <KeysPart s={s} />
+      <HealthPart s={s} />
       <EndPart s={s} />
     </>
   );
@@ -331,7 +347,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   return (
     <>
       <Title>{t("tab_lead")}</Title>
-      <Waiting proposals={proposals.length} comments={comments.length} />
+      <Waiting proposals={proposals.length} comments={comments.length} warnings={warnings} />
       {isTwo ? (
         <div class="boards">
           <div>{now}</div>

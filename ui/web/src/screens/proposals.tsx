@@ -19,6 +19,10 @@ function value_word(value: Json | undefined): string | null {
   return null;
 }
 
+// Where both have set the same value, nobody has to choose.
+const conflicts_of = (proposal: Proposal): Conflict[] =>
+  proposal.conflicts.filter(({ live, draft }) => live === undefined || live === null || JSON.stringify(live) !== JSON.stringify(draft));
+
 /// What somebody else has made of the same place, with both values where they are short.
 export function conflict_words(one: Conflict): string {
   const live = value_word(one.live),
@@ -140,11 +144,11 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
       {proposal.state === "accepted" && proposal.kept < proposal.steps ? (
         <p class="small">{t("proposal_kept", { kept: proposal.kept, steps: proposal.steps })}</p>
       ) : null}
-      {proposal.conflicts.length > 0 ? (
+      {conflicts_of(proposal).length > 0 ? (
         <div class="wrong">
           <b>{t("proposal_conflicts")}</b>
           <ul>
-            {proposal.conflicts.map((one) => (
+            {conflicts_of(proposal).map((one) => (
               <li key={one.place}>{conflict_words(one)}</li>
             ))}
           </ul>
@@ -231,7 +235,7 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
             <tr>
               <th scope="row">{t("proposal_conflicts")}</th>
               {both.map((one, i) => (
-                <td key={i}>{list(one.conflicts.map(conflict_words))}</td>
+                <td key={i}>{list(conflicts_of(one).map(conflict_words))}</td>
               ))}
             </tr>
             <tr>
