@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/text.h"
 #include "core/reading/figures.h"
 #include "core/serve/readiness.h"
 #include "ui/desktop/panels/host_dialog.h"
