@@ -14,7 +14,10 @@ namespace bl::serve {
 
 namespace {
 
-constexpr double kBetweenViews = 0.2;                                 // [s]
+constexpr double kBetweenViews = 0.2;  // [s]
+// A phone in motion gets 20 kB a second, of which the shapes may have this much [bytes/s]: more of them come less often.
+constexpr double kShapeRate = 12000;
+constexpr std::string_view kShapes = "shapes";
 constexpr std::size_t kSkipAbove = 256 << 10, kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
 
 std::set<std::string> known_views(const std::vector<std::string>& names) {
@@ -422,8 +425,12 @@ void RoomHost::show(Visitor& visitor) {
     }
     std::shared_ptr<const wire::View>& shown = visitor.shown[name];
     if (shown == view) continue;
-    if (auto changes = wire::changes_of(name, shown.get(), *view, now_->tick, now_->seq))
+    const bool is_shapes = name == kShapes;
+    if (is_shapes && options_.clock->now() < visitor.shapes_after) continue;  // turn() comes back to it
+    if (auto changes = wire::changes_of(name, shown.get(), *view, now_->tick, now_->seq)) {
+      if (is_shapes) visitor.shapes_after = options_.clock->now() + static_cast<double>(changes->size()) / kShapeRate;
       visitor.guest->send(frame_of(std::move(*changes)));
+    }
     shown = view;
   }
 }

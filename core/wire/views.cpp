@@ -15,6 +15,7 @@
 #include "core/room/refusals.h"
 #include "core/wire/messages.h"
 #include "core/wire/plan_view.h"
+#include "core/wire/shapes_view.h"
 
 namespace bl::wire {
 
@@ -410,12 +411,13 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "drafts") return drafts_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
   if (name == "keys") return keys_view(sources, seat);
+  if (name == "shapes") return shapes_view(sources.state);
   return {};
 }
 
 std::optional<std::string> changes_of(std::string_view name, const View* before, const View& now, std::int64_t tick,
                                       std::int64_t seq) {
-  StateOut message{.view = std::string(name), .k = tick, .s = seq, .set = {}, .drop = {}};
+  StateOut message{.view = std::string(name), .k = tick, .s = seq, .set = {}, .drop = {}, .whole = before == nullptr};
   Json set = Json::object();
   for (const auto& [key, content] : now) {
     const auto old = before == nullptr ? View::const_iterator() : before->find(key);

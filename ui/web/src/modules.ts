@@ -9,6 +9,8 @@ export * from "./presence";
 export * from "./queue";
 export * from "./random";
 export * from "./session";
+export * from "./space/decode";
+export * from "./space/orbit";
 export * from "./timers";
 export * from "./whole";
 export * from "./wifi";

@@ -4,7 +4,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Extent, extent_of, middle_of, points_of } from "./outline";
 import { Icon } from "./parts";
 import type { Session } from "./session";
-import { Binding, Pin, Ui, useBinding, useWide } from "./ui";
+import type { Binding, Pin } from "./ui";
 import type { PlanItem, Point } from "./wire";
 import { t } from "./words";
 
@@ -411,11 +411,4 @@ function useFingers(
       element.removeEventListener("wheel", wheel);
     };
   }, [moves.isStill]);
-}
-
-/// The plan where the screen has room for it: inside a narrow screen, beside a wide one.
-export function PlanHere({ s, ui, binding }: { s: Session; ui: Ui; binding: Binding }): JSX.Element | null {
-  const isWide = useWide();
-  useBinding(ui, isWide ? binding : null);
-  return isWide ? null : <Plan s={s} binding={binding} selected={ui.selected} />;
 }

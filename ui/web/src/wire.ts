@@ -22,7 +22,7 @@ export type Why =
   | "storage"
   | "draining"
   | "gap";
-export type Layout = "plan" | "compare" | "vote" | "comments" | "code";
+export type Layout = "plan" | "compare" | "vote" | "comments" | "space" | "code";
 export type Door = "open" | "asks" | "shut";
 
 /// What a person does: an operation without its number, which the connection gives it.
@@ -76,6 +76,7 @@ export interface StateMessage {
   s: number;
   set?: Record<string, Json>;
   drop?: string[];
+  whole?: boolean; ///< the message has all of the view
 }
 
 export interface Phase {
@@ -273,5 +274,6 @@ export interface Views {
   drafts: Record<string, Draft>;
   keys: Partial<Record<Role, string>>; ///< of invitations; empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
+  shapes: Record<string, Json>; ///< what space/contents has the types of
 }
 export type ViewName = keyof Views;

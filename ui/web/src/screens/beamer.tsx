@@ -5,8 +5,8 @@ import { Moved, StatusWord } from "../parts";
 import { Plan } from "../plan";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
+import { PlanOrSpace, SpaceAlone } from "../space";
 import { useClock } from "../ui";
-import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
 import { option_label } from "./ballot_forms";
@@ -17,12 +17,13 @@ import { ResultOf, Turnout } from "./votes";
 
 const kOld = 5000;
 
-function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
+function PlanLayout({ s, isSpace }: { s: Session; isSpace?: boolean }): JSX.Element {
   const figures = Object.entries(s.views.figures).slice(0, 3),
-    size = Math.ceil(window.innerHeight / 25);
+    size = Math.ceil(window.innerHeight / 25),
+    Seen = isSpace ? SpaceAlone : PlanOrSpace;
   return (
     <div class={`stage ${figures.length > 0 ? "with-side" : ""}`}>
-      <Plan s={s} binding={{ pins, onTap: () => undefined }} selected={null} label={size} isStill />
+      <Seen s={s} binding={null} selected={null} label={size} isStill />
       {figures.length === 0 ? null : (
       <ul class="side">
         {figures.map(([id, figure]) => (
@@ -47,7 +48,7 @@ function vote_shown(s: Session): Vote | null {
 
 function VoteLayout({ s }: { s: Session }): JSX.Element {
   const vote = vote_shown(s);
-  if (!vote) return <PlanLayout s={s} pins={[]} />;
+  if (!vote) return <PlanLayout s={s} />;
   return (
     <div class="stage text">
       <h2>{vote.question}</h2>
@@ -68,7 +69,7 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
 function CompareLayout({ s }: { s: Session }): JSX.Element {
   const all = Object.values(s.views.proposals).filter((one) => one.state === "proposed"),
     [left, right] = all;
-  if (!left || !right) return <PlanLayout s={s} pins={[]} />;
+  if (!left || !right) return <PlanLayout s={s} />;
   return (
     <div class="stage text">
       <CompareTable s={s} left={left} right={right} isShort />
@@ -118,10 +119,12 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
       <CompareLayout s={s} />
     ) : layout === "comments" ? (
       <CommentsLayout s={s} />
+    ) : layout === "space" ? (
+      <PlanLayout s={s} isSpace />
     ) : layout === "code" ? (
       <CodeLayout s={s} />
     ) : (
-      <PlanLayout s={s} pins={[]} />
+      <PlanLayout s={s} />
     );
   return (
     <main class="beamer">

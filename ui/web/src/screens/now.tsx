@@ -1,7 +1,7 @@
 // The one thing to do now, which the phase of the session gives.
 import type { JSX } from "preact";
 import { Icon, Title, Timer } from "../parts";
-import { PlanHere } from "../plan";
+import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Tab, Ui } from "../ui";
 import { t } from "../words";
