@@ -3,6 +3,7 @@ export * from "./ballots";
 export * from "./connection";
 export * from "./format";
 export * from "./handover";
+export * from "./heat";
 export * from "./outline";
 export * from "./places";
 export * from "./presence";

@@ -1,5 +1,5 @@
 // The plan: outlines that people move and enlarge by fingers, wheel, keys or buttons, and touch to ask what they are.
-import type { JSX } from "preact";
+import type { ComponentChildren, JSX } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Extent, extent_of, middle_of, points_of } from "./outline";
 import { Icon } from "./parts";
@@ -189,9 +189,10 @@ export interface PlanProps {
   selected: string | null;
   label?: number;
   isStill?: boolean;
+  children?: ComponentChildren; ///< drawn over the outlines, in metres with y downwards
 }
 
-export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): JSX.Element {
+export function Plan({ s, binding, selected, label = 12, isStill, children }: PlanProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const [size, setSize] = useState<[number, number]>([360, 300]);
   const [view, setView] = useState<View>({ zoom: 1, centre: [0, 0] });
@@ -291,6 +292,7 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
           {items.map(([id, item]) => (
             <Shape key={id} id={id} item={item} isSelected={id === selected} />
           ))}
+          {children}
           {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82]).map((name) => (
             <Label key={name.id} name={name} />
           ))}

@@ -227,7 +227,13 @@ export function PlanOrSpace(props: PlanProps): JSX.Element {
 }
 
 /// The picture where nobody has chosen it here: on the beamer, as the facilitator wishes.
-export const SpaceAlone = Space;
+export function SpaceAlone(props: PlanProps): JSX.Element {
+  return (
+    <div class={`seen ${props.isStill ? "still" : ""}`}>
+      <Space {...props} />
+    </div>
+  );
+}
 
 /// The plan where the screen has room for it: inside a narrow screen, beside a wide one.
 export function PlanHere({ s, ui, binding }: { s: Session; ui: Ui; binding: Binding }): JSX.Element | null {

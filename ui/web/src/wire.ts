@@ -22,7 +22,7 @@ export type Why =
   | "storage"
   | "draining"
   | "gap";
-export type Layout = "plan" | "compare" | "vote" | "comments" | "space" | "code";
+export type Layout = "plan" | "compare" | "vote" | "comments" | "marks" | "space" | "code";
 export type Door = "open" | "asks" | "shut";
 
 /// What a person does: an operation without its number, which the connection gives it.

@@ -231,7 +231,7 @@ async function walk_beamer(server, size, scheme) {
   room.phase("Exploring the block", ["change"], { ends_at: Date.now() + 400000 });
   const page = await person(server, { size, scheme, fragment: "#k=SHOW&beamer" });
   await page.waitForSelector(".shape");
-  for (const layout of ["plan", "compare", "vote", "comments", "space", "code"]) {
+  for (const layout of ["plan", "compare", "vote", "comments", "marks", "space", "code"]) {
     room.open_votes(...(layout === "vote" ? ["uses"] : []));
     room.room.layout = layout;
     room.publish();
