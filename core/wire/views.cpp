@@ -13,6 +13,7 @@
 #include "core/reading/figures.h"
 #include "core/reading/views/people.h"
 #include "core/room/refusals.h"
+#include "core/wire/decisions_view.h"
 #include "core/wire/messages.h"
 #include "core/wire/plan_view.h"
 #include "core/wire/shapes_view.h"
@@ -411,6 +412,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "drafts") return drafts_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
   if (name == "keys") return keys_view(sources, seat);
+  if (name == "decisions") return decisions_view(sources);
   if (name == "shapes") return shapes_view(sources.state);
   return {};
 }

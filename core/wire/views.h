@@ -28,8 +28,8 @@ struct ViewSources {
 };
 
 /// The names of all views. Of these, `card`, `votes`, `comments`, `drafts`, `draft_plans` and `keys` are different for each seat.
-inline constexpr std::string_view kViewNames[] = {"room",      "plan",   "figures",     "card", "votes", "comments",
-                                                  "proposals", "drafts", "draft_plans", "keys", "shapes"};
+inline constexpr std::string_view kViewNames[] = {"room",      "plan",   "figures",     "card", "votes",  "comments",
+                                                  "proposals", "drafts", "draft_plans", "keys", "shapes", "decisions"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
 

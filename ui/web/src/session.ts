@@ -37,6 +37,7 @@ const kEmpty = (): Views => ({
   drafts: {},
   draft_plans: {},
   keys: {},
+  decisions: {},
   shapes: {},
 });
 const kMostLooked = 4; // drafts

@@ -56,6 +56,7 @@ export class MockRoom {
   view(name, seat) {
     if (name === "room") return { ...this.room, seats: this.seats };
     if (name === "plan") return this.plan;
+    if (name === "decisions") return this.decisions;
     if (name === "shapes") return shapes_of(this.plan);
     if (name === "draft_plans") return this.draft_plans(seat);
     if (name === "figures") return this.figures;

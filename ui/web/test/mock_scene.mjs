@@ -108,6 +108,14 @@ function trial(state, before, after) {
 export function first_views() {
   return {
     plan: plan_of_scene(),
+    // The last decisions, by entry.
+    decisions: {
+      12: { kind: "phase", seat: 1, at: Date.UTC(2026, 4, 4, 12, 5), title: "Arriving" },
+      21: { kind: "proposal", seat: 1, at: Date.UTC(2026, 4, 4, 12, 31), title: "A bench at the mill", of: 2, text: "It costs little." },
+      30: { kind: "vote", seat: 1, at: Date.UTC(2026, 4, 4, 12, 44), vote: "bridge" },
+      33: { kind: "rewind", seat: 1, at: Date.UTC(2026, 4, 4, 12, 50) },
+      38: { kind: "mark", seat: 1, at: Date.UTC(2026, 4, 4, 12, 58), text: "The mill stays." },
+    },
     room: {
       title: "A mixed quarter",
       code: "BCDF",

@@ -235,6 +235,7 @@ async function walk_beamer(server, size, scheme) {
     room.open_votes(...(layout === "vote" ? ["uses"] : []));
     room.room.layout = layout;
     room.publish();
+    if (layout === "space") await page.waitForSelector(".space .north").then(() => page.waitForTimeout(900));
     await look(page, `beamer_${layout}_${at}`, { isBeamer: true });
   }
   // A beamer on a computer of its own is told the Wi-Fi by its address, which does not keep it.
@@ -275,6 +276,29 @@ async function lost_connection(server) {
   await page.waitForSelector('.status:has-text("Everything is saved")', { timeout: 20000 });
   const sizes = new Set(room.log.filter((m) => m.c?.command === "set_port").map((m) => m.c.arguments.value));
   assert.equal(room.card.controls[0].value, [...sizes].pop(), "what waited is applied after a reload");
+  await page.context().close();
+}
+
+/// Who comes late reads the last decisions, the newest first, with what a vote came to.
+async function happened(server) {
+  const { room } = server;
+  room.open_votes();
+  const page = await joined(server);
+  await page.waitForSelector(".happened li");
+  const said = await page.$$eval(".happened li", (all) => all.map((one) => one.textContent));
+  assert.equal(said.length, 5);
+  assert.match(said[0], /Decision · .*The mill stays\./);
+  assert.match(said[1], /Taken back/);
+  assert.match(said[2], /Vote closed · .*bridge.*Yes, 67/i);
+  assert.match(said[3], /Proposal accepted · .*A bench at the mill.*It costs little\./);
+  await page.evaluate(() => document.querySelector(".happened").scrollIntoView());
+  await look(page, "happened_390x844_light");
+  room.decisions = { ...room.decisions, 41: { kind: "vote", seat: 1, at: Date.now(), vote: "height" } };
+  delete room.decisions[12];
+  room.open_votes("height");
+  room.publish();
+  await page.waitForSelector('.happened li:has-text("It is open again")');
+  assert.equal(await page.locator(".happened li").count(), 5);
   await page.context().close();
 }
 
@@ -610,6 +634,7 @@ const parts = {
   stale_change,
   leads,
   people_and_cards,
+  happened,
   space,
   swipe,
   dots_by_touch,

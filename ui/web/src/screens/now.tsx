@@ -5,6 +5,7 @@ import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Tab, Ui } from "../ui";
 import { t } from "../words";
+import { Happened } from "./happened";
 import { WhatIsThis } from "./plan_screen";
 
 interface Task {
@@ -93,6 +94,7 @@ export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       </section>
       <PlanHere s={s} ui={ui} binding={{ pins: [], onTap: (_, node) => ui.set({ selected: node }) }} />
       <WhatIsThis s={s} ui={ui} />
+      <Happened s={s} />
     </>
   );
 }

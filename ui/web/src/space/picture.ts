@@ -88,7 +88,6 @@ export class Picture {
   private selected: string | null = null;
   private due = 0;
   private hasHome = false;
-  drawn = 0; ///< pictures so far, for tests
 
   /// Throws where there is no WebGL.
   constructor(private readonly options: Options) {
@@ -374,7 +373,6 @@ export class Picture {
     this.fog.near = distance + 0.9 * size;
     this.fog.far = distance + 3.2 * size;
     this.renderer.render(this.scene, this.camera);
-    this.drawn += 1;
     this.label();
     this.options.onLook(this.orbit.azimuth);
   }
