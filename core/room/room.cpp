@@ -117,6 +117,7 @@ Result<void> Room::put(Submission submission, Now now, const std::string& draft,
   if (auto done = ledger_->submit(std::move(submission), now.tick, guard()); !done) return done;
   follow(ledger_->log().back());
   record_.entries.push_back({ledger_->log().back(), now.at, draft, by});
+  remember(record_.entries.back());
   return {};
 }
 
@@ -214,7 +215,7 @@ Answer Room::rewind(const Said& said) {
   std::vector<Command>& back = std::get<std::vector<Command>>(way);
   if (back.empty()) return refuse(Reason::gone, "to", "nothing of the scene has changed since that entry");
   Submission submission{.command = command<Batch>({std::move(back)}), .author = said.author(), .source = said.source()};
-  submission.label = "Back to entry " + std::to_string(*to);
+  submission.label = std::string(kBackLabel) + std::to_string(*to);
   const auto put_in = put(std::move(submission), said.now);
   return put_in ? Answer(done(said.now)) : Answer(refusal_of_scene(put_in.error()));
 }
@@ -270,9 +271,11 @@ Result<void> Room::replay(const EntryRecord& record) {
     const auto content = entry.event->read();
     if (!content) return content.error();
     const std::string event = (**content).value("event", "");
-    return fold(ledger_->log().back(), event, (**content)["arguments"]);
+    if (auto folded = fold(ledger_->log().back(), event, (**content)["arguments"]); !folded) return folded;
+  } else {
+    follow(entry);
   }
-  follow(entry);
+  remember(record);
   return {};
 }
 

@@ -41,6 +41,16 @@ struct Now {
   std::int64_t at = 0;  ///< [ms since 1970]
 };
 
+/// Something that was decided in front of all: a proposal that was accepted, a vote that was closed, a phase that was begun, a
+/// way back, or what the minutes call a decision.
+struct Decision {
+  std::int64_t seq = 0, seat = 0;  ///< its entry, and who has decided
+  std::int64_t at = 0;             ///< when, by the host's clock [ms since 1970]
+  std::string kind = {};           ///< `proposal`, `vote`, `phase`, `restart`, `rewind` or `mark`
+  std::string what = {};  ///< the draft, the node of the vote, the scenario; of `phase` and `mark` their words or their text
+  bool operator==(const Decision&) const = default;
+};
+
 /// A seat that somebody gets.
 struct Invitation {
   Role role = Role::participant;
@@ -104,6 +114,11 @@ class Room {
   DraftSummary summary_of(const std::string& draft);
   /// The author of the last change of the place, or of the nearest place around it; empty where nobody has changed it.
   std::string last_writer(Touch place) const;
+  /// The last ones, the newest first: what somebody who comes late has missed.
+  const std::deque<Decision>& decisions() const { return decisions_; }
+  static constexpr std::size_t kKeptDecisions = 5;
+  /// How the step of a rewind is called; the number of the last entry that stays follows.
+  static constexpr std::string_view kBackLabel = "Back to entry ";
   /// The scenario to whose running state the session has to go back, if what was said since the last call asks for that.
   std::string take_restart() { return std::exchange(restart_, {}); }
   /// The words of a comment, a reason, a note; nothing where there are none of that name.
@@ -155,6 +170,7 @@ class Room {
                     const Source& source);
   void note_as_room(const std::string& event, const std::map<std::string, Value>& arguments, Now now);
   void follow(const LogEntry& entry);
+  void remember(const EntryRecord& record);
   Result<void> fold(const LogEntry& entry, std::string_view event, const Json& arguments);
   void store_texts(const EventDefinition& kind, std::map<std::string, Value>& arguments, std::int64_t seat);
   void after_event(const std::string& event, const std::map<std::string, Value>& arguments, const Said& said);
@@ -181,6 +197,7 @@ class Room {
   std::deque<std::pair<std::int64_t, std::vector<Command>>> inverses_;      // by entry, the last ones
   std::map<std::string, std::int64_t> asked_at_;                            // by area: since when somebody asks for its pen
   std::map<std::int64_t, std::int64_t> left_at_;                            // by seat: since when it is empty
+  std::deque<Decision> decisions_;
   // Of the entry that is being made.
   std::vector<Touch> touches_;
   std::vector<Command> inverse_;

@@ -117,7 +117,9 @@ Result<void> Room::note(const EventDefinition& kind, const std::map<std::string,
   event["arguments"] = ports_to_json(kind, arguments);
   if (auto noted = ledger_->note_event(JsonValue::of(event), author, now.tick, source); !noted) return noted;
   record_.entries.push_back({ledger_->log().back(), now.at});
-  return fold(ledger_->log().back(), kind.id, event["arguments"]);
+  if (auto folded = fold(ledger_->log().back(), kind.id, event["arguments"]); !folded) return folded;
+  remember(record_.entries.back());
+  return {};
 }
 
 void Room::note_as_room(const std::string& event, const std::map<std::string, Value>& arguments, Now now) {

@@ -14,8 +14,8 @@ namespace bl::serve {
 
 namespace {
 
-constexpr double kBetweenViews = 0.2;                                 // [s]
-constexpr std::size_t kSkipAbove = 256 << 10, kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
+constexpr double kBetweenViews = 0.2;         // [s]
+constexpr std::size_t kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
 
 std::set<std::string> known_views(const std::vector<std::string>& names) {
   std::set<std::string> known;
@@ -381,67 +381,6 @@ void RoomHost::turn() {
   keep_records();
   try_drafts();
   publish();
-}
-
-// Views of a moment that has read unstored entries wait until these are stored.
-void RoomHost::publish() {
-  const auto moment = session_->moment();
-  if (next_ || (moment == seen_ && !is_changed_)) return;
-  const bool is_same_state = seen_ && now_ && seen_->state == moment->state;
-  seen_ = moment;
-  is_changed_ = false;
-  Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
-  const wire::ViewSources from = sources(*moment->state);
-  for (const auto& [key, visitor] : visitors_)
-    for (const std::string& name : visitor.wanted) {
-      auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
-      if (!place && is_same_state && wire::is_of_state(name))
-        if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
-      if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
-    }
-  next_ = std::move(made);
-  show();
-}
-
-void RoomHost::show() {
-  if (!next_ || next_->seq > stored_seq_) return;
-  now_ = std::move(next_);
-  next_.reset();
-  steps_.clear();
-  for (auto& [key, visitor] : visitors_) show(visitor);
-}
-
-void RoomHost::show(Visitor& visitor) {
-  if (!now_ || !visitor.is_welcome || visitor.guest->unsent() > kSkipAbove) return;
-  for (const std::string& name : visitor.wanted) {
-    std::shared_ptr<const wire::View> view;
-    if (!wire::is_of_seat(name)) {
-      if (const auto found = now_->shared.find(name); found != now_->shared.end()) view = found->second;
-    } else if (const auto seat = now_->by_seat.find(visitor.seat); seat != now_->by_seat.end()) {
-      if (const auto found = seat->second.find(name); found != seat->second.end()) view = found->second;
-    }
-    if (!view) {
-      is_changed_ = true;  // it was not wanted by anybody when these views were made
-      continue;
-    }
-    std::shared_ptr<const wire::View>& shown = visitor.shown[name];
-    if (shown == view) continue;
-    if (const auto& frame = step(name, shown, view)) visitor.guest->send(frame);
-    shown = view;
-  }
-}
-
-const std::shared_ptr<const std::string>& RoomHost::step(const std::string& name, const std::shared_ptr<const wire::View>& before,
-                                                         const std::shared_ptr<const wire::View>& now) {
-  const auto [place, is_new] = steps_.try_emplace({before.get(), now.get()}, Step{before, now, nullptr});
-  if (is_new)
-    if (auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq))
-      place->second.frame = frame_of(std::move(*changes));
-  return place->second.frame;
-}
-
-wire::View RoomHost::view(std::string_view name, std::int64_t seat) {
-  return wire::make_view(name, sources(*session_->moment()->state), seat);
 }
 
 }  // namespace bl::serve

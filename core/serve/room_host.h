@@ -96,6 +96,7 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted, looks_at = {};                          // views and drafts
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
+    double shapes_after = -1e9;                                           // before then no more shapes are sent [s]
     bool is_window = false, is_ticking = false;  // a window of this program; its self-test gives what ours does
     bool is_following = false;                   // it has a scene, and gets what comes
     bool wants_snapshot = false;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/schema.h"
+#include "core/wire/shapes_view.h"
 
 namespace bl::wire {
 
@@ -80,7 +81,7 @@ void Want::declare(MessageBuilder<Want>& m) {
       .required()
       .doc(
           "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, "
-          "`draft_plans`, `keys`.");
+          "`draft_plans`, `keys`, `shapes`, `decisions`.");
   m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }
 void Seen::declare(MessageBuilder<Seen>& m) {
@@ -176,6 +177,7 @@ void StateOut::declare(MessageBuilder<StateOut>& m) {
   m.field(&StateOut::s, "s").required().doc("Number of the last entry that it knows.");
   m.field(&StateOut::set, "set").required().doc("Keys with their new content.");
   m.field(&StateOut::drop, "drop").doc("Keys that are gone.");
+  m.field(&StateOut::whole, "whole").doc("On where the message has all of the view.");
 }
 void PresenceOut::declare(MessageBuilder<PresenceOut>& m) {
   m.id("presence").doc("Who is where; only what has changed.");
@@ -244,23 +246,33 @@ std::vector<const MessageDefinition*> message_kinds() {
           &message_kind<PresenceOut>(), &message_kind<Say>(),         &message_kind<HealthOut>(),  &message_kind<Pong>()};
 }
 
+namespace {
+
+Json schema_of(const MessageDefinition& kind) {
+  Json one = {{"type", "object"}, {"description", kind.doc}, {"properties", {{"t", {{"const", kind.id}}}}}};
+  Json required = Json::array({"t"});
+  for (const PortDefinition& port : kind.ports) {
+    one["properties"][port.id] = value_schema(port);
+    if (port.is_required) required.push_back(port.id);
+  }
+  one["required"] = required;
+  one["additionalProperties"] = false;
+  return one;
+}
+
+}  // namespace
+
 Json message_schema() {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Messages of a room"}};
-  schema["$defs"] = {{"from_page", Json::object()}, {"from_server", Json::object()}};
+  schema["$defs"] = {{"from_page", Json::object()}, {"from_server", Json::object()}, {"shapes", Json::object()}};
   Json any = Json::array();
   for (const MessageDefinition* kind : message_kinds()) {
-    Json one = {{"type", "object"}, {"description", kind->doc}, {"properties", {{"t", {{"const", kind->id}}}}}};
-    Json required = Json::array({"t"});
-    for (const PortDefinition& port : kind->ports) {
-      one["properties"][port.id] = value_schema(port);
-      if (port.is_required) required.push_back(port.id);
-    }
-    one["required"] = required;
-    one["additionalProperties"] = false;
     const char* side = kind->is_from_page ? "from_page" : "from_server";
-    schema["$defs"][side][kind->id] = std::move(one);
+    schema["$defs"][side][kind->id] = schema_of(*kind);
     any.push_back({{"$ref", std::string("#/$defs/") + side + "/" + kind->id}});
   }
+  // No messages: what the keys of the view hold.
+  for (const MessageDefinition* kind : shape_kinds()) schema["$defs"]["shapes"][kind->id] = schema_of(*kind);
   schema["oneOf"] = std::move(any);
   return schema;
 }

@@ -120,6 +120,7 @@ struct StateOut {
   std::int64_t k = 0, s = 0;
   JsonValue set = {};
   std::vector<std::string> drop;
+  bool whole = false;
   static void declare(MessageBuilder<StateOut>& m);
 };
 struct PresenceOut {
@@ -153,7 +154,8 @@ struct Pong {
 
 /// All kinds of messages, by `t` and direction: those with the same name in both directions are two.
 std::vector<const MessageDefinition*> message_kinds();
-/// JSON Schema (2020-12) of all messages: `#/$defs/from_page/NAME` and `#/$defs/from_server/NAME`.
+/// JSON Schema (2020-12) of all messages: `#/$defs/from_page/NAME` and `#/$defs/from_server/NAME`; and of what the keys of the
+/// view `shapes` hold: `#/$defs/shapes/NAME`.
 Json message_schema();
 /// The same as TypeScript: the interfaces `FromPage` and `FromServer`, with a type for each kind of message.
 std::string message_types();

@@ -11,6 +11,7 @@
 #include "core/drawing/palette.h"
 #include "core/geometry/plan_ring.h"
 #include "core/reading/report_model.h"
+#include "core/wire/plan_keys.h"
 
 namespace bl::wire {
 
@@ -65,21 +66,22 @@ std::map<std::string, std::string> plan_view(const State& state) {
   reading::ReportModel model;
   reading::read_model(state, model);
   const drawing::Palette palette(model.use_names());
+  PlanKeys keys;
   const auto put = [&](const std::string& key, const Json& node) { view["n/" + key] = write_json_line(node); };
   for (const reading::SiteRow& site : model.sites) {
     std::string d;
     for (const geometry::Polyline& line : site.plan) d += paths.path(line.points, line.is_closed);
-    put("site/" + site.name, {{"kind", "boundary"}, {"name", site.name}, {"d", d}});
+    put(keys.key("site", site.name), {{"kind", "boundary"}, {"name", site.name}, {"d", d}});
   }
   for (const auto& [name, ring] : model.surroundings.plots)
-    put("plot/" + name, {{"kind", "plot"}, {"name", name}, {"d", paths.path(ring, true)}});
+    put(keys.key("plot", name), {{"kind", "plot"}, {"name", name}, {"d", paths.path(ring, true)}});
   for (const reading::BuildingShape& building : model.surroundings.buildings) {
     std::string d;
     for (const auto& ring : building.rings) d += paths.path(ring, true);
-    put("building/" + building.name, {{"kind", "building"}, {"name", building.name}, {"d", d}, {"use", building.use}});
+    put(keys.key("building", building.name), {{"kind", "building"}, {"name", building.name}, {"d", d}, {"use", building.use}});
   }
   for (const reading::StreetLine& street : model.surroundings.streets)
-    put("street/" + street.name,
+    put(keys.key("street", street.name),
         {{"kind", "street"}, {"name", street.name}, {"d", paths.path(street.line, false)}, {"lanes", street.lanes}});
   for (const reading::VolumeRow& volume : model.volumes)
     if (volume.mesh) put(volume.id, volume_of(state, volume, paths, palette));

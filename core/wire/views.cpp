@@ -9,32 +9,22 @@
 #include "core/base/text.h"
 #include "core/base/unit.h"
 #include "core/define/codec.h"
-#include "core/host/step_labels.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/people.h"
-#include "core/room/refusals.h"
+#include "core/wire/decisions_view.h"
+#include "core/wire/draft_views.h"
 #include "core/wire/messages.h"
 #include "core/wire/plan_view.h"
+#include "core/wire/shapes_view.h"
+#include "core/wire/view_parts.h"
 
 namespace bl::wire {
 
 namespace {
 
-void put(View& view, std::string key, const Json& content) { view[std::move(key)] = write_json_line(content); }
-
 const std::string& name_of(const State& state, std::uint32_t node) {
   const NodePlan& plan = state.plan->nodes[node];
   return plan.name.empty() ? plan.id : plan.name;
-}
-
-std::string words_of(const room::Room& room, const std::string& id) {
-  const room::TextRecord* text = room.text(id);
-  return text == nullptr ? "" : text->body;
-}
-
-std::string seat_name(const room::RoomState& state, const std::string& author) {
-  const auto seat = state.seats.find(room::RoomState::seat_of_author(author));
-  return seat == state.seats.end() ? author : seat->second.name;
 }
 
 // The numbers that a visitor's form asks for, with their usual ranges.
@@ -241,14 +231,14 @@ View comments_view(const ViewSources& sources, std::int64_t seat) {
   View view;
   for (const auto& [id, comment] : sources.room.state().comments) {
     Json json = {{"seat", comment.seat},
-                 {"text", words_of(sources.room, comment.text)},
+                 {"text", text_of(sources.room, comment.text)},
                  {"state", room::kCommentStateNames[static_cast<std::size_t>(comment.state)]}};
     if (!comment.anchor.node.empty()) json["node"] = comment.anchor.node;
     if (!comment.anchor.scenario.empty()) json["scenario"] = comment.anchor.scenario;
     if (comment.anchor.place) json["place"] = {comment.anchor.place->x, comment.anchor.place->y, comment.anchor.place->z};
     if (comment.anchor.tick) json["tick"] = *comment.anchor.tick;
     if (!comment.parent.empty()) json["parent"] = comment.parent;
-    if (!comment.answer.empty()) json["answer"] = words_of(sources.room, comment.answer);
+    if (!comment.answer.empty()) json["answer"] = text_of(sources.room, comment.answer);
     const auto count = [&](int rating) {
       return std::count_if(comment.ratings.begin(), comment.ratings.end(),
                            [rating](const auto& one) { return one.second == rating; });
@@ -258,136 +248,6 @@ View comments_view(const ViewSources& sources, std::int64_t seat) {
     json["minus"] = count(-1);
     json["mine"] = mine == comment.ratings.end() ? 0 : mine->second;
     put(view, id, json);
-  }
-  return view;
-}
-
-Json misfits_of(const std::vector<room::Misfit>& misfits) {
-  Json list = Json::array();
-  for (const room::Misfit& misfit : misfits) list.push_back({{"step", misfit.step}, {"why", misfit.error.text()}});
-  return list;
-}
-
-// A number from what the scene has to what a step sets: `: 1000 to 4000 m³`. Empty where it is not about one number.
-std::string change_of(const ViewSources& sources, const Command& step) {
-  const auto text = [&](const char* name) {
-    const auto found = step.arguments.find(name);
-    const auto* value = found == step.arguments.end() ? nullptr : std::get_if<std::string>(&found->second);
-    return value == nullptr ? std::string() : *value;
-  };
-  Touch place;
-  std::string unit;
-  Json after;
-  if (step.id == "set_link_strength" && step.arguments.contains("strength")) {
-    place = {ScenePart::link, text("id"), "strength"};
-    after = std::get<double>(step.arguments.at("strength"));
-  } else if (step.id == "set_port") {
-    const auto path = parse_port_path(text("port"));
-    const auto port = path ? full_registry().port(*path) : Result<const PortDefinition*>(Error{});
-    const auto value = step.arguments.find("value");
-    const auto* json = value == step.arguments.end() ? nullptr : std::get_if<JsonValue>(&value->second);
-    if (!port || json == nullptr || !json->read()) return "";
-    place = {ScenePart::node, text("node"), "types/" + step_of(path->typification) + "/" + step_of(path->port)};
-    unit = info((*port)->unit).pretty;
-    after = **json->read();
-  }
-  if (!after.is_number()) return "";
-  const auto before = room::value_at(sources.room.scene(), full_registry(), place);
-  const double now = after.get<double>();
-  const std::string set = reading::readable(now), measure = unit.empty() ? "" : " " + unit;
-  if (!before || !(*before->read())->is_number()) return ": " + set + measure;
-  const double past = (*before->read())->get<double>();
-  // A small change is in digits that people need not read elsewhere.
-  const bool is_told = reading::readable(past) != set;
-  return ": " + (is_told ? reading::readable(past) : shortest(past)) + " to " + (is_told ? set : shortest(now)) + measure;
-}
-
-// A step that was taken back has no words, and keeps its number.
-Json words_of_steps(const ViewSources& sources, const room::Draft& draft) {
-  Json words = Json::array();
-  for (const Command& step : draft.steps())
-    words.push_back(
-        step.id.empty() ? "" : host::label_of_step(full_registry(), step, sources.room.scene()) + change_of(sources, step));
-  return words;
-}
-
-Json conflicts_of(const ViewSources& sources, const room::DraftSummary& summary) {
-  const auto content = [](const std::optional<JsonValue>& value) { return value ? Json(**value->read()) : Json(); };
-  Json list = Json::array();
-  for (const room::DraftConflict& conflict : summary.conflicts)
-    list.push_back({{"place", text_of(conflict.place)},
-                    {"label", host::label_of_place(conflict.place, sources.room.scene())},
-                    {"by", seat_name(sources.room.state(), conflict.author)},
-                    {"live", content(conflict.live)},
-                    {"draft", content(conflict.drafted)}});
-  return list;
-}
-
-View proposals_view(const ViewSources& sources) {
-  View view;
-  const room::RoomState& state = sources.room.state();
-  for (const auto& [id, proposal] : state.proposals) {
-    Json json = {{"seat", proposal.seat},
-                 {"title", sources.room.words(proposal.title)},
-                 {"why", words_of(sources.room, proposal.why)},
-                 {"state", room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]},
-                 {"steps", proposal.steps},
-                 {"kept", proposal.kept}};
-    if (!proposal.answer.empty()) json["answer"] = words_of(sources.room, proposal.answer);
-    const auto draft = sources.room.drafts().find(id);
-    if (draft != sources.room.drafts().end()) json["words"] = words_of_steps(sources, draft->second);
-    if (draft != sources.room.drafts().end() && proposal.state == room::ProposalState::proposed) {
-      const room::DraftSummary summary = sources.room.summary_of(id);
-      json["conflicts"] = conflicts_of(sources, summary);
-      json["misfits"] = misfits_of(summary.misfits);
-    }
-    json["trial"] = trial_to_json(sources.trials, id);
-    put(view, id, json);
-  }
-  return view;
-}
-
-View drafts_view(const ViewSources& sources, std::int64_t seat) {
-  View view;
-  for (const auto& [id, draft] : sources.room.drafts()) {
-    if (draft.seat() != seat || draft.state() == room::DraftState::dropped) continue;
-    const room::DraftSummary summary = sources.room.summary_of(id);
-    put(view, id,
-        {{"title", draft.title()},
-         {"state", room::kDraftStateNames[static_cast<std::size_t>(draft.state())]},
-         {"steps", words_of_steps(sources, draft)},
-         {"conflicts", conflicts_of(sources, summary)},
-         {"misfits", misfits_of(summary.misfits)},
-         {"trial", trial_to_json(sources.trials, id)}});
-  }
-  return view;
-}
-
-// The commands of the seat's own drafts, for windows, which make the scene of a draft themselves. A step that was taken back has
-// none.
-View draft_steps_view(const ViewSources& sources, std::int64_t seat) {
-  View view;
-  for (const auto& [id, draft] : sources.room.drafts()) {
-    if (draft.seat() != seat || draft.state() != room::DraftState::open) continue;
-    const std::vector<Command>& steps = draft.steps();
-    for (std::size_t k = 0; k < steps.size(); ++k)
-      if (!steps[k].id.empty()) put(view, id + "/" + std::to_string(k), command_to_json(full_registry(), steps[k]));
-  }
-  return view;
-}
-
-// Of the drafts that pages of this seat look at, those that it may see: its own, and what was proposed.
-View draft_plans_view(const ViewSources& sources, std::int64_t seat) {
-  View view;
-  if (sources.trials == nullptr) return view;
-  const auto looked_at = sources.trials->looked_at.find(seat);
-  if (looked_at == sources.trials->looked_at.end()) return view;
-  for (const std::string& id : looked_at->second) {
-    const auto draft = sources.room.drafts().find(id);
-    const auto trial = sources.trials->trials.find(id);
-    if (draft == sources.room.drafts().end() || trial == sources.trials->trials.end() || !trial->second.picture) continue;
-    if (draft->second.seat() != seat && !sources.room.state().proposals.contains(id)) continue;
-    for (const auto& [key, content] : trial->second.picture->plan) view[id + "/" + key] = content;
   }
   return view;
 }
@@ -412,7 +272,7 @@ bool is_of_seat(std::string_view view) {
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
-bool is_of_state(std::string_view view) { return view == "plan"; }
+bool is_of_state(std::string_view view) { return view == "plan" || view == "shapes"; }
 
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat) {
   if (name == "room") return room_view(sources);
@@ -426,12 +286,14 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "draft_steps") return draft_steps_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
   if (name == "keys") return keys_view(sources, seat);
+  if (name == "decisions") return decisions_view(sources);
+  if (name == "shapes") return shapes_view(sources.state);
   return {};
 }
 
 std::optional<std::string> changes_of(std::string_view name, const View* before, const View& now, std::int64_t tick,
                                       std::int64_t seq) {
-  StateOut message{.view = std::string(name), .k = tick, .s = seq, .set = {}, .drop = {}};
+  StateOut message{.view = std::string(name), .k = tick, .s = seq, .set = {}, .drop = {}, .whole = before == nullptr};
   Json set = Json::object();
   for (const auto& [key, content] : now) {
     const auto old = before == nullptr ? View::const_iterator() : before->find(key);

@@ -29,8 +29,9 @@ struct ViewSources {
 
 /// The names of all views. Of these, `card`, `votes`, `comments`, `drafts`, `draft_steps`, `draft_plans` and `keys` are
 /// different for each seat.
-inline constexpr std::string_view kViewNames[] = {"room",      "plan",   "figures",     "card",        "votes", "comments",
-                                                  "proposals", "drafts", "draft_steps", "draft_plans", "keys"};
+inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figures",  "card",        "votes",
+                                                  "comments", "proposals", "drafts",   "draft_steps", "draft_plans",
+                                                  "keys",     "shapes",    "decisions"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
 /// Whether it is the same as long as the scene's state is, whatever happens in the room.

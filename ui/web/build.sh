@@ -12,7 +12,10 @@ rm -rf "$new"
 mkdir -p "$new/assets"
 target=es2019,chrome70,safari13,firefox68
 bundled() { "$esbuild" "$@" --bundle --minify --target=$target --charset=utf8 --legal-comments=none --log-level=warning; }
-bundled src/page.tsx --format=iife --jsx=automatic --jsx-import-source=preact --supported:dynamic-import=true \
+# The picture in three dimensions comes when somebody asks for it.
+bundled src/space/picture.ts --format=esm --entry-names='space-[hash]' --outdir="$new/assets"
+chunks=$(cd "$new/assets" && printf '{"space":"/assets/%s"}' "$(ls space-*.js)")
+bundled src/page.tsx --format=iife --define:CHUNKS="$chunks" --jsx=automatic --jsx-import-source=preact --supported:dynamic-import=true \
   --entry-names='[name]-[hash]' --outdir="$new/assets"
 script=$(cd "$new/assets" && ls page-*.js)
 bundled src/words/de.ts src/words/ko.ts src/words/nl.ts --format=esm --entry-names='[name]-[hash]' --outdir="$new/assets"
@@ -34,6 +37,7 @@ for file in index.html $(cd "$new" && ls assets/*); do
   gzip -9 -n -k "$new/$file"
   bytes=$(wc -c <"$new/$file.gz")
   case $file in index.html | */page-*) total=$((total + bytes)) ;; esac
+  case $file in */space-*) [ "$bytes" -le 135000 ] || { echo 'The script of the picture in three dimensions has grown too large.' >&2; exit 1; } ;; esac
   printf '%7d bytes, %6d compressed  %s\n' "$(wc -c <"$new/$file")" "$bytes" "$file"
 done
 printf '%7s        %6d compressed  in all, in English\n' '' "$total"

@@ -13,7 +13,7 @@ node --test test/*.test.mjs
 if [ -n "$(chromium_of)" ]; then
   CHROMIUM=$(chromium_of)
   export CHROMIUM
-  if [ -n "${BEHAVIOURLINKS:-}" ]; then node test/real_room.mjs && node test/real_follow.mjs; fi
+  if [ -n "${BEHAVIOURLINKS:-}" ]; then node test/real_room.mjs && node test/real_space.mjs && node test/real_follow.mjs; fi
   node test/screens.mjs "$@"
 else echo 'The screens were not looked at: there is no chromium. Install the package `chromium` for that.'
 fi

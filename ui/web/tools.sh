@@ -7,8 +7,8 @@ esbuild=$(command -v esbuild || true)
 
 # need_modules run_time|development: installs what package-lock.json names, without running scripts of packages.
 need_modules() {
-  if [ "$1" = run_time ] && [ -f node_modules/preact/package.json ] && [ -x "$esbuild" ]; then return; fi
-  if [ "$1" = development ] && [ -d node_modules/playwright-core ] && [ -d node_modules/typescript ]; then return; fi
+  if [ "$1" = run_time ] && [ -f node_modules/preact/package.json ] && [ -f node_modules/three/package.json ] && [ -x "$esbuild" ]; then return; fi
+  if [ "$1" = development ] && [ -d node_modules/playwright-core ] && [ -d node_modules/typescript ] && [ -d node_modules/@types/three ]; then return; fi
   command -v npm >/dev/null || { echo 'The page needs npm once: install the packages `nodejs` and `npm`.' >&2; exit 1; }
   if [ "$1" = run_time ] && command -v esbuild >/dev/null; then npm ci --ignore-scripts --omit=dev --no-audit --no-fund >&2
   else npm ci --ignore-scripts --no-audit --no-fund >&2

@@ -185,6 +185,28 @@ TEST_F(RoomHosts, ItGoesOnWhereItWas) {
   EXPECT_EQ((*lead->last("state"))["set"]["phase"]["name"], "Look");
 }
 
+// Volumes of the quarter move for a while after it is opened.
+TEST_F(RoomHosts, ShapesInMotionComeNoFasterThanAPhoneCanTake) {
+  const auto guest = join("phone", "", {"room", "shapes"});
+  const auto now = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+  double after = 0, begun = 0;
+  std::size_t seen = 0, messages = 0, early = 0;
+  run_until([&] {
+    for (; seen < guest->frames.size(); ++seen) {
+      const Json& frame = guest->frames[seen];
+      if (frame["t"] != "state" || frame["view"] != "shapes") continue;
+      // Two looks at the clock are a little apart.
+      if (now() < after - 0.02) ++early;
+      EXPECT_EQ(frame.contains("whole"), messages == 0);
+      after = now() + static_cast<double>(write_json_line(frame).size()) / 12000;
+      if (++messages == 1) begun = now();
+    }
+    return messages >= 4 || (messages > 0 && now() > begun + 15);
+  });
+  EXPECT_GE(messages, 4u) << "they move";
+  EXPECT_EQ(early, 0u);
+}
+
 TEST_F(RoomHosts, AGuestThatTakesNothingIsSentAwayAndNobodyElse) {
   const auto lead = join("a", "facilitator", {"room"}), slow = join("b", "", {"room"});
   slow->is_stalled = true;

@@ -63,6 +63,33 @@ TEST(Views, KeysAreForWhoLeads) {
   }
 }
 
+TEST(Views, DecisionsHaveTheirWordsUntilTheseAreErased) {
+  World world = World::from_file("scenes/start/quarter.json");
+  room::Room room(world.session().ledger(), {});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(room.admit({.role = Role::facilitator}, {0, 0})));
+  std::int64_t id = 0;
+  const auto say = [&](const char* event) {
+    room::Operation operation{.run = "r", .id = ++id, .kind = room::OperationKind::event};
+    operation.content = std::string(event);
+    (void)room.submit(1, operation, {0, 500});
+  };
+  say(R"({"event": "set_phase", "arguments": {"name": "Explore"}})");
+  say(R"({"event": "mark", "arguments": {"text": "We keep the mill."}})");
+  const auto shown = [&] {
+    std::string all;
+    for (const auto& [key, content] : make_view("decisions", {world.state(), room, "", ""}, 1)) {
+      const Json one = *parse_json(content);
+      all += one["kind"].get<std::string>() + ":" + one.value("title", "") + one.value("text", "") + " ";
+      EXPECT_EQ(one["at"], 500);
+      EXPECT_EQ(one["seat"], 1);
+    }
+    return all;
+  };
+  EXPECT_EQ(shown(), "phase:Explore mark:We keep the mill. ");
+  say(R"({"event": "forget", "arguments": {"seat": 1}})");
+  EXPECT_EQ(shown().find("mill"), std::string::npos);
+}
+
 TEST(Views, ThePlanHasEveryVolumeAndItsBoxHoldsThem) {
   World world = World::from_file("scenes/start/quarter.json");
   world.settle();

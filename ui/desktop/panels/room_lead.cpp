@@ -23,8 +23,9 @@ struct NamedChoice {
 };
 constexpr NamedChoice kActivities[] = {{"change", "change"}, {"draft", "draft"}, {"comment", "comment"}, {"vote", "vote"}};
 constexpr NamedChoice kDoors[] = {{"open", "open"}, {"asks", "asks"}, {"shut", "shut"}};
-constexpr NamedChoice kLayouts[] = {
-    {"plan", "plan"}, {"compare", "comparison"}, {"vote", "vote"}, {"comments", "comments"}, {"code", "code"}};
+constexpr NamedChoice kLayouts[] = {{"plan", "plan"},         {"compare", "comparison"},      {"vote", "vote"},
+                                    {"comments", "comments"}, {"marks", "numbered comments"}, {"space", "3D"},
+                                    {"code", "code"}};
 
 std::int64_t phase_clock() {
   using namespace std::chrono;

@@ -113,12 +113,17 @@ export class Connection {
     return item;
   }
 
-  /// Asks for one more view. Views are never given back: a change that is under way could else be taken for a whole view.
+  /// Asks for one more view.
   want(views: ViewName[]): void {
     const fresh = views.filter((view) => !this.views.has(view));
     if (fresh.length === 0) return;
     for (const view of fresh) this.views.add(view);
     if (this.isGreeted) this.sendWant();
+  }
+
+  /// Gives a view back whose first message says that it has all of it: a change that is under way is then taken for none.
+  release(view: ViewName): void {
+    if (this.views.delete(view) && this.isGreeted) this.sendWant();
   }
 
   /// The drafts that are on the screen: the server tries those.

@@ -31,6 +31,11 @@ export function duration(milliseconds: number): string {
   return seconds < 120 ? t("seconds", { n: seconds }) : t("minutes", { n: Math.floor(seconds / 60) });
 }
 
+/// The time of day, as the language writes it.
+export function clock_time(at: number): string {
+  return new Date(at).toLocaleTimeString(locale(), { hour: "2-digit", minute: "2-digit" });
+}
+
 /// What a timer shows, such as "4:07".
 export function countdown(milliseconds: number): string {
   const seconds = Math.max(0, Math.ceil(milliseconds / 1000));

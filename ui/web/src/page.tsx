@@ -6,7 +6,6 @@ import { browser_world, early_run, keep, kept, socket_address, speak, tab_keep, 
 import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine } from "./parts";
 import { unpacked } from "./handover";
 import { kFirstViews } from "./hello";
-import { Plan } from "./plan";
 import { Beamer } from "./screens/beamer";
 import { Card } from "./screens/card";
 import { Form } from "./screens/form";
@@ -18,6 +17,7 @@ import { Now } from "./screens/now";
 import { PlanScreen } from "./screens/plan_screen";
 import { Votes } from "./screens/votes";
 import { Queue } from "./queue";
+import { PlanOrSpace } from "./space";
 import { Session } from "./session";
 import { Tab, Ui, useWatched, useWide } from "./ui";
 import { Wifi, wifi_of_address } from "./wifi";
@@ -121,7 +121,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
       <Navigation s={s} ui={ui} />
       {isWide ? (
         <aside aria-label={t("plan")}>
-          <Plan
+          <PlanOrSpace
             s={s}
             binding={ui.binding ?? { pins: [], onTap: (_, node) => ui.set({ selected: node }) }}
             selected={ui.selected}

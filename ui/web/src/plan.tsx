@@ -1,10 +1,10 @@
 // The plan: outlines that people move and enlarge by fingers, wheel, keys or buttons, and touch to ask what they are.
-import type { JSX } from "preact";
+import type { ComponentChildren, JSX } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Extent, extent_of, middle_of, points_of } from "./outline";
 import { Icon } from "./parts";
 import type { Session } from "./session";
-import { Binding, Pin, Ui, useBinding, useWide } from "./ui";
+import type { Binding, Pin } from "./ui";
 import type { PlanItem, Point } from "./wire";
 import { t } from "./words";
 
@@ -189,9 +189,10 @@ export interface PlanProps {
   selected: string | null;
   label?: number;
   isStill?: boolean;
+  children?: ComponentChildren; ///< drawn over the outlines, in metres with y downwards
 }
 
-export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): JSX.Element {
+export function Plan({ s, binding, selected, label = 12, isStill, children }: PlanProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const [size, setSize] = useState<[number, number]>([360, 300]);
   const [view, setView] = useState<View>({ zoom: 1, centre: [0, 0] });
@@ -292,6 +293,7 @@ export function Plan({ s, binding, selected, label = 12, isStill }: PlanProps): 
           {items.map(([id, item]) => (
             <Shape key={id} id={id} item={item} isSelected={id === selected} />
           ))}
+          {children}
           {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82]).map((name) => (
             <Label key={name.id} name={name} />
           ))}
@@ -412,11 +414,4 @@ function useFingers(
       element.removeEventListener("wheel", wheel);
     };
   }, [moves.isStill]);
-}
-
-/// The plan where the screen has room for it: inside a narrow screen, beside a wide one.
-export function PlanHere({ s, ui, binding }: { s: Session; ui: Ui; binding: Binding }): JSX.Element | null {
-  const isWide = useWide();
-  useBinding(ui, isWide ? binding : null);
-  return isWide ? null : <Plan s={s} binding={binding} selected={ui.selected} />;
 }

@@ -37,6 +37,8 @@ const kEmpty = (): Views => ({
   drafts: {},
   draft_plans: {},
   keys: {},
+  decisions: {},
+  shapes: {},
 });
 const kMostLooked = 4; // drafts
 const kMoved = 10000; // after so long without a connection, other addresses are offered
@@ -97,6 +99,11 @@ export class Session {
   want(...views: ViewName[]): void {
     for (const view of views) if (!this.arrived.has(view)) this.stale.add(view);
     this.connection.want(views);
+  }
+
+  /// The view is on no screen any more. What is known of it stays until all of it comes again.
+  release(view: ViewName): void {
+    this.connection.release(view);
   }
 
   /// These drafts are on the screen. A server that does not try drafts is not asked to.
@@ -273,7 +280,8 @@ export class Session {
     const view = state.view as ViewName;
     if (!(view in this.views)) return;
     if (view === "votes") for (const [id, vote] of Object.entries(this.views.votes)) if (vote.open) this.lastVote = id;
-    const kept = this.stale.delete(view) ? {} : { ...this.views[view] };
+    const isWhole = this.stale.delete(view) || state.whole === true;
+    const kept = isWhole ? {} : { ...this.views[view] };
     const next: Record<string, Json> = { ...(kept as Record<string, Json>) };
     for (const [key, value] of Object.entries(state.set ?? {})) next[key] = whole(view, key, value);
     for (const key of state.drop ?? []) delete next[key];

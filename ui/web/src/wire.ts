@@ -23,7 +23,7 @@ export type Why =
   | "storage"
   | "draining"
   | "gap";
-export type Layout = "plan" | "compare" | "vote" | "comments" | "code";
+export type Layout = "plan" | "compare" | "vote" | "comments" | "marks" | "space" | "code";
 export type Door = "open" | "asks" | "shut";
 
 /// What a person does: an operation without its number, which the connection gives it.
@@ -256,6 +256,17 @@ export interface Draft {
   trial?: Trial | null;
 }
 
+/// Something that was decided before all.
+export interface Decision {
+  kind: "proposal" | "vote" | "phase" | "restart" | "rewind" | "mark";
+  seat: number; ///< who has decided
+  at: number; ///< [ms since 1970]
+  title?: string;
+  text?: string;
+  of?: number; ///< the seat whose proposal it was
+  vote?: string; ///< what it came to stands in the view of the votes
+}
+
 export interface Views {
   room: RoomView;
   plan: Record<string, Json | undefined> & { box?: Box };
@@ -267,5 +278,7 @@ export interface Views {
   drafts: Record<string, Draft>;
   keys: Partial<Record<Role, string>>; ///< of invitations; empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
+  decisions: Record<string, Decision>; ///< by entry
+  shapes: Record<string, Json>; ///< what space/contents has the types of
 }
 export type ViewName = keyof Views;

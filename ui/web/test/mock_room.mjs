@@ -1,5 +1,5 @@
 // A room with a small scene that speaks the contract of messages, so that the page can be tested without the real server.
-import { disc, first_views, health } from "./mock_scene.mjs";
+import { disc, first_views, health, shapes_of } from "./mock_scene.mjs";
 
 const kAnimals = ["Heron", "Otter", "Lynx", "Badger", "Curlew", "Marten", "Beaver", "Swift", "Stoat", "Plover"];
 const kColours = ["#1f6f8b", "#8a5a00", "#6d3f9c", "#2c6e49", "#a0341b", "#34507a", "#7a3555", "#4d6b12", "#0b6b60", "#5a4a3a"];
@@ -57,6 +57,8 @@ export class MockRoom {
   view(name, seat) {
     if (name === "room") return { ...this.room, seats: this.seats };
     if (name === "plan") return this.plan;
+    if (name === "decisions") return this.decisions;
+    if (name === "shapes") return shapes_of(this.plan);
     if (name === "draft_plans") return this.draft_plans(seat);
     if (name === "figures") return this.figures;
     if (name === "card") return ["facilitator", "viewer"].includes(this.seats[seat]?.role) ? {} : this.card;
@@ -147,7 +149,7 @@ export class MockRoom {
         const drop = before ? Object.keys(before).filter((key) => !(key in texts)) : [];
         if (before && Object.keys(set).length === 0 && drop.length === 0) continue;
         link.shown.set(name, texts);
-        this.tell(link, { t: "state", view: name, k: this.tick, s: this.seq, set, drop });
+        this.tell(link, { t: "state", view: name, k: this.tick, s: this.seq, set, drop, ...(before ? {} : { whole: true }) });
       }
     }
   }
@@ -179,6 +181,7 @@ export class MockRoom {
     if (m.t === "want") {
       link.views = new Set(m.views);
       link.drafts = m.drafts ?? [];
+      for (const name of [...link.shown.keys()]) if (!link.views.has(name)) link.shown.delete(name);
       return this.publish();
     }
     if (m.t === "presence") {

@@ -53,6 +53,19 @@ function plan_of_scene() {
   return plan;
 }
 
+/// The volumes of a plan as upright bodies, and its other outlines on the ground.
+export function shapes_of(plan) {
+  const shapes = { space: { t: "space", origin: [0, 0, 0], is_coarse: true, left_out: 2 } };
+  for (const [key, item] of Object.entries(plan)) {
+    // Outlines of volumes have absolute places.
+    const numbers = item.kind === "volume" ? (item.d.match(/-?[\d.]+/g) ?? []).map((value) => Math.round(100 * value)) : [];
+    if (numbers.length === 0) continue;
+    const ring = numbers.map((value, i) => (i % 2 ? -value : value));
+    shapes[key] = { t: "prism", ring, low: 0, high: 100 * (item.figures.find(([label]) => label === "height")?.[1] ?? 10) };
+  }
+  return shapes;
+}
+
 const vote = (question, kind, more) => ({
   question,
   kind,
@@ -127,6 +140,14 @@ export const health = () => ({
 export function first_views() {
   return {
     plan: plan_of_scene(),
+    // The last decisions, by entry.
+    decisions: {
+      12: { kind: "phase", seat: 1, at: Date.UTC(2026, 4, 4, 12, 5), title: "Arriving" },
+      21: { kind: "proposal", seat: 1, at: Date.UTC(2026, 4, 4, 12, 31), title: "A bench at the mill", of: 2, text: "It costs little." },
+      30: { kind: "vote", seat: 1, at: Date.UTC(2026, 4, 4, 12, 44), vote: "bridge" },
+      33: { kind: "rewind", seat: 1, at: Date.UTC(2026, 4, 4, 12, 50) },
+      38: { kind: "mark", seat: 1, at: Date.UTC(2026, 4, 4, 12, 58), text: "The mill stays." },
+    },
     room: {
       title: "A mixed quarter",
       code: "BCDF",

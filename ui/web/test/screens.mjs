@@ -25,7 +25,7 @@ const faults = [];
 // A name that is no "localhost" has no secure context, like a laptop in a Wi-Fi.
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--host-resolver-rules=MAP room.test 127.0.0.1, MAP other.test 127.0.0.1"],
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP room.test 127.0.0.1, MAP other.test 127.0.0.1"],
 });
 
 /// A browser of its own for one person. Every request elsewhere, error and breach of the policy is a fault.
@@ -255,10 +255,11 @@ async function walk_beamer(server, size, scheme) {
   room.phase("Exploring the block", ["change"], { ends_at: Date.now() + 400000 });
   const page = await person(server, { size, scheme, fragment: "#k=SHOW&beamer" });
   await page.waitForSelector(".shape");
-  for (const layout of ["plan", "compare", "vote", "comments", "code"]) {
+  for (const layout of ["plan", "compare", "vote", "comments", "marks", "space", "code"]) {
     room.open_votes(...(layout === "vote" ? ["uses"] : []));
     room.room.layout = layout;
     room.publish();
+    if (layout === "space") await page.waitForSelector(".space .north").then(() => page.waitForTimeout(900));
     await look(page, `beamer_${layout}_${at}`, { isBeamer: true });
   }
   // A beamer on a computer of its own is told the Wi-Fi by its address, which does not keep it.
@@ -299,6 +300,75 @@ async function lost_connection(server) {
   await page.waitForSelector('.status:has-text("Everything is saved")', { timeout: 20000 });
   const sizes = new Set(room.log.filter((m) => m.c?.command === "set_port").map((m) => m.c.arguments.value));
   assert.equal(room.card.controls[0].value, [...sizes].pop(), "what waited is applied after a reload");
+  await page.context().close();
+}
+
+/// Who comes late reads the last decisions, the newest first, with what a vote came to.
+async function happened(server) {
+  const { room } = server;
+  room.open_votes();
+  const page = await joined(server);
+  await page.waitForSelector(".happened li");
+  const said = await page.$$eval(".happened li", (all) => all.map((one) => one.textContent));
+  assert.equal(said.length, 5);
+  assert.match(said[0], /Decision · .*The mill stays\./);
+  assert.match(said[1], /Taken back/);
+  assert.match(said[2], /Vote closed · .*bridge.*Yes, 67/i);
+  assert.match(said[3], /Proposal accepted · .*A bench at the mill.*It costs little\./);
+  await page.evaluate(() => document.querySelector(".happened").scrollIntoView());
+  await look(page, "happened_390x844_light");
+  room.decisions = { ...room.decisions, 41: { kind: "vote", seat: 1, at: Date.now(), vote: "height" } };
+  delete room.decisions[12];
+  room.open_votes("height");
+  room.publish();
+  await page.waitForSelector('.happened li:has-text("It is open again")');
+  assert.equal(await page.locator(".happened li").count(), 5);
+  await page.context().close();
+}
+
+/// The picture in three dimensions, with its buttons and by keys, as far as people see and use it; its shapes are the real server's test.
+async function space(server) {
+  for (const [size, scheme] of [
+    [[320, 568], "light"],
+    [[390, 844], "dark"],
+    [[1280, 800], "light"],
+  ]) {
+    const page = await joined(server, { size, scheme, motion: "reduce" }),
+      at = `${size[0]}x${size[1]}_${scheme}`;
+    await tab(page, "Plan");
+    assert.equal(await page.evaluate(() => performance.getEntriesByType("resource").filter((one) => one.name.includes("/space-")).length), 0);
+    await page.click('button:text-is("3D")');
+    await page.waitForSelector(".space .north");
+    await page.waitForTimeout(800);
+    await look(page, `space_${at}`);
+    const north = () => page.getAttribute(".north g", "transform");
+    const before = await north();
+    await page.focus('[aria-label="Turn to the right"]');
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForTimeout(400);
+    const after = await north();
+    assert.notEqual(after, before, "keys turn it");
+    await page.keyboard.press("0");
+    await page.waitForTimeout(400);
+    assert.equal(await north(), before);
+    await page.click('button[aria-label="Move instead of turning"]');
+    await look(page, `space_moving_${at}`);
+    await page.click('button:text-is("3D")');
+    await page.waitForSelector(".paper svg");
+    await page.context().close();
+  }
+  // Its script does not come: there is a sentence, and it can be asked for again.
+  const page = await joined(server),
+    known = faults.length;
+  await page.route("**/space-*.js", (route) => route.abort());
+  await tab(page, "Plan");
+  await page.click('button:text-is("3D")');
+  await page.waitForSelector('.said:has-text("could not be loaded")');
+  faults.length = known; // the console says that it did not come
+  await look(page, "space_missing_390x844_light");
+  await page.unroute("**/space-*.js");
+  await page.click('.said button:has-text("Load again")');
+  await page.waitForSelector(".space .north");
   await page.context().close();
 }
 
@@ -588,6 +658,8 @@ const parts = {
   stale_change,
   leads,
   people_and_cards,
+  happened,
+  space,
   swipe,
   dots_by_touch,
   visitors_form,

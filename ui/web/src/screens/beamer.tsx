@@ -2,27 +2,26 @@
 import type { JSX } from "preact";
 import { amount, countdown, duration } from "../format";
 import { Moved, StatusWord } from "../parts";
-import { Plan } from "../plan";
 import { CodePicture } from "../qr_picture";
 import type { Session } from "../session";
+import { PlanOrSpace, SpaceAlone } from "../space";
 import { useClock } from "../ui";
-import type { Pin } from "../ui";
 import type { Vote } from "../wire";
 import { t } from "../words";
 import { option_label } from "./ballot_forms";
-import { comment_pins } from "./ideas";
+import { CommentsLayout, CompareLayout } from "./beamer_layouts";
 import { Codes, join_address } from "./invitations";
-import { CompareTable } from "./proposals";
 import { ResultOf, Turnout } from "./votes";
 
 const kOld = 5000;
 
-function PlanLayout({ s, pins }: { s: Session; pins: Pin[] }): JSX.Element {
+function PlanLayout({ s, isSpace }: { s: Session; isSpace?: boolean }): JSX.Element {
   const figures = Object.entries(s.views.figures).slice(0, 3),
-    size = Math.ceil(window.innerHeight / 25);
+    size = Math.ceil(window.innerHeight / 25),
+    Seen = isSpace ? SpaceAlone : PlanOrSpace;
   return (
     <div class={`stage ${figures.length > 0 ? "with-side" : ""}`}>
-      <Plan s={s} binding={{ pins, onTap: () => undefined }} selected={null} label={size} isStill />
+      <Seen s={s} binding={null} selected={null} label={size} isStill />
       {figures.length === 0 ? null : (
       <ul class="side">
         {figures.map(([id, figure]) => (
@@ -47,7 +46,7 @@ function vote_shown(s: Session): Vote | null {
 
 function VoteLayout({ s }: { s: Session }): JSX.Element {
   const vote = vote_shown(s);
-  if (!vote) return <PlanLayout s={s} pins={[]} />;
+  if (!vote) return <PlanLayout s={s} />;
   return (
     <div class="stage text">
       <h2>{vote.question}</h2>
@@ -61,37 +60,6 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
         </ol>
       )}
       <Turnout vote={vote} />
-    </div>
-  );
-}
-
-function CompareLayout({ s }: { s: Session }): JSX.Element {
-  const all = Object.values(s.views.proposals).filter((one) => one.state === "proposed"),
-    [left, right] = all;
-  if (!left || !right) return <PlanLayout s={s} pins={[]} />;
-  return (
-    <div class="stage text">
-      <CompareTable s={s} left={left} right={right} isShort />
-    </div>
-  );
-}
-
-function CommentsLayout({ s }: { s: Session }): JSX.Element {
-  const top = Object.entries(s.views.comments)
-    .map(([id, comment], i) => ({ id, comment, n: i + 1 }))
-    .filter(({ comment }) => !comment.parent);
-  const best = [...top].sort((a, b) => b.comment.plus - b.comment.minus - (a.comment.plus - a.comment.minus)).slice(0, 3);
-  const size = Math.ceil(window.innerHeight / 25);
-  return (
-    <div class="stage with-side">
-      <Plan s={s} binding={{ pins: comment_pins(s), onTap: () => undefined }} selected={null} label={size} isStill />
-      <ul class="side said">
-        {best.map(({ id, comment, n }) => (
-          <li key={id}>
-            <b class="spot say">{n}</b> {comment.text.length > 90 ? `${comment.text.slice(0, 88)}…` : comment.text}
-          </li>
-        ))}
-      </ul>
     </div>
   );
 }
@@ -115,13 +83,15 @@ export function Beamer({ s }: { s: Session }): JSX.Element {
     layout === "vote" ? (
       <VoteLayout s={s} />
     ) : layout === "compare" ? (
-      <CompareLayout s={s} />
-    ) : layout === "comments" ? (
-      <CommentsLayout s={s} />
+      <CompareLayout s={s} otherwise={<PlanLayout s={s} />} />
+    ) : layout === "comments" || layout === "marks" ? (
+      <CommentsLayout s={s} isNumbered={layout === "marks"} />
+    ) : layout === "space" ? (
+      <PlanLayout s={s} isSpace />
     ) : layout === "code" ? (
       <CodeLayout s={s} />
     ) : (
-      <PlanLayout s={s} pins={[]} />
+      <PlanLayout s={s} />
     );
   return (
     <main class="beamer">

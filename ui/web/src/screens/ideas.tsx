@@ -2,7 +2,8 @@
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { Icon, MarkState, Segments, Title } from "../parts";
-import { PlanHere, middle } from "../plan";
+import { middle } from "../plan";
+import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Pin, Ui } from "../ui";
 import type { Comment, Json, Point } from "../wire";

@@ -184,7 +184,7 @@ function VoteRow({ s, id, vote }: { s: Session; id: string; vote: Vote }): JSX.E
 
 function BeamerPart({ s }: { s: Session }): JSX.Element {
   const { room } = s.views,
-    layouts: Layout[] = ["plan", "compare", "vote", "comments", "code"];
+    layouts: Layout[] = ["plan", "compare", "vote", "comments", "marks", "space", "code"];
   return (
     <section class="panel">
       <header class="row spread">

@@ -1,10 +1,11 @@
 // The one thing to do now, which the phase of the session gives.
 import type { JSX } from "preact";
 import { Icon, Title, Timer } from "../parts";
-import { PlanHere } from "../plan";
+import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Tab, Ui } from "../ui";
 import { t } from "../words";
+import { Happened } from "./happened";
 import { WhatIsThis } from "./plan_screen";
 
 interface Task {
@@ -93,6 +94,7 @@ export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       </section>
       <PlanHere s={s} ui={ui} binding={{ pins: [], onTap: (_, node) => ui.set({ selected: node }) }} />
       <WhatIsThis s={s} ui={ui} />
+      <Happened s={s} />
     </>
   );
 }

@@ -3,7 +3,7 @@ import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { amount } from "../format";
 import { Icon, Segments, StatusWord, Title } from "../parts";
-import { PlanHere } from "../plan";
+import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
 import { Key, t } from "../words";

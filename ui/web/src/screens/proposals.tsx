@@ -166,7 +166,7 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
 }
 
 /// Two proposals, one row for each thing that can differ.
-export function CompareTable({ s, left, right, isShort }: { s: Session; left: Proposal; right: Proposal; isShort?: boolean }): JSX.Element {
+function CompareTable({ s, left, right }: { s: Session; left: Proposal; right: Proposal }): JSX.Element {
   const list = (words: string[]): JSX.Element =>
     words.length > 0 ? (
       <ul>
@@ -177,8 +177,7 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
     ) : (
       <>{t("none")}</>
     );
-  const both = [left, right],
-    figures = figures_of_both(both);
+  const both = [left, right];
   return (
     <table class="compare">
       <thead>
@@ -194,58 +193,48 @@ export function CompareTable({ s, left, right, isShort }: { s: Session; left: Pr
         </tr>
       </thead>
       <tbody>
-        {isShort ? null : (
-          <tr>
-            <th scope="row">{t("compare_state")}</th>
-            {both.map((one, i) => (
-              <td key={i}>
-                {state_word(one.state)}
-                <br />
-                <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
-              </td>
-            ))}
-          </tr>
-        )}
-        {isShort && figures.length > 0 ? null : (
-          <tr>
-            <th scope="row">{t("proposal_why")}</th>
-            {both.map((one, i) => (
-              <td key={i}>{one.why || t("none")}</td>
-            ))}
-          </tr>
-        )}
+        <tr>
+          <th scope="row">{t("compare_state")}</th>
+          {both.map((one, i) => (
+            <td key={i}>
+              {state_word(one.state)}
+              <br />
+              <span class="faint">{t("proposal_by", { name: s.seatName(one.seat) })}</span>
+            </td>
+          ))}
+        </tr>
+        <tr>
+          <th scope="row">{t("proposal_why")}</th>
+          {both.map((one, i) => (
+            <td key={i}>{one.why || t("none")}</td>
+          ))}
+        </tr>
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => (
-            <td key={i}>{list(one.words.filter(Boolean).slice(0, isShort ? 3 : undefined))}</td>
+            <td key={i}>{list(one.words.filter(Boolean))}</td>
           ))}
         </tr>
-        {figures_of_both(both)
-          .slice(0, isShort ? 2 : undefined)
-          .map((figure) => (
-            <tr key={figure.id}>
-              <th scope="row">{figure.name}</th>
-              {both.map((one, i) => (
-                <TrialCells key={i} figure={one.trial?.figures.find((other) => other.id === figure.id)} />
-              ))}
-            </tr>
+        {figures_of_both(both).map((figure) => (
+          <tr key={figure.id}>
+            <th scope="row">{figure.name}</th>
+            {both.map((one, i) => (
+              <TrialCells key={i} figure={one.trial?.figures.find((other) => other.id === figure.id)} />
+            ))}
+          </tr>
+        ))}
+        <tr>
+          <th scope="row">{t("proposal_conflicts")}</th>
+          {both.map((one, i) => (
+            <td key={i}>{list(conflicts_of(one).map(conflict_words))}</td>
           ))}
-        {isShort ? null : (
-          <>
-            <tr>
-              <th scope="row">{t("proposal_conflicts")}</th>
-              {both.map((one, i) => (
-                <td key={i}>{list(conflicts_of(one).map(conflict_words))}</td>
-              ))}
-            </tr>
-            <tr>
-              <th scope="row">{t("proposal_misfits")}</th>
-              {both.map((one, i) => (
-                <td key={i}>{list(one.misfits.map((misfit) => t("misfit_at", { n: misfit.step + 1, why: misfit.why })))}</td>
-              ))}
-            </tr>
-          </>
-        )}
+        </tr>
+        <tr>
+          <th scope="row">{t("proposal_misfits")}</th>
+          {both.map((one, i) => (
+            <td key={i}>{list(one.misfits.map((misfit) => t("misfit_at", { n: misfit.step + 1, why: misfit.why })))}</td>
+          ))}
+        </tr>
       </tbody>
     </table>
   );

@@ -17,7 +17,7 @@ function state_words(trial: Trial): string {
 const signed = (value: number, unit: string): string => `${value > 0 ? "+" : value < 0 ? "−" : "±"}${amount(Math.abs(value), unit)}`;
 
 /// One row for each indicator: without the draft, with it, and what that makes.
-export function TrialFigures({ trial }: { trial?: Trial | null }): JSX.Element | null {
+export function TrialFigures({ trial, most }: { trial?: Trial | null; most?: number }): JSX.Element | null {
   if (trial === undefined) return null;
   return (
     <section class="trial">
@@ -35,7 +35,7 @@ export function TrialFigures({ trial }: { trial?: Trial | null }): JSX.Element |
             </tr>
           </thead>
           <tbody>
-            {trial.figures.map((figure) => (
+            {trial.figures.slice(0, most).map((figure) => (
               <tr key={figure.id}>
                 <th scope="row">{figure.name}</th>
                 <td>{figure.before ? amount(figure.before.value, figure.unit) : t("none")}</td>
@@ -71,7 +71,8 @@ export function figures_of_both(both: Proposal[]): TrialFigure[] {
 
 const kOrder = ["boundary", "plot", "street", "building", "volume"];
 
-function Picture({
+/// A plan without names. Thick outlines differ from the model.
+export function PlanPicture({
   items,
   box,
   live,
@@ -115,10 +116,10 @@ export function TwoPlans({ s, left, right }: { s: Session; left: string; right: 
       <h3>{t("compare_plans")}</h3>
       <div class="layers" style={{ aspectRatio: `${all.width + 2 * margin} / ${all.height + 2 * margin}` }}>
         <div class="layer">
-          <Picture items={second} box={box} live={live} label={title(right)} />
+          <PlanPicture items={second} box={box} live={live} label={title(right)} />
         </div>
         <div class="layer" style={{ clipPath: `inset(0 ${100 - share}% 0 0)` }}>
-          <Picture items={first} box={box} live={live} label={title(left)} />
+          <PlanPicture items={first} box={box} live={live} label={title(left)} />
         </div>
         <b class="corner first" aria-hidden="true">
           {share > 0 ? title(left) : ""}

@@ -1,0 +1,82 @@
+// Views are made of a moment, wait until it is stored, and go to each visitor as the difference from what they were shown last.
+#include "core/serve/room_frames.h"
+#include "core/serve/room_host.h"
+
+namespace bl::serve {
+
+namespace {
+
+// A phone in motion gets 20 kB a second, of which the shapes may have this much [bytes/s]: more of them come less often.
+constexpr double kShapeRate = 12000;
+constexpr std::string_view kShapes = "shapes";
+constexpr std::size_t kSkipAbove = 256 << 10;  // what a guest has not taken yet [bytes]
+
+}  // namespace
+
+// Views of a moment that has read unstored entries wait until these are stored.
+void RoomHost::publish() {
+  const auto moment = session_->moment();
+  if (next_ || (moment == seen_ && !is_changed_)) return;
+  const bool is_same_state = seen_ && now_ && seen_->state == moment->state;
+  seen_ = moment;
+  is_changed_ = false;
+  Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
+  const wire::ViewSources from = sources(*moment->state);
+  for (const auto& [key, visitor] : visitors_)
+    for (const std::string& name : visitor.wanted) {
+      auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
+      if (!place && is_same_state && wire::is_of_state(name))
+        if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
+      if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
+    }
+  next_ = std::move(made);
+  show();
+}
+
+void RoomHost::show() {
+  if (!next_ || next_->seq > stored_seq_) return;
+  now_ = std::move(next_);
+  next_.reset();
+  steps_.clear();
+  for (auto& [key, visitor] : visitors_) show(visitor);
+}
+
+void RoomHost::show(Visitor& visitor) {
+  if (!now_ || !visitor.is_welcome || visitor.guest->unsent() > kSkipAbove) return;
+  for (const std::string& name : visitor.wanted) {
+    std::shared_ptr<const wire::View> view;
+    if (!wire::is_of_seat(name)) {
+      if (const auto found = now_->shared.find(name); found != now_->shared.end()) view = found->second;
+    } else if (const auto seat = now_->by_seat.find(visitor.seat); seat != now_->by_seat.end()) {
+      if (const auto found = seat->second.find(name); found != seat->second.end()) view = found->second;
+    }
+    if (!view) {
+      is_changed_ = true;  // it was not wanted by anybody when these views were made
+      continue;
+    }
+    std::shared_ptr<const wire::View>& shown = visitor.shown[name];
+    if (shown == view) continue;
+    const bool is_shapes = name == kShapes;
+    if (is_shapes && options_.clock->now() < visitor.shapes_after) continue;  // turn() comes back to it
+    if (const auto& frame = step(name, shown, view)) {
+      if (is_shapes) visitor.shapes_after = options_.clock->now() + static_cast<double>(frame->size()) / kShapeRate;
+      visitor.guest->send(frame);
+    }
+    shown = view;
+  }
+}
+
+const std::shared_ptr<const std::string>& RoomHost::step(const std::string& name, const std::shared_ptr<const wire::View>& before,
+                                                         const std::shared_ptr<const wire::View>& now) {
+  const auto [place, is_new] = steps_.try_emplace({before.get(), now.get()}, Step{before, now, nullptr});
+  if (is_new)
+    if (auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq))
+      place->second.frame = frame_of(std::move(*changes));
+  return place->second.frame;
+}
+
+wire::View RoomHost::view(std::string_view name, std::int64_t seat) {
+  return wire::make_view(name, sources(*session_->moment()->state), seat);
+}
+
+}  // namespace bl::serve

@@ -1,0 +1,78 @@
+// What happened: the last decisions as cards, for those who come late or looked elsewhere.
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { amount, clock_time, share } from "../format";
+import { Icon, IconName } from "../parts";
+import type { Session } from "../session";
+import type { Decision, Vote } from "../wire";
+import { Key, t } from "../words";
+import { option_label } from "./ballot_forms";
+
+const kIcons: Record<Decision["kind"], IconName> = {
+  proposal: "check",
+  vote: "votes",
+  phase: "now",
+  restart: "undo",
+  rewind: "undo",
+  mark: "lead",
+};
+
+// The outcome in a few words, as far as it is shown.
+function outcome(vote: Vote): string {
+  if (vote.open) return t("happened_again");
+  if (vote.result === null) return t("happened_hidden");
+  if (vote.count === 0) return t("happened_nobody");
+  if (vote.kind === "slider") return vote.median === null ? t("happened_hidden") : t("happened_median", { value: amount(vote.median, vote.unit) });
+  const first = vote.result.find((one) => one.option === vote.leading);
+  return first ? t("happened_first", { option: option_label(vote, first.option), share: share(first.share) }) : t("happened_even");
+}
+
+function words_of(s: Session, one: Decision): { title: string; text: string } {
+  const vote = one.vote === undefined ? undefined : s.views.votes[one.vote];
+  switch (one.kind) {
+    case "proposal":
+      return { title: one.title ?? "", text: [t("proposal_by", { name: s.seatName(one.of ?? 0) }), one.text ?? ""].filter(Boolean).join(" · ") };
+    case "vote":
+      return { title: vote?.question ?? "", text: vote ? outcome(vote) : "" };
+    case "mark":
+      return { title: one.text ?? "", text: "" };
+    case "rewind":
+      return { title: t("happened_rewind_text"), text: "" };
+    default:
+      return { title: one.title ?? "", text: "" };
+  }
+}
+
+/// The newest first; nothing where nothing was decided yet.
+export function Happened({ s }: { s: Session }): JSX.Element | null {
+  useEffect(() => s.want("decisions"), []);
+  const all = Object.entries(s.views.decisions)
+    .map(([seq, one]) => ({ seq: Number(seq), one }))
+    .filter(({ one }) => kIcons[one.kind] !== undefined)
+    .sort((a, b) => b.seq - a.seq);
+  if (all.length === 0) return null;
+  return (
+    <section class="happened">
+      <h2>{t("happened")}</h2>
+      <ol>
+        {all.map(({ seq, one }) => {
+          const { title, text } = words_of(s, one);
+          return (
+            <li key={seq}>
+              <Icon name={kIcons[one.kind]} />
+              <div>
+                <p class="faint">
+                  {t(`happened_${one.kind}` as Key)} · {clock_time(one.at)}
+                </p>
+                <p>
+                  <b>{title}</b>
+                </p>
+                {text ? <p class="small">{text}</p> : null}
+              </div>
+            </li>
+          );
+        })}
+      </ol>
+    </section>
+  );
+}
