@@ -1,8 +1,6 @@
 // Steps of a draft as words, what has changed beneath it, and its trial beside the room.
 #include "core/wire/draft_views.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
