@@ -99,7 +99,7 @@ export interface FromPage {
   /** The views that are to be followed from now on. */
   want: {
     t: "want";
-    /** `room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_plans`, `keys`. */
+    /** `room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, `draft_plans`, `keys`, `shapes`, `decisions`. */
     views: string[];
     /** The drafts that are on the screen, four at most: these are tried beside the room. */
     drafts?: string[];
@@ -259,6 +259,8 @@ export interface FromServer {
     set: unknown;
     /** Keys that are gone. */
     drop?: string[];
+    /** On where the message has all of the view. */
+    whole?: boolean;
   };
   /** Who is where; only what has changed. */
   presence: {
