@@ -36,15 +36,16 @@ std::size_t DraftWork::step_count() const {
   return steps_.size() + static_cast<std::size_t>(count);
 }
 
-void DraftWork::follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view) {
+void DraftWork::follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view, bool is_whole) {
   head_ = head;
   seq_ = seq;
-  if (view != nullptr) follow_steps(*view);
+  if (view != nullptr) follow_steps(*view, is_whole);
   make_base();
 }
 
-// A step that is new, or is gone, puts what it moved to its place once more.
-void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view) {
+// A step that is new, or is gone, puts what it moved to its place once more. Another device of the seat may have taken a step
+// back that this window has never been told of; one that is newer than a whole view comes back with the next.
+void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view, bool is_whole) {
   std::map<std::int64_t, Step> told;
   const std::string begin = id_ + "/";
   for (auto one = view.lower_bound(begin); one != view.end() && one->first.starts_with(begin); ++one) {
@@ -65,6 +66,10 @@ void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view) {
   }
   for (const auto& [number, gone] : steps_) moved_.insert(gone.placed.begin(), gone.placed.end());
   steps_ = std::move(told);
+  if (!is_whole) return;
+  for (const auto& [operation, step] : own_)
+    if (step.is_stored) moved_.insert(step.placed.begin(), step.placed.end());
+  std::erase_if(own_, [](const auto& one) { return one.second.is_stored; });
 }
 
 void DraftWork::make_base() {
@@ -148,7 +153,8 @@ double DraftWork::keep_ticking(double now, double rate, bool is_playing) {
     ticks_->mark({.tick = ++marked_});
     due_ = std::max(due_ + 1 / rate, now);
   }
-  return std::max(due_, now);
+  // A tick that takes longer wakes whoever waits for it.
+  return ticks_->behind() > 1 ? now + 1 / rate : std::max(due_, now);
 }
 
 void DraftWork::show() {

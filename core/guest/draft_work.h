@@ -30,7 +30,10 @@ class DraftWork {
 
   /// The room's scene after the entry `seq`, and what its view `draft_steps` says; null where it has said nothing on this
   /// connection yet. Steps that do not fit are left out, as the room does.
-  void follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view);
+  /// `is_whole`: the view has come as a whole, so that a stored step that it lacks is gone.
+  void follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view, bool is_whole = false);
+  /// What others have moved in the room's scene: the ticks are to put it to its place once.
+  void note_moved(Fold::Placed placed) { moved_.merge(std::move(placed)); }
   /// A step that is said; an error where it does not fit what is shown. And one that could not be said.
   Result<void> say(std::int64_t operation, Command command);
   void unsay(std::int64_t operation);
@@ -57,7 +60,7 @@ class DraftWork {
     Fold::Placed placed = {};
     bool is_stored = false, is_taken_back = false;  ///< of an own one
   };
-  void follow_steps(const std::map<std::string, JsonValue>& view);
+  void follow_steps(const std::map<std::string, JsonValue>& view, bool is_whole);
   void make_base();
 
   const Registry* registry_;

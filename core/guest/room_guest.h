@@ -162,7 +162,9 @@ class RoomGuest final : public host::Running {
   void hear_entries(const wire::Ops& ops);
   void hear_tick(const wire::TickOut& mark);
   void hear_answer(std::int64_t id, bool is_stored = true);
-  void hear_drafts();
+  void hear_drafts(const wire::StateOut& view);
+  static bool begins_draft(const Json& frame);
+  bool waits_to_begin(const std::string& draft) const;
   void give_up_draft(const std::string& id);
   void hear_answer_of_draft(const Sent& sent, bool is_stored);
   void hear_refusal(const wire::Nack& nack);
@@ -192,7 +194,7 @@ class RoomGuest final : public host::Running {
   Result<void> say_of_draft(wire::DraftOp::What what, const std::string& id, const std::string& words,
                             const std::string& title = "");
   /// The draft follows the room's scene and the steps that it tells.
-  void follow_draft();
+  void follow_draft(bool is_whole = false);
   /// Everything that is shown may be another.
   void tell_all_changed();
   void give_up_run();
@@ -226,7 +228,7 @@ class RoomGuest final : public host::Running {
   int attempts_ = 0;
   // What this guest says.
   Outbox outbox_;
-  std::int64_t last_gesture_ = 0;
+  std::int64_t last_gesture_ = 0, acked_seq_ = 0;  // the entry after which the last operation was answered
   std::vector<std::string> looked_at_;
   std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
   double pace_at_ = -1e9;

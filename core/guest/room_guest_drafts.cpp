@@ -1,4 +1,6 @@
 // Work in a draft: what the holder sees and changes is the draft, until they leave it.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
@@ -30,9 +32,9 @@ void RoomGuest::tell_all_changed() {
   log_.push_back(std::move(all));
 }
 
-void RoomGuest::follow_draft() {
+void RoomGuest::follow_draft(bool is_whole) {
   const auto steps = views_.find("draft_steps");
-  if (work_) work_->follow(fold_.confirmed(), fold_.seq(), steps == views_.end() ? nullptr : &steps->second);
+  if (work_) work_->follow(fold_.confirmed(), fold_.seq(), steps == views_.end() ? nullptr : &steps->second, is_whole);
 }
 
 // A draft that was left here is as it was. In another one, what a window before this one has said and has no answer is in the
@@ -62,6 +64,7 @@ void RoomGuest::work_in(std::string id, std::string title) {
 
 Result<void> RoomGuest::begin_draft(const std::string& title) {
   leave_draft();
+  if (auto ended = end_gestures(0); !ended) return ended;
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
   if (!has_scene_) return Error{ErrorCode::conflict, "", "the room has not sent its scene yet"};
   // Nobody else has a draft of this name: runs are random.
@@ -73,6 +76,7 @@ Result<void> RoomGuest::begin_draft(const std::string& title) {
 
 Result<void> RoomGuest::enter_draft(const std::string& id) {
   leave_draft();
+  if (auto ended = end_gestures(0); !ended) return ended;
   if (const auto parked = parked_.find(id); parked != parked_.end()) {
     work_in(id, parked->second->title());
     return {};
@@ -111,11 +115,32 @@ void RoomGuest::hear_answer_of_draft(const Sent& sent, bool is_stored) {
   if ((work->answered(sent.id, is_stored) || is_undo) && work == work_.get()) tell_all_changed();
 }
 
-// A draft that somebody proposes, discards or decides on another device can be changed here no longer.
-void RoomGuest::hear_drafts() {
-  std::vector<std::string> closed;
-  for (const auto& [id, content] : view("drafts"))
+// What a message leaves out is as it is by itself; of a draft that is its beginning.
+bool RoomGuest::begins_draft(const Json& frame) {
+  const std::string what = text_in(frame, "do");
+  return text_in(frame, "t") == "draft" && (what.empty() || what == "begin");
+}
+
+bool RoomGuest::waits_to_begin(const std::string& draft) const {
+  return std::any_of(outbox_.waiting().begin(), outbox_.waiting().end(), [&](const Sent& sent) {
+    const auto said = wire::read_frame(sent.frame);
+    return said && begins_draft(*said) && text_in(*said, "draft") == draft;
+  });
+}
+
+// A draft that somebody proposes, discards or decides on another device can be changed here no longer. Discarded ones are not in
+// the view. A view from before the last answer may lack one that has just begun.
+void RoomGuest::hear_drafts(const wire::StateOut& view) {
+  const auto& known = this->view("drafts");
+  std::vector<std::string> closed = view.drop;
+  for (const auto& [id, content] : known)
     if (const auto draft = content.read(); draft && text_in(**draft, "state") != "open") closed.push_back(id);
+  std::vector<std::string> held;
+  if (work_) held.push_back(work_->id());
+  for (const auto& [id, draft] : parked_) held.push_back(id);
+  if (view.whole && view.s >= acked_seq_)
+    for (const std::string& id : held)
+      if (!known.contains(id) && !waits_to_begin(id)) closed.push_back(id);
   for (const std::string& id : closed) give_up_draft(id);
 }
 

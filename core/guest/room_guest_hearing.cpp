@@ -21,12 +21,6 @@ namespace {
 constexpr int kBadFrame = 4400, kNoSeat = 4401, kRemoved = 4403, kReplaced = 4409;
 constexpr std::int64_t kTooFarBehind = 200;  // ticks: this machine is too slow for the room
 
-// What a message leaves out is as it is by itself; of a draft that is its beginning.
-bool is_beginning_of(const Json& frame) {
-  const std::string what = text_in(frame, "do");
-  return text_in(frame, "t") == "draft" && (what.empty() || what == "begin");
-}
-
 }  // namespace
 
 // --- Connections ----------------------------------------------------------------------------------------------------
@@ -73,6 +67,9 @@ void RoomGuest::hear(const Heard& heard) {
 
 // A run belongs to its seat. What has waited in it can be said by nobody any more.
 void RoomGuest::give_up_run() {
+  leave_draft();  // drafts belong to the seat
+  for (auto& [id, draft] : parked_) left_.push_back(std::move(draft));
+  parked_.clear();
   for (Sent& sent : outbox_.begin_anew(options_.new_run())) {
     (void)fold_.answered(sent.id);
     refusals_.push_back({std::move(sent.what), "gone", "", "The room does not know the seat any more that has said this."});
@@ -123,7 +120,10 @@ void RoomGuest::hear_frame(const std::string& text) {
     if (auto message = wire::read_message<wire::HealthOut>(*json)) health_ = std::move(*message);
     follower_.nudge();
   } else if (t == "ack") {
-    if (const auto message = wire::read_message<wire::Ack>(*json)) hear_answer(message->id);
+    if (const auto message = wire::read_message<wire::Ack>(*json)) {
+      acked_seq_ = std::max(acked_seq_, message->s);
+      hear_answer(message->id);
+    }
   } else if (t == "presence") {
     const auto message = wire::read_message<wire::PresenceOut>(*json);
     const auto seats = message ? message->seats.read() : Result<const Json*>(Error{});
@@ -211,6 +211,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
   if (!list || !(*list)->is_array() || !has_scene_) return;
   if (ops.epoch != 0) epoch_ = ops.epoch;
   bool has_changed = false;
+  Fold::Placed placed;
   for (const Json& json : **list) {
     auto entry = entry_of(json, *registry_);
     const auto change = entry ? fold_.take(*entry) : Result<Fold::Change>(entry.error());
@@ -220,6 +221,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
     }
     if (!entry->is_command()) continue;
     has_changed = true;
+    placed.insert(change->placed.begin(), change->placed.end());
     if (change->is_logic_changed && mode_ != "values") follower_.set_scene(entry->tick, fold_.confirmed(), change->placed);
     history_.take(*entry, fold_.confirmed());
     entry_ticks_.emplace_back(entry->tick, entry->seq);
@@ -228,6 +230,7 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
   if (!has_changed) return;
   fold_.show_again();
   is_stale_ = true;
+  if (work_) work_->note_moved(std::move(placed));
   follow_draft();
 }
 
@@ -280,7 +283,7 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   if (found == waiting.end()) return;
   refusals_.push_back({found->what, nack.why, nack.place, nack.text});
   const auto said = wire::read_frame(found->frame);
-  const std::string begun = said && is_beginning_of(*said) ? text_in(*said, "draft") : "";
+  const std::string begun = said && begins_draft(*said) ? text_in(*said, "draft") : "";
   const bool is_shown = own().has_own();
   hear_answer(nack.id, false);
   if (!begun.empty()) give_up_draft(begun);
@@ -292,14 +295,15 @@ void RoomGuest::hear_view(const wire::StateOut& view) {
   const auto set = view.set.read();
   if (!set || !(*set)->is_object()) return;
   std::map<std::string, JsonValue>& known = views_[view.view];
+  if (view.whole) known.clear();
   for (const auto& [key, content] : (*set)->items()) known[key] = JsonValue::of(content);
   for (const std::string& key : view.drop) known.erase(key);
   ++views_revision_;
   follower_.nudge();
   if (view.view == "drafts") {
-    hear_drafts();
+    hear_drafts(view);
   } else if (work_ && view.view == "draft_steps") {
-    follow_draft();
+    follow_draft(view.whole);
     tell_all_changed();
   }
   if (view.view != "room") return;

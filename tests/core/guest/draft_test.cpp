@@ -1,4 +1,6 @@
 // Work in a draft: seen at once, stored as steps, apart from the scene of the room, on any network.
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
@@ -188,6 +190,51 @@ TEST(Drafts, ItsTicksRunBesideThoseOfTheRoom) {
   ASSERT_TRUE(at.room.come_to_rest());
   EXPECT_EQ(hex_digits(at.anna.moment()->ticked->hash), at.room.host->health().hash);
   EXPECT_EQ(at.anna.differed(), 0);
+}
+
+TEST(Drafts, WhatOthersMoveMovesInItsTicks) {
+  DraftRoom at;
+  const auto place_of = [](const State& state) {
+    return std::get<Vector3>(state.value(*state.plan->find(state.plan->node_index("cafe"), {"node", "position", ""})));
+  };
+  ASSERT_TRUE(at.room.turn_until([&] { return at.anna.follower().tick() > 60; }));
+  ASSERT_TRUE(at.anna.begin_draft("").ok());
+  const Vector3 before = place_of(*at.anna.moment()->ticked);
+  const double there = before.x > 30 ? before.x - 8 : before.x + 8;
+  ASSERT_TRUE(at.lead.submit({command<SetPort>({"cafe", {"node.position"}, JsonValue::of({there, before.y, before.z})})}).ok());
+  EXPECT_TRUE(at.room.turn_until([&] { return std::abs(place_of(*at.anna.moment()->ticked).x - before.x) > 4; }, 1500))
+      << place_of(*at.anna.moment()->ticked).x << " from " << before.x << " to " << there;
+}
+
+// A seat on two devices.
+TEST(Drafts, OneThatIsDiscardedElsewhereIsLeft) {
+  MemoryRoom room(kDrafted);
+  RoomGuest& lead = room.join("facilitator");
+  std::string token;
+  room.before_joining = [&](RoomGuestOptions& options) {
+    if (!token.empty()) options.invite.clear();
+    options.token = token;
+    options.keep_token = [&](const std::string& given) { token = given; };
+  };
+  RoomGuest& laptop = room.join("designer");
+  ASSERT_TRUE(room.turn_until([&] { return lead.standing().has_scene && laptop.standing().has_scene; }));
+  lead.say_event("set_phase", JsonValue::of({{"name", "Work"}, {"activities", {"change", "draft"}}}));
+  RoomGuest& other = room.join("designer");
+  ASSERT_TRUE(room.turn_until([&] { return other.standing().has_scene && lead.standing().waiting == 0; }));
+  ASSERT_EQ(other.seat(), laptop.seat());
+  for (const bool is_cut : {false, true}) {
+    ASSERT_TRUE(laptop.begin_draft("Larger").ok());
+    const std::string draft = laptop.draft()->id();
+    ASSERT_TRUE(laptop.submit({command<RenameNode>({"cafe", "Anna's"})}).ok());
+    ASSERT_TRUE(room.turn_until([&] { return laptop.standing().waiting == 0 && other.view("drafts").contains(draft); }));
+    ASSERT_NE(laptop.draft(), nullptr);
+    if (is_cut) room.wires[1]->is_closed = true;
+    other.drop_draft(draft);
+    EXPECT_TRUE(room.turn_until([&] { return laptop.draft() == nullptr; })) << is_cut;
+    EXPECT_NE(name_in(laptop.scene(), "cafe"), "Anna's");
+    EXPECT_FALSE(laptop.enter_draft(draft).ok());
+    EXPECT_TRUE(laptop.take_refusals().empty());
+  }
 }
 
 // A window that computes other results than the server shows the steps without ticks of its own.

@@ -23,15 +23,23 @@ using namespace std::chrono_literals;
 
 constexpr std::string_view kFolder = ".rehearsal_", kProgress = "progress: ";
 
+// Processes have their numbers on one computer, and the folder may be shared with others.
+std::string beginning_of_folders() {
+  char host[256] = {};
+  (void)::gethostname(host, sizeof host - 1);
+  return std::string(kFolder) + host + "_";
+}
+
 // Folders of windows that have crashed in a rehearsal; the number of the process stands in the name.
 void sweep_rehearsals(const fs::path& place) {
+  const std::string begin = beginning_of_folders();
   std::error_code error;
   std::vector<fs::path> gone;
   for (const auto& one : fs::directory_iterator(place, error)) {
     const std::string name = one.path().filename().string();
-    if (!name.starts_with(kFolder)) continue;
+    if (!name.starts_with(begin)) continue;
     pid_t number = 0;
-    const auto [end, fault] = std::from_chars(name.data() + kFolder.size(), name.data() + name.size(), number);
+    const auto [end, fault] = std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
     const bool is_ours = fault == std::errc() && number > 0 && *end == '_';
     if (is_ours && ::kill(number, 0) != 0 && errno == ESRCH) gone.push_back(one.path());
   }
@@ -51,7 +59,7 @@ Result<std::unique_ptr<RehearsalRun>> RehearsalRun::begin(const std::string& pro
   std::error_code error;
   const fs::path place = fs::absolute(plan.journal, error).parent_path();
   sweep_rehearsals(place);
-  std::string pattern = (place / (std::string(kFolder) + std::to_string(::getpid()) + "_XXXXXX")).string();
+  std::string pattern = (place / (beginning_of_folders() + std::to_string(::getpid()) + "_XXXXXX")).string();
   if (::mkdtemp(pattern.data()) == nullptr)
     return Error{ErrorCode::io, place.string(), std::string("no folder can be made here: ") + std::strerror(errno)};
   std::unique_ptr<RehearsalRun> run(new RehearsalRun());
@@ -71,10 +79,18 @@ Result<std::unique_ptr<RehearsalRun>> RehearsalRun::begin(const std::string& pro
 }
 
 RehearsalRun::~RehearsalRun() {
-  constexpr auto kPatience = 5s;
   if (stage_ != Stage::ended) cancel();
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (room_ && turn() != Stage::ended && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(10ms);
+  const auto wait = [&](std::chrono::milliseconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (room_ && turn() != Stage::ended && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(10ms);
+  };
+  wait(2s);
+  // Nothing of a rehearsal is worth waiting for longer, and nobody may write into a folder that is removed.
+  if (room_ && stage_ != Stage::ended) {
+    ::kill(room_->number(), SIGKILL);
+    if (bots_ && !bots_->exit_code()) ::kill(bots_->number(), SIGKILL);
+    wait(2s);
+  }
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }
@@ -106,7 +122,7 @@ void RehearsalRun::read_progress() {
 void RehearsalRun::close() {
   stage_ = Stage::closing;
   progress_ = "The room of the rehearsal is closed.";
-  room_->end();
+  if (room_) room_->end();
 }
 
 void RehearsalRun::cancel() {

@@ -22,7 +22,7 @@ class RehearsalRun {
   /// neither read nor written; no sensor and no actuator is connected, and only this computer can open the room.
   static Result<std::unique_ptr<RehearsalRun>> begin(const std::string& program, const HostingPlan& plan,
                                                      const RehearsalSize& size);
-  /// Ends what is under way, and waits for it: a few tenths of a second.
+  /// Ends what is under way, and waits for it: mostly a few tenths of a second, and never more than four.
   ~RehearsalRun();
   RehearsalRun(const RehearsalRun&) = delete;
   RehearsalRun& operator=(const RehearsalRun&) = delete;

@@ -76,9 +76,14 @@ void draw_seats(const RoomDesk& desk) {
     } else {
       ImGui::TextUnformatted(name.c_str());
     }
+    // Beside the name where there is room, else below it.
     ImGui::SameLine();
+    if (ImGui::CalcTextSize(words.c_str()).x > ImGui::GetContentRegionAvail().x) {
+      ImGui::NewLine();
+      ImGui::SetCursorScreenPos({at.x + 3 * r + ImGui::GetStyle().ItemSpacing.x, ImGui::GetCursorScreenPos().y});
+    }
     ImGui::PushStyleColor(ImGuiCol_Text, c.text_soft);
-    ImGui::TextUnformatted(words.c_str());
+    ImGui::TextWrapped("%s", words.c_str());
     ImGui::PopStyleColor();
     ImGui::PopID();
   }

@@ -83,7 +83,7 @@ class RehearsedRooms : public ::testing::Test {
   bool is_there(const std::string& key) { return memory_of(editor()).places.contains(key); }
   void press(const std::string& key) {
     desktop_->frames(2);
-    ASSERT_TRUE(is_there(key)) << key;
+    ASSERT_TRUE(frames_until([&] { return is_there(key); })) << key;
     const ImVec4 place = memory_of(editor()).places.at(key);
     desktop_->click({(place.x + place.z) / 2, (place.y + place.w) / 2});
     desktop_->frames(2);
@@ -119,6 +119,14 @@ TEST_F(RehearsedRooms, BotsTakePartAndTheResultIsShown) {
   EXPECT_TRUE(found.contains("screens"));
   EXPECT_EQ(editor().document->room(), nullptr) << "the scene is still open here";
   EXPECT_FALSE(editor().hosting);
+}
+
+TEST_F(RehearsedRooms, AServerThatCannotBeStartedIsTold) {
+  editor().server_program = "/nowhere/behaviourlinks";
+  press("host/rehearse");
+  ASSERT_TRUE(frames_until([&] { return !host().is_rehearsing(); }));
+  EXPECT_FALSE(host().told().empty());
+  EXPECT_TRUE(host().rehearsed().empty());
 }
 
 TEST_F(RehearsedRooms, CanBeStopped) {
