@@ -2,25 +2,17 @@
 #pragma once
 
 #include <string>
-#include <utility>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "core/define/json_text.h"
 #include "core/wire/views.h"
 
 namespace bl::wire {
 
-inline void put(View& view, std::string key, const Json& content) { view[std::move(key)] = write_json_line(content); }
-
-inline std::string text_of(const room::Room& room, const std::string& id) {
-  const room::TextRecord* text = room.text(id);
-  return text == nullptr ? "" : text->body;
-}
-
-inline std::string seat_name(const room::RoomState& state, const std::string& author) {
-  const auto seat = state.seats.find(room::RoomState::seat_of_author(author));
-  return seat == state.seats.end() ? author : seat->second.name;
-}
+void put(View& view, std::string key, const nlohmann::ordered_json& content);
+/// The words of a text, or nothing where they are erased.
+std::string text_of(const room::Room& room, const std::string& id);
+/// The name of the seat that this author is, or the author as it is.
+std::string seat_name(const room::RoomState& state, const std::string& author);
 
 }  // namespace bl::wire
