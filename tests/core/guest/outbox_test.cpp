@@ -104,18 +104,23 @@ bool has_name(const RoomGuest& guest, const std::string& node, const std::string
   return found != guest.scene().nodes.end() && found->second.name == name;
 }
 
-// A crash is what the disk has at that moment: the window is gone, and its file is as it was, or lacks the end of a line that was
-// never sent. The marks are nodes that only one operation each can have made.
-TEST(RoomGuests, LawOfCrashesEachOperationIsDoneOnce) {
-  const OutboxFolder folder;
-  MemoryRoom room("scenes/start/quarter.json", 21);
-  std::string token;
+// All windows that join are of the same person, and keep what they say in that folder.
+void keep_one_seat(MemoryRoom& room, const OutboxFolder& folder, std::string& token) {
   room.before_joining = [&](RoomGuestOptions& options) {
     if (!token.empty()) options.invite.clear();
     options.token = token;
     options.keep_token = [&](const std::string& given) { token = given; };
     options.outbox = folder.stem();
   };
+}
+
+// A crash is what the disk has at that moment: the window is gone, and its file is as it was, or lacks the end of a line that was
+// never sent. The marks are nodes that only one operation each can have made.
+TEST(RoomGuests, LawOfCrashesEachOperationIsDoneOnce) {
+  const OutboxFolder folder;
+  MemoryRoom room("scenes/start/quarter.json", 21);
+  std::string token;
+  keep_one_seat(room, folder, token);
   room.join("facilitator");
   ASSERT_TRUE(room.turn_until([&] { return room.guests[0]->standing().has_scene; }));
   Random& random = room.random();
@@ -166,12 +171,7 @@ TEST(RoomGuests, LawOfPowerCutsNumbersMeanOneOperationEach) {
   const OutboxFolder folder;
   MemoryRoom room("scenes/start/quarter.json", 22);
   std::string token;
-  room.before_joining = [&](RoomGuestOptions& options) {
-    if (!token.empty()) options.invite.clear();
-    options.token = token;
-    options.keep_token = [&](const std::string& given) { token = given; };
-    options.outbox = folder.stem();
-  };
+  keep_one_seat(room, folder, token);
   room.join("facilitator");
   Random& random = room.random();
   std::set<std::string> said;

@@ -6,10 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -18,25 +16,13 @@
 
 #include "core/guest/room_guest.h"
 #include "tests/support/deadline.h"
-#include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/panels/dialogs.h"
-#include "ui/desktop/panels/host_dialog.h"
+#include "tests/ui/desktop/room/hosting_window.h"
 #include "ui/desktop/panels/invitation_sheet.h"
-#include "ui/desktop/panels/panel_memory.h"
 
 namespace bl::desktop {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
-
-// build/X/tests/ui/desktop/room_window_tests and build/X/ui/cli/behaviourlinks, or wherever both lie in one tree.
-std::string program() {
-  fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  for (; folder != folder.root_path(); folder = folder.parent_path())
-    if (fs::exists(folder / "ui/cli/behaviourlinks")) return (folder / "ui/cli/behaviourlinks").string();
-  return "";
-}
 
 // A port of this computer that is held while the object lives.
 class Port {
@@ -64,7 +50,7 @@ class Port {
   int socket_ = -1, number_ = 0;
 };
 
-class HostedRooms : public ::testing::Test {
+class HostedRooms : public HostingWindow {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("behaviourlinks_hosting_" + std::to_string(::getpid()) + "_" +
@@ -72,8 +58,8 @@ class HostedRooms : public ::testing::Test {
     fs::create_directories(folder_);
     fs::copy_file(BL_SOURCE_DIR "/scenes/start/quarter.json", folder_ / "quarter.json");
     desktop_ = std::make_unique<NullDesktop>();
-    ASSERT_FALSE(program().empty()) << "the program `behaviourlinks` is not built";
-    editor().server_program = program();
+    ASSERT_FALSE(command_line_program().empty()) << "the program `behaviourlinks` is not built";
+    editor().server_program = command_line_program();
   }
   void TearDown() override {
     // A test that fails in the middle leaves no server behind; in the others it is gone by now.
@@ -81,28 +67,7 @@ class HostedRooms : public ::testing::Test {
     desktop_.reset();
     fs::remove_all(folder_);
   }
-  Workbench& editor() { return desktop_->editor(); }
-  HostDialog& host() { return editor().dialogs->host(); }
   bool open_scene() { return editor().open((folder_ / "quarter.json").string()); }
-  template <class IsOver>
-  bool frames_until(const IsOver& is_over) {
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (std::chrono::steady_clock::now() < end) {
-      desktop_->frames(1);
-      if (is_over()) return true;
-      std::this_thread::sleep_for(10ms);
-    }
-    return false;
-  }
-  bool is_drawn(const std::string& key) { return memory_of(editor()).places.contains(key); }
-  // The middle of what was drawn under this key.
-  void press(const std::string& key) {
-    desktop_->frames(2);
-    ASSERT_TRUE(frames_until([&] { return is_drawn(key); })) << key;
-    const ImVec4 place = memory_of(editor()).places.at(key);
-    desktop_->click({(place.x + place.z) / 2, (place.y + place.w) / 2});
-    desktop_->frames(2);
-  }
   void plan(int port) {
     host().plan().bind = "127.0.0.1";
     host().plan().port = std::to_string(port);
@@ -152,7 +117,6 @@ class HostedRooms : public ::testing::Test {
   }
 
   fs::path folder_;
-  std::unique_ptr<NullDesktop> desktop_;
 };
 
 TEST_F(HostedRooms, AreOpenedJoinedLedAndEndedInOrder) {

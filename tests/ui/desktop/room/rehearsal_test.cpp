@@ -5,16 +5,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "core/file/file_io.h"
 #include "tests/support/deadline.h"
-#include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/panels/dialogs.h"
-#include "ui/desktop/panels/host_dialog.h"
-#include "ui/desktop/panels/panel_memory.h"
+#include "tests/ui/desktop/room/hosting_window.h"
 
 namespace bl::desktop {
 namespace {
@@ -22,15 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// build/X/tests/ui/desktop/room_window_tests and build/X/ui/cli/behaviourlinks, or wherever both lie in one tree.
-std::string command_line_program() {
-  fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  for (; folder != folder.root_path(); folder = folder.parent_path())
-    if (fs::exists(folder / "ui/cli/behaviourlinks")) return (folder / "ui/cli/behaviourlinks").string();
-  return "";
-}
-
-class RehearsedRooms : public ::testing::Test {
+class RehearsedRooms : public HostingWindow {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("behaviourlinks_rehearsal_" + std::to_string(::getpid()) + "_" +
@@ -68,26 +56,6 @@ class RehearsedRooms : public ::testing::Test {
     ASSERT_EQ(host().page(), HostDialog::Page::check);
     ASSERT_TRUE(frames_until([&] { return !host().is_checking(); }));
   }
-  Workbench& editor() { return desktop_->editor(); }
-  HostDialog& host() { return editor().dialogs->host(); }
-  template <class IsOver>
-  bool frames_until(const IsOver& is_over) {
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (std::chrono::steady_clock::now() < end) {
-      desktop_->frames(1);
-      if (is_over()) return true;
-      std::this_thread::sleep_for(10ms);
-    }
-    return false;
-  }
-  bool is_there(const std::string& key) { return memory_of(editor()).places.contains(key); }
-  void press(const std::string& key) {
-    desktop_->frames(2);
-    ASSERT_TRUE(frames_until([&] { return is_there(key); })) << key;
-    const ImVec4 place = memory_of(editor()).places.at(key);
-    desktop_->click({(place.x + place.z) / 2, (place.y + place.w) / 2});
-    desktop_->frames(2);
-  }
   void begin(int bots, double seconds) {
     host().rehearsal() = {.bots = bots, .seconds = seconds};
     press("host/rehearse");
@@ -96,14 +64,13 @@ class RehearsedRooms : public ::testing::Test {
 
   fs::path folder_;
   std::map<std::string, std::string> before_;
-  std::unique_ptr<NullDesktop> desktop_;
 };
 
 TEST_F(RehearsedRooms, BotsTakePartAndTheResultIsShown) {
   const Deadline deadline(300, "a rehearsal from the window");
   begin(3, 4);
   EXPECT_NE(files(), before_) << "the room has a folder while it is open";
-  EXPECT_FALSE(is_there("host/rehearse")) << "one at a time";
+  EXPECT_FALSE(is_drawn("host/rehearse")) << "one at a time";
   press("host/next");
   EXPECT_FALSE(host().is_opening()) << "the room is not opened meanwhile";
   ASSERT_TRUE(frames_until([&] { return !host().is_rehearsing(); }));
@@ -132,7 +99,7 @@ TEST_F(RehearsedRooms, AServerThatCannotBeStartedIsTold) {
 TEST_F(RehearsedRooms, CanBeStopped) {
   const Deadline deadline(300, "a rehearsal that is stopped");
   begin(2, 600);
-  ASSERT_TRUE(frames_until([&] { return is_there("host/rehearse/stop"); }));
+  ASSERT_TRUE(frames_until([&] { return is_drawn("host/rehearse/stop"); }));
   const auto begun = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - begun < 1s) desktop_->frames(1);
   press("host/rehearse/stop");
