@@ -232,6 +232,24 @@ TEST_F(RoomHosts, ShapesInMotionComeNoFasterThanAPhoneCanTake) {
   });
 }
 
+// Else the room would hold an old view for each of them, and make what leads on from it for each.
+TEST_F(RoomHosts, WhoComesLaterSeesTheSameShapesAtTheSameTimesAsAllOthers) {
+  open_by_hand();
+  const auto first = join("first", "", {"shapes"});
+  const auto run_until_shapes = [&](const FakeGuest& guest, std::size_t count) {
+    run_until([&] { return shapes_of(guest).size() >= count; });
+  };
+  run_until_shapes(*first, 2);
+  const auto second = join("second", "", {"shapes"});
+  run_until_shapes(*second, 1);
+  EXPECT_TRUE(second->frames[shapes_of(*second).front()].contains("whole"));
+  const std::size_t before = shapes_of(*first).size();
+  run_until_shapes(*first, before + 2);
+  const std::vector<std::size_t> of_first = shapes_of(*first), of_second = shapes_of(*second);
+  ASSERT_EQ(of_second.size(), 3u);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(first->frames[of_first[before + k]], second->frames[of_second[1 + k]]) << k;
+}
+
 TEST_F(RoomHosts, AGuestThatTakesNothingIsSentAwayAndNobodyElse) {
   const auto lead = join("a", "facilitator", {"room"}), slow = join("b", "", {"room"});
   slow->is_stalled = true;
