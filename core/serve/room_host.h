@@ -96,7 +96,6 @@ class RoomHost {
     std::string run, kind;
     std::set<std::string> wanted, looks_at = {};                          // views and drafts
     std::map<std::string, std::shared_ptr<const wire::View>> shown = {};  // by view: what was sent last
-    double shapes_after = -1e9;                                           // before then no more shapes are sent [s]
     bool is_window = false, is_ticking = false;  // a window of this program; its self-test gives what ours does
     bool is_following = false;                   // it has a scene, and gets what comes
     bool wants_snapshot = false;
@@ -147,6 +146,7 @@ class RoomHost {
   void serve_devices();
   void bring_readings();
   void publish();
+  void hold_shapes(Published& made);
   void show();
   void show(Visitor& visitor);
   const std::shared_ptr<const std::string>& step(const std::string& name, const std::shared_ptr<const wire::View>& before,
@@ -210,7 +210,9 @@ class RoomHost {
   std::shared_ptr<const host::Moment> seen_;  // the moment of the last views
   std::optional<Published> next_, now_;       // views that wait for the disk, and those that are shown
   std::map<std::pair<const wire::View*, const wire::View*>, Step> steps_;  // to the views that are shown
-  std::map<std::int64_t, std::int64_t> plain_operations_;                  // by seat
+  double shapes_after_ = -1e9;    // before then no newer shapes are sent: whoever got the largest frame is still taking it [s]
+  bool are_shapes_held_ = false;  // those of the last views may be older than their state
+  std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat
   TrialRunner trials_;
   std::unique_ptr<host::DeviceDoor> devices_;
   std::int64_t brought_ = -1;   // the tick for which readings were brought last

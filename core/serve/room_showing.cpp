@@ -1,4 +1,7 @@
 // Views are made of a moment, wait until it is stored, and go to each visitor as the difference from what they were shown last.
+#include <algorithm>
+#include <utility>
+
 #include "core/serve/room_frames.h"
 #include "core/serve/room_host.h"
 
@@ -8,7 +11,7 @@ namespace {
 
 // A phone in motion gets 20 kB a second, of which the shapes may have this much [bytes/s]: more of them come less often.
 constexpr double kShapeRate = 12000;
-constexpr std::string_view kShapes = "shapes";
+const std::string kShapes = "shapes";
 constexpr std::size_t kSkipAbove = 256 << 10;  // what a guest has not taken yet [bytes]
 
 }  // namespace
@@ -16,16 +19,19 @@ constexpr std::size_t kSkipAbove = 256 << 10;  // what a guest has not taken yet
 // Views of a moment that has read unstored entries wait until these are stored.
 void RoomHost::publish() {
   const auto moment = session_->moment();
-  if (next_ || (moment == seen_ && !is_changed_)) return;
+  const bool are_shapes_due = are_shapes_held_ && options_.clock->now() >= shapes_after_;
+  if (next_ || (moment == seen_ && !is_changed_ && !are_shapes_due)) return;
   const bool is_same_state = seen_ && now_ && seen_->state == moment->state;
   seen_ = moment;
   is_changed_ = false;
   Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
+  const bool were_shapes_held = std::exchange(are_shapes_held_, false);
+  hold_shapes(made);
   const wire::ViewSources from = sources(*moment->state);
   for (const auto& [key, visitor] : visitors_)
     for (const std::string& name : visitor.wanted) {
       auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
-      if (!place && is_same_state && wire::is_of_state(name))
+      if (!place && is_same_state && wire::is_of_state(name) && !(were_shapes_held && name == kShapes))
         if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
       if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
     }
@@ -33,8 +39,18 @@ void RoomHost::publish() {
   show();
 }
 
+// Until more shapes may be sent, those that are shown go on. Who is new gets these, and all go on from the same ones.
+void RoomHost::hold_shapes(Published& made) {
+  if (!now_ || options_.clock->now() >= shapes_after_) return;
+  const auto shown = now_->shared.find(kShapes);
+  if (shown == now_->shared.end()) return;
+  made.shared[kShapes] = shown->second;
+  are_shapes_held_ = true;
+}
+
 void RoomHost::show() {
   if (!next_ || next_->seq > stored_seq_) return;
+  hold_shapes(*next_);  // somebody may have got shapes while these views waited
   now_ = std::move(next_);
   next_.reset();
   steps_.clear();
@@ -56,10 +72,9 @@ void RoomHost::show(Visitor& visitor) {
     }
     std::shared_ptr<const wire::View>& shown = visitor.shown[name];
     if (shown == view) continue;
-    const bool is_shapes = name == kShapes;
-    if (is_shapes && options_.clock->now() < visitor.shapes_after) continue;  // turn() comes back to it
-    if (const auto& frame = step(name, shown, view)) {
-      if (is_shapes) visitor.shapes_after = options_.clock->now() + static_cast<double>(frame->size()) / kShapeRate;
+    if (const auto frame = step(name, shown, view)) {
+      if (name == kShapes)
+        shapes_after_ = std::max(shapes_after_, options_.clock->now() + static_cast<double>(frame->size()) / kShapeRate);
       visitor.guest->send(frame);
     }
     shown = view;

@@ -12,7 +12,7 @@ const kPing = 5000;
 const kPongWait = 4000;
 const kWakeWait = 1500;
 const kHelloWait = 5000;
-const kSlowOpen = 1500; // a socket that takes longer to open may never do so
+const kSlowOpen = 1500; // a socket that takes longer to open may never do so; on a slow way each later one gets longer
 const kMostQuestions = 6; // that have no answer yet; browsers open no more connections at once
 const kUnasked = 20000; // after so long without an answer a socket is tried all the same
 const kLonely = 60000; // after so long, an operation is sent with the value that the person saw
@@ -48,6 +48,8 @@ export class Connection {
   private gapsDue = 0; // refusals because of it that are still to come on this link
   private isStopped = false;
   private opened = 0; // when the link was asked for
+  private patience = kSlowOpen; // after so long, a link that has not opened is given up where a question is answered
+  private isBlind = false; // the link was asked for although nobody answered
   private questions = new Set<() => void>(); // whether the server is there; each is ended by calling it
   readonly presence: PresenceVoice;
   private looked: string[] = []; // drafts
@@ -196,6 +198,7 @@ export class Connection {
     const link = this.world.open();
     this.link = link;
     this.opened = this.world.now();
+    this.isBlind = false;
     link.onopen = () => {
       if (this.link !== link) return;
       this.stopSeeking();
@@ -219,17 +222,28 @@ export class Connection {
     if (this.questions.size < kMostQuestions) {
       const end = this.world.ask((isThere) => {
         this.questions.delete(end);
-        if (isThere) this.connect();
+        if (isThere) this.found();
       });
       this.questions.add(end);
     }
     this.timers.start("seek", ask_again(this.world.now() - this.since, this.world.isVisible(), this.world.chance()), () => this.seek());
   }
 
+  // The server has answered. A socket that may still be in its handshake, which takes more round trips than a question, is left to it:
+  // seek() goes on asking. What was asked for while nobody answered may wait for packets that are lost.
+  private found(): void {
+    if (this.link && !this.isBlind) {
+      if (this.world.now() - this.opened < this.patience) return;
+      this.patience = Math.min(kHelloWait, 2 * this.patience);
+    }
+    this.connect();
+  }
+
   // A way that is too slow for questions, or a proxy that does not pass them on, may still take sockets. Meanwhile it goes on asking.
   private tryBlindly(): void {
     this.attempt = 1;
     this.connect();
+    this.isBlind = true;
     this.seek();
   }
 
@@ -388,6 +402,7 @@ export class Connection {
   private welcome(welcome: Welcome): void {
     this.timers.stop("hello");
     this.isGreeted = true;
+    this.patience = kSlowOpen;
     this.gapsDue = 0;
     // A room that could not store for a while greets its pages again; what it has not answered is sent again.
     this.sent.clear();

@@ -4,7 +4,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Extent, extent_of, middle_of, points_of } from "./outline";
 import { Icon } from "./parts";
 import type { Session } from "./session";
-import type { Binding, Pin } from "./ui";
+import { Binding, Pin, is_of_browser } from "./ui";
 import type { PlanItem, Point } from "./wire";
 import { t } from "./words";
 
@@ -268,6 +268,7 @@ export function Plan({ s, binding, selected, label = 12, isStill, children }: Pl
   }, [selected]);
 
   const keys = (event: KeyboardEvent): void => {
+    if (is_of_browser(event)) return;
     const far = frame.width / 6;
     const moves: Record<string, [number, number]> = { ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far] };
     const move = moves[event.key];

@@ -6,7 +6,7 @@ import { Plan, PlanProps } from "./plan";
 import type { Session } from "./session";
 import type { Look, Looks, Mark, Picture, Step } from "./space/picture";
 import type { SpaceContent } from "./space/contents";
-import { Binding, Ui, useBinding, useMedia, useWide } from "./ui";
+import { Binding, Ui, is_of_browser, useBinding, useMedia, useWide } from "./ui";
 import { Key, t } from "./words";
 
 // The build fills in the address.
@@ -164,7 +164,7 @@ function Space({ s, binding, selected, isStill, label }: PlanProps): JSX.Element
 
   const step = (what: Step): void => picture.current?.step(what);
   const keys = (event: KeyboardEvent): void => {
-    const what = kKeys[event.key];
+    const what = is_of_browser(event) ? undefined : kKeys[event.key];
     if (!what) return;
     step(what);
     event.preventDefault();

@@ -18,6 +18,9 @@ export interface Binding {
   onTap(place: Point, node: string | null): void;
 }
 
+/// Keys that belong to the browser, such as Ctrl and + to enlarge the page.
+export const is_of_browser = (event: KeyboardEvent): boolean => event.ctrlKey || event.metaKey || event.altKey;
+
 export class Ui {
   tab: Tab = "now";
   selected: string | null = null; ///< a node

@@ -318,6 +318,31 @@ test("while the server is away sockets are rare, and who looks at the page is ba
     }
 });
 
+// An encrypted socket takes three round trips to open, a question over a connection that lives takes one.
+test("a socket that is slow to open is waited for, also where questions are answered sooner", () => {
+  for (let trip = 100; trip <= 1200; trip += 100)
+    for (let seed = 1; seed <= 10; ++seed) {
+      const { clock, network, store } = setting(seed);
+      Object.assign(network, { latency: trip / 2, opening: 3 * trip, asking: trip });
+      const page = new Page(network, store);
+      clock.run(30_000);
+      assert.equal(page.connection.stage, "open", `${trip} ms`);
+      assert.equal(page.welcomes, 1);
+    }
+});
+
+test("a socket that was tried while nobody answered is not waited for once somebody does", () => {
+  const { clock, network, store } = setting();
+  network.isDown = true;
+  const page = new Page(network, store);
+  clock.run(10_000);
+  for (const { opened } = network; network.opened === opened; ) clock.run(10);
+  clock.run(100);
+  network.isDown = false;
+  clock.run(1000);
+  assert.equal(page.connection.stage, "open");
+});
+
 test("a page that is hidden asks rarely, and at once when it is looked at", () => {
   assert.ok(ask_again(0, true, 0.5) < ask_again(10_000, true, 0.5) && ask_again(10_000, true, 0.999999) < 800);
   assert.equal(ask_again(0, false, 0.5), 5000);

@@ -130,6 +130,8 @@ export class Network {
   double = 0; // share of messages that come twice
   breaks = 0; // chance that a message breaks the socket
   latency = 20;
+  opening = null; // how long a socket takes to open, where that is longer than a message
+  asking = null; // how long a question and its answer take, likewise
   opened = 0;
   asked = 0;
   isRefusing = false; // sockets
@@ -142,7 +144,7 @@ export class Network {
     this.asked += 1;
     let isWanted = true;
     const answer = (isThere) => isWanted && !page.isFrozen && then(isThere);
-    this.clock.set(this.latency, () => {
+    this.clock.set(this.asking ?? this.latency, () => {
       if (this.isDown) this.clock.set(2000, () => answer(false));
       else answer(!this.isAway);
     });
@@ -183,7 +185,7 @@ export class Network {
     link.close = () => {
       link.isOpen = false;
     };
-    clock.set(this.latency, () => {
+    clock.set(this.opening ?? this.latency, () => {
       if (!link.isOpen) return;
       if (this.isRefusing || this.isAway) deliver(() => link.onclose?.(1006, ""));
       else if (!this.isDown) deliver(() => link.onopen?.());

@@ -1,5 +1,6 @@
 // What the beamer shows beside plan and words: two plans that are compared, and where comments lie close together.
 import type { JSX } from "preact";
+import { useMemo } from "preact/hooks";
 import { heat, kBands } from "../heat";
 import { Extent, extent_of, points_of } from "../outline";
 import { Plan } from "../plan";
@@ -118,12 +119,9 @@ export function CommentsLayout({ s, isNumbered }: { s: Session; isNumbered: bool
   const best = [...top].sort((a, b) => b.comment.plus - b.comment.minus - (a.comment.plus - a.comment.minus)).slice(0, isNumbered ? 3 : 2);
   const pins = comment_pins(s),
     plan = extent_of(s.plan().flatMap(([, item]) => points_of(item.d)));
-  const bands = plan
-    ? heat(
-        pins.map(({ x, y }) => [x, -y]),
-        plan,
-      )
-    : [];
+  const places = pins.map(({ x, y }): [number, number] => [x, -y]);
+  // Each message draws the screen anew, with new objects; the densities take long and seldom change.
+  const bands = useMemo(() => (plan ? heat(places, plan) : []), [JSON.stringify([places, plan])]);
   return (
     <div class="stage with-side">
       <Plan s={s} binding={{ pins: isNumbered ? pins : [], onTap: () => undefined }} selected={null} label={size_of_text()} isStill>

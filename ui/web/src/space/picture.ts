@@ -172,12 +172,13 @@ export class Picture {
   }
 
   private add(id: string, content: ShapeContent, fill: string, kind: string, steps: number): void {
+    const thing: Thing = { content, fill, mesh: null, lines: null, top: [0, 0, 0], size: 0 };
+    this.things.set(id, thing); // also of a kind that is not known here: else it would be new each time
     const body = body_of(content, steps);
     if (!body) return;
     const { looks } = this.options,
       isThing = content.t === "cell" || content.t === "prism" || content.t === "surface";
     const colour = new Color(content.t === "terrain" ? looks.ground : content.t === "lines" ? looks.ink : /^#/.test(fill) ? fill : "#b9b6ae");
-    const thing: Thing = { content, fill, mesh: null, lines: null, top: [0, 0, 0], size: 0 };
     if (body.places.length > 0) {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(new Float32Array(body.places), 3));
@@ -206,7 +207,6 @@ export class Picture {
       thing.lines.userData.isSite = kind === "boundary";
       this.scene.add(thing.lines);
     }
-    this.things.set(id, thing);
   }
 
   private remove(id: string): void {
