@@ -149,8 +149,8 @@ class RoomHost {
   void hold_shapes(Published& made);
   void show();
   void show(Visitor& visitor);
-  const std::shared_ptr<const std::string>& step(const std::string& name, const std::shared_ptr<const wire::View>& before,
-                                                 const std::shared_ptr<const wire::View>& now);
+  std::shared_ptr<const std::string> step(const std::string& name, const std::shared_ptr<const wire::View>& before,
+                                          const std::shared_ptr<const wire::View>& now);
   /// The last entry that this state has read; those that are said now belong to later ticks.
   std::int64_t read_by(const State& ticked) const;
   void store_hash();

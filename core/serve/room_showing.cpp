@@ -81,12 +81,16 @@ void RoomHost::show(Visitor& visitor) {
   }
 }
 
-const std::shared_ptr<const std::string>& RoomHost::step(const std::string& name, const std::shared_ptr<const wire::View>& before,
-                                                         const std::shared_ptr<const wire::View>& now) {
+std::shared_ptr<const std::string> RoomHost::step(const std::string& name, const std::shared_ptr<const wire::View>& before,
+                                                  const std::shared_ptr<const wire::View>& now) {
+  const auto make = [&]() -> std::shared_ptr<const std::string> {
+    auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq);
+    return changes ? frame_of(std::move(*changes)) : nullptr;
+  };
+  // Few share a view of a seat: what is kept would only hold memory until the next views.
+  if (wire::is_of_seat(name)) return make();
   const auto [place, is_new] = steps_.try_emplace({before.get(), now.get()}, Step{before, now, nullptr});
-  if (is_new)
-    if (auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq))
-      place->second.frame = frame_of(std::move(*changes));
+  if (is_new) place->second.frame = make();
   return place->second.frame;
 }
 
