@@ -137,7 +137,7 @@ TEST(Drafts, TheWindowHasTheStepsOfTheRoomOnAnyNetwork) {
     Random random(static_cast<std::uint64_t>(seed));
     ASSERT_TRUE(at.anna.begin_draft("Much").ok());
     const std::string draft = at.anna.draft()->id();
-    at.room.weather = {.lost = 0.05, .doubled = 0.05, .cut = 0.003, .most_delay = 8};
+    at.room.weather = {.lost = 0.05, .doubled = 0.05, .cut = 0.003, .most_delay = 8, .keeps_views = true};
     std::size_t said = 0, undone = 0;
     for (int k = 0; k < 120; ++k) {
       if (at.anna.submit({random_command(at.anna.scene(), random, k)}).ok()) ++said;

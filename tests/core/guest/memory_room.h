@@ -33,6 +33,9 @@ struct Weather {
   double doubled = 0;  ///< part of the frames from the guest
   double cut = 0;      ///< of a connection, in each turn
   int most_delay = 0;  ///< turns
+  /// Views are told as differences from those before. TCP loses none of them, and after a break they come whole; nothing else
+  /// would bring one back.
+  bool keeps_views = false;
 };
 
 /// Both ends of one connection.
@@ -59,12 +62,10 @@ class Wire final : public serve::Guest, public std::enable_shared_from_this<Wire
                                        : static_cast<int>(random_->below(static_cast<std::uint64_t>(weather_->most_delay) + 1))));
     return last_due_;
   }
-  // Views are told as differences from those before. TCP loses none of them, and after a break they come whole; nothing else
-  // would bring one back.
   bool is_lost(const std::string& frame) {
-    const bool comes_always = frame.find("\"hello\"") != std::string::npos || frame.find("\"welcome\"") != std::string::npos ||
-                              frame.find("\"t\": \"state\"") != std::string::npos;
-    return !comes_always && random_->uniform() < weather_->lost;
+    const bool is_greeting = frame.find("\"hello\"") != std::string::npos || frame.find("\"welcome\"") != std::string::npos;
+    const bool is_kept = weather_->keeps_views && frame.find("\"t\": \"state\"") != std::string::npos;
+    return !is_greeting && !is_kept && random_->uniform() < weather_->lost;
   }
   /// Changes what the guest is sent.
   std::function<void(std::string&)> on_way;
