@@ -221,7 +221,7 @@ void play_in_weather(const Weather& weather, std::uint64_t seed, int turns) {
     for (const std::string& notice : guest->take_notices()) EXPECT_EQ(notice.find("another result"), std::string::npos) << notice;
     compared += guest->follower().agreed();
   }
-  EXPECT_GE(compared, 9);
+  EXPECT_GE(compared, 3) << "each has compared a hash";
   EXPECT_GT(refused, 0u);
   const Scene last = room.guests.front()->fold().confirmed();
   std::map<std::pair<std::string, std::int64_t>, int> operations;
