@@ -62,7 +62,7 @@ class RoomGuest final : public host::Running {
   static constexpr double kFirstRetry = 0.2, kRetryGrowth = 1.7, kLastRetry = 5, kRetryJitter = 0.4;  // [s], [s], part of it
   static constexpr double kBetweenPings = 5, kPongWithin = 4;                                         // [s]
   static constexpr double kBetweenPresences = 0.25, kBetweenPaces = 0.2, kBetweenValues = 1;          // [s]
-  static constexpr double kBetweenResyncs = 1;                                                        // [s]
+  static constexpr double kBetweenResyncs = 1, kBetweenGaps = 0.5;                                    // [s]
   static inline const std::vector<std::string> kViews = {"room",      "votes",  "comments",
                                                          "proposals", "drafts", "draft_steps"};  // that are followed
   static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                // [s]
@@ -229,6 +229,8 @@ class RoomGuest final : public host::Running {
   // What this guest says.
   Outbox outbox_;
   std::int64_t last_gesture_ = 0, acked_seq_ = 0;  // the entry after which the last operation was answered
+  std::int64_t gap_before_ = 0;                    // the operation that the room has missed last
+  double gap_at_ = -1e9;
   std::vector<std::string> looked_at_;
   std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
   double pace_at_ = -1e9;

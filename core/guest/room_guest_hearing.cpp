@@ -274,8 +274,13 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   if (nack.why == "gap") {
     const auto args = nack.args.read();
     const std::int64_t next = args && (*args)->is_object() ? (**args).value("next", nack.id) : nack.id;
+    // All that came behind the missing one are refused as well, and what is sent again for the first of them answers all.
+    const double now = options_.clock->now();
+    if (next == gap_before_ && now - gap_at_ < kBetweenGaps) return;
+    gap_before_ = next;
+    gap_at_ = now;
     for (const Sent& sent : outbox_.waiting())
-      if (sent.id >= next && sent.id <= nack.id) send(sent.frame);
+      if (sent.id >= next) send(sent.frame);
     return;
   }
   const std::deque<Sent>& waiting = outbox_.waiting();

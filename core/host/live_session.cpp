@@ -37,6 +37,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::go_on(const Registry& registry
   if (state != nullptr)
     if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
   shared.next_tick = shared.simulation.state()->tick;
+  shared.note_read();
   shared.publish();
   shared.thread = std::thread([&shared] { shared.run(); });
   return session;
@@ -87,6 +88,7 @@ void LiveSession::say_between_ticks(
   if (shared.pending) shared.simulation.set_scene(*shared.pending, shared.pending_placed);
   shared.pending.reset();
   shared.pending_placed.clear();
+  shared.note_read();
   shared.go_on_from(std::move(earlier));
   shared.publish();
 }

@@ -19,6 +19,10 @@ namespace bl::host {
 struct Moment {
   std::shared_ptr<const State> state;   ///< with people's changes since the last tick, where they are shown already
   std::shared_ptr<const State> ticked;  ///< as the last tick left it
+  /// The scene that the last tick has read, and the last entry in it; none where the ticks are those of a room elsewhere. Who
+  /// goes on from `ticked` needs both: the next tick reads all that was said since then at once.
+  std::shared_ptr<const Scene> scene = nullptr;
+  std::int64_t seq = 0;
   bool is_playing = false;
   bool is_resting = false;        ///< the clock counts on and nothing else happens; the ticks since then are not in `state`
   double wanted_rate = 0;         ///< wanted ticks per second

@@ -22,6 +22,8 @@ constexpr double kSmoothing = 0.15;
 void LiveSession::Shared::publish() {
   auto moment = std::make_shared<Moment>();
   moment->ticked = simulation.state();
+  moment->scene = read;
+  moment->seq = read_seq;
   moment->state = preview ? preview : moment->ticked;
   moment->is_playing = is_playing;
   moment->is_resting = rests_since.has_value();
@@ -170,6 +172,8 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   gather_changes();
   follow_times();
   shown = said();
+  auto scene = scene_to_read();
+  const std::int64_t seq = ledger.last_seq();
   is_ticking = true;
   next_tick = simulation.state()->tick + 1;
   std::string trouble;
@@ -196,6 +200,7 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   rate = since > 2 ? 0 : rate + kSmoothing * (1 / std::max(1e-4, since) - rate);
   lock.lock();
   is_ticking = false;
+  if (!pending) read = std::move(scene), read_seq = seq;
   preview = nullptr;
   next_tick = simulation.state()->tick;
   failure = std::move(trouble);

@@ -59,7 +59,9 @@ struct LiveSession::Shared {
   std::string failure;                   // of the last tick; a tick that goes well ends it
   // Of whoever has set `is_ticking`; else behind the mutex too.
   Simulation simulation;
-  std::optional<Scene> pending;  // what people have said that the simulation has not taken yet
+  std::shared_ptr<const Scene> read;  // by the last tick
+  std::int64_t read_seq = 0;          // the last entry in it
+  std::optional<Scene> pending;       // what people have said that the simulation has not taken yet
   std::set<std::pair<std::string, std::string>> pending_placed;
   // Of the ticking thread alone.
   Past past;
@@ -106,6 +108,11 @@ struct LiveSession::Shared {
   void show_changes(std::unique_lock<std::mutex>& lock);
   void show(std::shared_ptr<const State> seen) { preview = seen == simulation.state() ? nullptr : std::move(seen); }
   void gather_changes();
+  // The scene as it is now, for the tick that reads it.
+  std::shared_ptr<const Scene> scene_to_read() const {
+    return read && read_seq == ledger.last_seq() ? read : std::make_shared<const Scene>(ledger.scene());
+  }
+  void note_read() { read = scene_to_read(), read_seq = ledger.last_seq(); }
   void wait_between_ticks(std::unique_lock<std::mutex>& lock);
   /// The state with which the next tick begins, with everything that is said until now; waits for the end of a running tick.
   std::shared_ptr<const State> coming(std::unique_lock<std::mutex>& lock);

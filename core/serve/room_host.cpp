@@ -298,20 +298,13 @@ void RoomHost::recover() {
       });
 }
 
-std::int64_t RoomHost::read_by(const State& ticked) const {
-  const auto& log = session_->log();
-  for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
-    if (entry->tick < ticked.tick || entry->is_return()) return entry->seq;
-  return base_;
-}
-
 // The entries of the ticks before are final: what is said now belongs to a later one. They go to the disk before the hash does.
 void RoomHost::store_hash() {
-  const State& ticked = *session_->moment()->ticked;
-  const std::int64_t seq = read_by(ticked);
+  const auto moment = session_->moment();
+  const State& ticked = *moment->ticked;
   if (ticked.tick == last_hash_tick_) return;
   last_hash_tick_ = ticked.tick;
-  const journal::HashRow row{seq, ticked.tick, hex_digits(ticked.hash)};
+  const journal::HashRow row{moment->seq, ticked.tick, hex_digits(ticked.hash)};
   writer_->perform([row](journal::Journal& journal) { return journal.add_hashes(std::span(&row, 1)); },
                    [](const Result<void>&) {});
 }
@@ -322,23 +315,22 @@ void RoomHost::keep_records() {
   if (session_->moment()->ticked->tick / kTicksBetweenHashes > last_hash_tick_ / kTicksBetweenHashes) store_hash();
   store_scenarios();
   const double now = options_.clock->now();
-  const std::int64_t entries = stored_seq_ - snapshot_seq_;
+  const auto moment = session_->moment();
+  const std::int64_t entries = std::min(stored_seq_, moment->seq) - snapshot_seq_;
   const bool is_due = entries >= kEntriesBetween || (entries > 0 && now - last_snapshot_ >= kSecondsBetween);
   if (!is_due || commits_under_way_ > 0) return;
   last_snapshot_ = now;
-  snapshot_seq_ = stored_seq_;
-  // Packed on the disk's own thread, of what nobody changes any more.
-  auto state = session_->coming_state();
-  const std::int64_t seq = session_->last_seq();
+  snapshot_seq_ = moment->seq;
+  // Packed on the disk's own thread, of what nobody changes any more. What no tick has read is not in it: the next one reads all
+  // that was said before it at once.
   writer_->perform(
-      [state, scene = session_->said(), seq, epoch = room_->state().epoch](journal::Journal& journal) {
-        const SavedState saved = save(*state);
-        // Without a hash: the state has taken what was said in its tick already, which a replay compares before.
-        const journal::Snapshot snapshot{.seq = seq,
-                                         .tick = state->tick,
+      [moment, epoch = room_->state().epoch](journal::Journal& journal) {
+        const SavedState saved = save(*moment->ticked);
+        const journal::Snapshot snapshot{.seq = moment->seq,
+                                         .tick = moment->ticked->tick,
                                          .epoch = epoch,
                                          .hash = {},
-                                         .scene = journal::pack(write_scene(scene, full_registry(), &saved))};
+                                         .scene = journal::pack(write_scene(*moment->scene, full_registry(), &saved))};
         return journal.add_snapshot(snapshot);
       },
       [this, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {

@@ -151,8 +151,6 @@ class RoomHost {
   void show(Visitor& visitor);
   std::shared_ptr<const std::string> step(const std::string& name, const std::shared_ptr<const wire::View>& before,
                                           const std::shared_ptr<const wire::View>& now);
-  /// The last entry that this state has read; those that are said now belong to later ticks.
-  std::int64_t read_by(const State& ticked) const;
   void store_hash();
   void keep_records();
   void welcome(Visitor& visitor, const std::string& token, std::int64_t have, std::int64_t tick);

@@ -149,8 +149,9 @@ Result<SavedState> RoomHost::state_after(const journal::Loaded& loaded, const Sc
   // Ticks before the last return were higher, and are no more.
   for (const journal::HashRow& row : loaded.hashes)
     if (row.seq >= last_return) run_to(row.tick);
+  // The tick that reads the last entry is taken as well, so that it cannot read what will be said from now on.
   for (const room::EntryRecord& record : loaded.room.stored.entries)
-    if (record.entry.seq > last_return) run_to(record.entry.tick);
+    if (record.entry.seq > last_return && record.entry.is_command()) run_to(record.entry.tick + 1);
   return save(*(*session)->coming_state());
 }
 

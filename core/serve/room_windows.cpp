@@ -87,11 +87,11 @@ void RoomHost::send_snapshots() {
   if (windows_.packed.frame && now - windows_.packed.at < kBetweenSnapshots) return hand_out_snapshot();
   flush();
   is_packing_ = true;
-  const auto state = session_->coming_state();
-  const auto packed = std::make_shared<PackedScene>(PackedScene{session_->last_seq(), state->tick, now, nullptr});
+  const auto moment = session_->moment();
+  const auto packed = std::make_shared<PackedScene>(PackedScene{moment->seq, moment->ticked->tick, now, nullptr});
   writer_->perform(
-      [state, scene = session_->said(), packed](journal::Journal&) -> Result<void> {
-        packed->frame = frame_of_snapshot(scene, *state, packed->seq);
+      [moment, packed](journal::Journal&) -> Result<void> {
+        packed->frame = frame_of_snapshot(*moment->scene, *moment->ticked, packed->seq);
         return {};
       },
       [this, packed, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
@@ -155,7 +155,7 @@ void RoomHost::note_tick() {
   const std::int64_t last = untold.empty() ? mark.tick : untold.back().k;
   const bool is_resting = untold.empty() ? mark.is_resting : untold.back().rest;
   if (ticked.tick < last || (ticked.tick == last && moment->is_resting == is_resting)) return;
-  const std::int64_t seq = read_by(ticked);
+  const std::int64_t seq = moment->seq;
   wire::TickOut message{ticked.tick, seq, {}, {}, moment->is_resting};
   if (ticked.tick / kTicksBetweenHashes != mark.hashed / kTicksBetweenHashes || mark.hashed < 0) {
     message.h = hex_digits(ticked.hash);

@@ -240,6 +240,22 @@ TEST(RoomGuests, LawOfEqualFoldsWhereFramesAreLostAndDoubledAndConnectionsBreak)
   play_in_weather({.lost = 0.05, .doubled = 0.05, .cut = 0.02, .most_delay = 30}, 13, test::kIsSanitized ? 150 : 800);
 }
 
+// Each operation behind the missing one is refused, and each refusal names the missing one.
+TEST(RoomGuests, OneMissingOperationIsNotAnsweredByAStorm) {
+  MemoryRoom room(kQuarter);
+  RoomGuest& guest = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return guest.standing().has_scene; }));
+  for (int k = 0; k < 40; ++k) ASSERT_TRUE(guest.submit({command<RenameNode>({"cafe", "Name " + std::to_string(k)})}).ok());
+  room.wires.front()->to_server_.pop_front();
+  std::size_t sent = 0;
+  ASSERT_TRUE(room.turn_until([&] {
+    sent += room.wires.front()->to_server_.size();
+    return guest.standing().waiting == 0;
+  }));
+  EXPECT_LT(sent, 100u);
+  EXPECT_GE(sent, 79u);
+}
+
 TEST(RoomGuests, AnOutageOfAMinuteLosesNothing) {
   MemoryRoom room(kQuarter);
   RoomGuest &anna = room.join("facilitator"), &ben = room.join("facilitator");
@@ -255,6 +271,30 @@ TEST(RoomGuests, AnOutageOfAMinuteLosesNothing) {
   EXPECT_EQ(ben.scene().nodes.find("cafe")->second.name, "Away 29");
   EXPECT_EQ(hex_digits(ben.moment()->ticked->hash), room.host->health().hash);
   EXPECT_EQ(ben.history().size(), 30u);
+}
+
+// A tick reads the scene that stands before it: a volume that somebody takes away and brings back before the next tick keeps its
+// weight. Who joins in between has to know what the tick before has left.
+TEST(RoomGuests, WhoJoinsBetweenAStepAndItsUndoHasTheSameTicks) {
+  MemoryRoom room(kQuarter);
+  RoomGuest& anna = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return anna.follower().tick() > 30; }));
+  anna.play(false);
+  ASSERT_TRUE(room.turn_until([&] { return anna.people().is_paused && anna.standing().waiting == 0; }));
+  ASSERT_TRUE(anna.submit({command<RemoveNode>({.id = "cafe"})}).ok());
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }));
+  RoomGuest& ben = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return ben.standing().has_scene; }));
+  EXPECT_EQ(ben.scene().nodes.find("cafe"), ben.scene().nodes.end());
+  ASSERT_TRUE(anna.undo().ok());
+  const auto has_cafe = [&] { return ben.scene().nodes.find("cafe") != ben.scene().nodes.end(); };
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0 && has_cafe(); }));
+  anna.play(true);
+  const std::int64_t agreed = ben.follower().agreed();
+  ASSERT_TRUE(room.turn_until([&] { return ben.follower().agreed() > agreed + 1; }));
+  EXPECT_EQ(ben.differed(), 0);
+  ASSERT_TRUE(room.come_to_rest());
+  EXPECT_EQ(hex_digits(ben.moment()->ticked->hash), room.host->health().hash);
 }
 
 TEST(RoomGuests, AServerThatStartsAgainIsFollowedFromWhereItIs) {

@@ -187,5 +187,38 @@ TEST_F(Restarting, TheWayBackIsInTheFile) {
   expect_replay();
 }
 
+// A tick reads the scene that stands before it: what is taken away and brought back between two ticks keeps its state.
+TEST_F(Restarting, AVolumeThatIsBroughtBackAfterTheRoomWasOpenedAgainIsAsTheFileHasIt) {
+  const auto change = [&](const Json& command, const Json& arguments) {
+    return say({{"t", "op"}, {"c", {{"command", command}, {"arguments", arguments}}}})["t"];
+  };
+  const Json library = {{"id", "library"}, {"node", {{"types", {{"smart_volume", {{"demand", 9000}}}}}}}};
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
+  run_for(300);
+  ASSERT_EQ(event("set_pace", {{"rate", 20}, {"is_paused", true}})["t"], "ack");
+  ASSERT_EQ(change("remove_node", {{"id", "library"}}), "ack");
+  host_.reset();
+  open();
+  if (::testing::Test::HasFatalFailure()) return;
+  ASSERT_EQ(change("add_node", library), "ack");
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
+  run_for(300);
+  // The same where the file has a snapshot from between the two.
+  ASSERT_EQ(event("set_pace", {{"rate", 20}, {"is_paused", true}})["t"], "ack");
+  ASSERT_EQ(change("remove_node", {{"id", "library"}}), "ack");
+  for (int k = 0; k < 500; ++k)
+    ASSERT_EQ(change("set_setting", {{"setting", "title"}, {"value", "Title " + std::to_string(k)}}), "ack");
+  run_for(100);
+  ASSERT_EQ(change("add_node", library), "ack");
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
+  run_for(300);
+  host_.reset();
+  open();
+  if (::testing::Test::HasFatalFailure()) return;
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
+  run_for(300);
+  expect_replay();
+}
+
 }  // namespace
 }  // namespace bl::serve
