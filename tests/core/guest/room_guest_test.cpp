@@ -313,6 +313,36 @@ TEST(RoomGuests, AServerThatStartsAgainIsFollowedFromWhereItIs) {
   EXPECT_EQ(hex_digits(guest.moment()->ticked->hash), room.host->health().hash);
 }
 
+// Who comes late reads the scene as it is, and not how it came about. How long that takes is printed, and judged by nobody.
+TEST(RoomGuests, WhoJoinsBehindTenThousandEntriesIsToldNoneOfThem) {
+  if (test::kIsSanitized) GTEST_SKIP() << "it takes minutes";
+  MemoryRoom room("scenes/studies/sixty_volumes.json");
+  RoomGuest& anna = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().has_scene; }));
+  const std::string node = anna.scene().nodes.begin()->first;
+  for (int k = 0; k < 10000; ++k) {
+    ASSERT_TRUE(anna.submit({command<RenameNode>({node, "Name " + std::to_string(k)})}).ok());
+    if (k % 20 == 19) room.turn(0.1);
+  }
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }, 20000));
+  ASSERT_GE(room.host->health().seq, 10000);
+  std::size_t bytes = 0, entries = 0;
+  room.on_way = [&](std::string& frame) {
+    bytes += frame.size();
+    entries += frame.find("\"ops\"") != std::string::npos;
+  };
+  const double began = host::real_clock().now();
+  RoomGuest& ben = room.join("designer");
+  ASSERT_TRUE(room.turn_until([&] { return ben.follower().agreed() > 0 || ben.moment()->is_resting; }));
+  std::printf("ready behind %lld entries after %.0f ms, %zu bytes\n", static_cast<long long>(room.host->health().seq),
+              1000 * (host::real_clock().now() - began), bytes);
+  EXPECT_LE(entries, 2u) << "those that were said meanwhile";
+  EXPECT_EQ(ben.scene().nodes.find(node)->second.name, "Name 9999");
+  ASSERT_TRUE(room.come_to_rest());
+  EXPECT_EQ(hex_digits(ben.moment()->ticked->hash), room.host->health().hash);
+  EXPECT_EQ(ben.differed(), 0);
+}
+
 // One bit of one number of the state that a guest begins with.
 TEST(RoomGuests, AnotherStateIsNoticedWithinTwentyTicksHealedAndTold) {
   MemoryRoom room(kQuarter);
