@@ -7,12 +7,17 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "core/base/printable.h"
+#include "ui/cli/scene_loading.h"
 
 namespace bl::cli {
 
 namespace {
+
+// Places of warnings with the same words that are named.
+constexpr std::size_t kMostPlaces = 20;
 
 bool wants_colours() {
   static const bool kWanted = [] {
@@ -126,12 +131,18 @@ void print_error(const std::string& file, const Error& error) { to_errors(locate
 
 void print_problems(const std::string& file, const std::vector<Problem>& problems) {
   std::fflush(stdout);
-  for (const bool is_error : {true, false})
-    for (const Problem& problem : problems) {
-      if (problem.is_error != is_error) continue;
-      const Error marked{problem.error.code, problem.error.place, (is_error ? "" : "warning: ") + problem.error.message};
-      print_error(file, marked);
-    }
+  for (const Problem& problem : problems)
+    if (problem.is_error) print_error(file, problem.error);
+  // Each error has to be repaired; a warning that holds in thousands of places says nothing more in each of them.
+  std::map<std::string, std::size_t> places;
+  for (const Problem& problem : problems) {
+    if (problem.is_error || ++places[problem.error.message] > kMostPlaces) continue;
+    print_error(file, {problem.error.code, problem.error.place, "warning: " + problem.error.message});
+  }
+  for (const auto& [message, count] : places)
+    if (count > kMostPlaces)
+      print_error(file,
+                  {ErrorCode::infeasible, "", "warning: in " + counted(count - kMostPlaces, "more place") + ": " + message});
 }
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

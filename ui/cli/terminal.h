@@ -50,7 +50,8 @@ void print_page(std::string_view text);
 void complain(std::string_view sentence);
 /// "file: place: message" on standard error. A place that is the file itself is not repeated.
 void print_error(const std::string& file, const Error& error);
-/// All of them, errors before warnings; warnings are marked as such.
+/// Errors before warnings, which are marked as such. Of warnings with the same words, the first places are named and the others
+/// are counted.
 void print_problems(const std::string& file, const std::vector<Problem>& problems);
 
 /// Seconds since some fixed moment.

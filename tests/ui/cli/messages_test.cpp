@@ -48,8 +48,8 @@ TEST_F(Messages, CommandLinesAreAnsweredInSentences) {
   expect_refused({"place", "p.png", "--into", "s.json", "--size", "abc"}, "--size: expects a plain number of metres");
 }
 
-// What `check` says of each volume costs the same, however many there are. The limit only ends a check that looks at all volumes for
-// each of them several times; times are measured by the benchmarks, never here.
+// What `check` says of each volume costs the same, however many there are. The limit only ends a check that looks at all volumes
+// for each of them several times; times are measured by the benchmarks, never here.
 TEST_F(Messages, TensOfThousandsOfVolumesAreChecked) {
   std::string nodes;
   for (int k = 0; k < (kIsSanitized ? 4000 : 40000); ++k)
@@ -59,6 +59,8 @@ TEST_F(Messages, TensOfThousandsOfVolumesAreChecked) {
   const Outcome done = place.shell("ulimit -t 60; \"$BEHAVIOURLINKS\" check many.json");
   EXPECT_EQ(done.code, 0) << done.err.substr(0, 300);
   EXPECT_NE(done.out.find(" nodes, 0 links"), std::string::npos) << done.out;
+  EXPECT_LT(std::count(done.err.begin(), done.err.end(), '\n'), 100) << "a warning that holds everywhere is not said everywhere";
+  EXPECT_NE(done.err.find(" more places: is idle"), std::string::npos) << done.err.substr(0, 3000);
 }
 
 TEST_F(Messages, SizesOfPicturesAreMoreThanNothing) {
