@@ -110,7 +110,7 @@ TEST(SecondLaptop, ComesBackAndBeginsAnew) {
 }
 
 TEST(SecondLaptop, IsRefusedWithoutTheKeyOrWithAnotherFile) {
-  const Deadline deadline(100, "a second laptop that is refused");
+  const Deadline deadline(200, "a second laptop that is refused");
   RunningServer first;
   for (const std::string& key : {std::string("0123456789abcdef"), first.invite("facilitator")}) {
     Laptop stranger(first, key, first.folder() / "copy.blsession");
