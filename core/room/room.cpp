@@ -2,6 +2,8 @@
 #include "core/room/room.h"
 
 #include <algorithm>
+#include <charconv>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +15,12 @@ namespace bl::room {
 namespace {
 
 constexpr std::size_t kKeptAnswers = 256, kKeptInverses = 20000;
+constexpr std::string_view kBackTo = "Back to ";
+
+// A rewind takes back what was done to the scene, not what people have voted, nor that a vote was opened or closed.
+bool can_be_taken_back(const LogEntry& entry) {
+  return entry.is_command() && entry.command.id != "cast_vote" && entry.author.id != "room";
+}
 
 }  // namespace
 
@@ -133,9 +141,7 @@ void Room::follow(const LogEntry& entry) {
     if (!is_there) state_.makers.erase(place);
     else if (seat != 0) state_.makers[place] = seat;
   }
-  // A rewind takes back what was done to the scene, not what people have voted, nor that a vote was opened or closed.
-  if (entry.is_command() && entry.command.id != "cast_vote" && entry.author.id != "room")
-    inverses_.emplace_back(entry.seq, std::move(inverse_));
+  if (can_be_taken_back(entry)) inverses_.push_back({entry.seq, std::move(inverse_), goes_back_to(entry)});
   inverse_.clear();
   scene_seq_ = entry.seq;
   if (inverses_.size() > kKeptInverses) inverses_.pop_front();
@@ -220,18 +226,59 @@ Answer Room::rewind(const Said& said) {
   return put_in ? Answer(done(said.now)) : Answer(refusal_of_scene(put_in.error()));
 }
 
+std::ptrdiff_t Room::place_after(std::int64_t seq) const {
+  const auto after = std::upper_bound(inverses_.begin(), inverses_.end(), seq,
+                                      [](std::int64_t one, const WayBack& way) { return one < way.seq; });
+  const std::ptrdiff_t last = after - inverses_.begin() - 1;
+  if (last < 0) return last;
+  const std::int64_t same_as = inverses_[static_cast<std::size_t>(last)].same_as;
+  const bool is_known = inverses_.size() < kKeptInverses || same_as + 1 >= inverses_.front().seq;
+  return same_as >= 0 && is_known ? place_after(same_as) : last;
+}
+
+std::vector<Command> Room::commands_of(std::size_t place) const {
+  const std::int64_t first = place == 0 ? 0 : inverses_[place - 1].seq, last = inverses_[place].seq;
+  std::vector<Command> commands;
+  const auto& log = ledger_->log();
+  auto entry = std::upper_bound(log.begin(), log.end(), first, [](std::int64_t one, const LogEntry& e) { return one < e.seq; });
+  for (; entry != log.end() && entry->seq <= last; ++entry)
+    if (can_be_taken_back(*entry)) commands.push_back(entry->command);
+  return commands;
+}
+
+// The scenes after the entries are a tree: each lies behind the one that its entry has changed, and whoever goes back is where
+// they have been. The way leads up to where both have parted, and down again. Would it take back the steps back themselves, each
+// of them would hold all those before it, and be twice as long as the last one.
 std::variant<std::vector<Command>, Refusal> Room::way_back_to(std::int64_t seq) const {
-  std::vector<Command> back;
-  std::int64_t reached = ledger_->last_seq();
-  for (auto entry = inverses_.rbegin(); entry != inverses_.rend() && entry->first > seq; ++entry) {
-    back.insert(back.end(), entry->second.begin(), entry->second.end());
-    reached = entry->first;
-  }
-  const bool is_far = inverses_.size() == kKeptInverses && reached > seq + 1 && inverses_.front().first > seq + 1;
-  if (is_far)
+  if (inverses_.size() == kKeptInverses && inverses_.front().seq > seq + 1)
     return refuse(Reason::gone, "to",
-                  "the entries before " + std::to_string(inverses_.front().first) + " can no longer be taken back");
+                  "the entries before " + std::to_string(inverses_.front().seq) + " can no longer be taken back");
+  std::vector<Command> back;
+  std::vector<std::size_t> down;
+  std::ptrdiff_t from = place_after(ledger_->last_seq()), to = place_after(seq);
+  while (from != to) {
+    const auto higher = static_cast<std::size_t>(std::max(from, to));
+    const WayBack& way = inverses_[higher];
+    if (from > to) back.insert(back.end(), way.commands.begin(), way.commands.end());
+    else down.push_back(higher);
+    (from > to ? from : to) = place_after(way.seq - 1);
+  }
+  for (auto place = down.rbegin(); place != down.rend(); ++place) {
+    std::vector<Command> commands = commands_of(*place);
+    std::move(commands.begin(), commands.end(), std::back_inserter(back));
+  }
   return back;
+}
+
+std::int64_t Room::goes_back_to(const LogEntry& entry) const {
+  if (!entry.label.starts_with(kBackTo)) return -1;
+  const std::string id = entry.label.substr(kBackTo.size());
+  if (const auto scenario = state_.scenarios.find(id); scenario != state_.scenarios.end()) return scenario->second.seq;
+  std::int64_t seq = -1;
+  if (!entry.label.starts_with(kBackLabel)) return -1;
+  const char* begin = entry.label.data() + kBackLabel.size();
+  const char* end = entry.label.data() + entry.label.size();
+  return std::from_chars(begin, end, seq).ptr == end ? seq : -1;
 }
 
 // The scene first, by a command that can be undone; then the running state, which cannot; then what the minutes say of it. From
@@ -247,7 +294,7 @@ Answer Room::restart(const Said& said, const EventDefinition& kind, const std::m
   if (const auto* refusal = std::get_if<Refusal>(&way)) return *refusal;
   if (std::vector<Command>& back = std::get<std::vector<Command>>(way); !back.empty()) {
     Submission submission{.command = command<Batch>({std::move(back)}), .author = said.author()};
-    submission.label = "Back to " + id;
+    submission.label = std::string(kBackTo) + id;
     if (auto put_in = put(std::move(submission), said.now); !put_in) return refusal_of_scene(put_in.error());
   }
   // It goes back to an entry that is there.

@@ -146,6 +146,13 @@ class Room {
     std::string author;
   };
 
+  /// How to take back an entry.
+  struct WayBack {
+    std::int64_t seq = 0;
+    std::vector<Command> commands;
+    std::int64_t same_as = -1;  ///< it has gone back itself: the scene after it is the one after this entry; -1: it has not
+  };
+
   Answer decide(const Said& said);
   Answer say_command(const Said& said);
   Answer say_event(const Said& said);
@@ -154,6 +161,12 @@ class Room {
   Answer restart(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
   /// What takes back everything since that entry, in the order to apply.
   std::variant<std::vector<Command>, Refusal> way_back_to(std::int64_t seq) const;
+  /// The index in `inverses_` of the last entry that has led to the scene after this one; -1: it is as it was before all of them.
+  std::ptrdiff_t place_after(std::int64_t seq) const;
+  /// What that entry has done.
+  std::vector<Command> commands_of(std::size_t place) const;
+  /// The entry to which this one has gone back; -1 where it has not.
+  std::int64_t goes_back_to(const LogEntry& entry) const;
   Answer change_draft(const Said& said);
   Answer add_to_draft(const Said& said, const Command& command);
   Answer accept(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
@@ -194,7 +207,7 @@ class Room {
   std::map<std::string, std::string> ballot_keys_;                          // by vote
   std::map<std::string, std::map<std::string, JsonValue>> secret_ballots_;  // by vote, then ballot: not yet in the log
   std::map<Touch, Write> writes_;                                           // the last entry that has written a place
-  std::deque<std::pair<std::int64_t, std::vector<Command>>> inverses_;      // by entry, the last ones
+  std::deque<WayBack> inverses_;                                            // of the last entries, ascending
   std::map<std::string, std::int64_t> asked_at_;                            // by area: since when somebody asks for its pen
   std::map<std::int64_t, std::int64_t> left_at_;                            // by seat: since when it is empty
   std::deque<Decision> decisions_;

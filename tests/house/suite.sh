@@ -94,6 +94,11 @@ fill_corpus() {
         '{"t":"draft","id":1,"do":"begin","draft":"d"}' '{"t":"undo","id":1}' '{"t":"op","id":1,"draft":"d","c":{"command":"remove_node","arguments":{"id":"b"}}}' \
         '{"t":"room","id":1,"e":{"event":"propose","arguments":{"draft":"d"}}}' '{"t":"rewind","id":1,"to":2}' '{"t":"redo","id":1}' \
         '{"t":"op","id":1,"c":{"command":"batch","arguments":{"commands":[{"command":"rename_node","arguments":{"id":"a","name":"A"}}]}}}' >"$corpus/session"
+      number=0
+      while IFS= read -r frame; do
+        number=$((number + 1))
+        printf '%s\n' "$frame" >"$corpus/frame$number"
+      done <"$corpus/session"
       ;;
     osm)
       printf '<osm version="0.6"><node id="1" lat="60" lon="25"/><node id="2" lat="60" lon="25.001"/><node id="3" lat="60.001" lon="25.001"/><way id="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/><tag k="height" v="12,5 m"/></way><way id="2"><nd ref="1"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="oneway" v="-1"/></way><relation id="3"><member type="way" ref="1" role="outer"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation></osm>' >"$corpus/xml"

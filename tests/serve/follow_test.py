@@ -39,7 +39,7 @@ class Laptop:
         with open(self.log) as log:
             return log.read()
 
-    def until(self, words, seconds=20):
+    def until(self, words, seconds=60):
         end = time.monotonic() + seconds
         while words not in self.said():
             assert time.monotonic() < end and self.process.poll() is None, f"not said: {words}\n{self.said()}"
@@ -94,11 +94,11 @@ class Follow(unittest.TestCase):
                 await page.close()
             return back, acknowledged
 
-        back, acknowledged = asyncio.run(asyncio.wait_for(go(), 100))
+        back, acknowledged = asyncio.run(asyncio.wait_for(go(), 200))
         print(f"{how}: everybody is back {back:.2f} s after the kill", file=sys.stderr)
-        self.assertLess(back, 15)
+        self.assertLess(back, 60)
         second.process.send_signal(signal.SIGINT)
-        self.assertEqual(second.process.wait(timeout=20), 0)
+        self.assertEqual(second.process.wait(timeout=60), 0)
         rows = sqlite3.connect(second.journal).execute("SELECT line FROM entry ORDER BY seq").fetchall()
         entries = [json.loads(row[0]) for row in rows]
         found = [(entry["origin"], entry["operation"]) for entry in entries if "operation" in entry]
@@ -141,9 +141,9 @@ class Follow(unittest.TestCase):
             self.assertEqual((late.you["seat"], late.welcome["addresses"]), (seat, [other]))
             await late.close()
             second.process.send_signal(signal.SIGINT)
-            self.assertEqual(second.process.wait(timeout=20), 0)
+            self.assertEqual(second.process.wait(timeout=60), 0)
 
-        asyncio.run(asyncio.wait_for(go(), 100))
+        asyncio.run(asyncio.wait_for(go(), 200))
 
     def test_renewed_keys_send_the_second_laptop_away_and_it_does_not_take_over(self):
         folder = tempfile.TemporaryDirectory()
@@ -166,21 +166,21 @@ class Follow(unittest.TestCase):
         self.assertNotIn("takes the room over", second.said())
         self.assertNotIn("followers", first.health()["rooms"][0])
         second.process.send_signal(signal.SIGINT)
-        self.assertEqual(second.process.wait(timeout=20), 0)
+        self.assertEqual(second.process.wait(timeout=60), 0)
         with open(first.invites_file) as file:
             first.invites = json.load(file)[first.code]
         again = Laptop(first, folder.name)
         self.addCleanup(again.end)
-        end = time.monotonic() + 20
+        end = time.monotonic() + 60
         while "followers" not in first.health()["rooms"][0]:
             self.assertLess(time.monotonic(), end)
             time.sleep(0.1)
         again.process.send_signal(signal.SIGINT)
-        self.assertEqual(again.process.wait(timeout=20), 0)
+        self.assertEqual(again.process.wait(timeout=60), 0)
 
     def test_it_says_what_it_lacks(self):
         for arguments, words in ((["--follow", "room://127.0.0.1:1/BKRT"], "--token"), (["--follow", "nowhere", "--token", "x", "--journal", "f"], "room://"), ([], "--follow")):
-            told = subprocess.run([PROGRAM, "serve", *arguments], capture_output=True, text=True, timeout=30)
+            told = subprocess.run([PROGRAM, "serve", *arguments], capture_output=True, text=True, timeout=60)
             self.assertEqual(told.returncode, 2, told)
             self.assertIn(words, told.stderr)
 

@@ -45,13 +45,13 @@ class Server:
     def stop(self):
         """Ctrl-C; the exit code."""
         self.process.send_signal(signal.SIGINT)
-        return self.process.wait(timeout=20)
+        return self.process.wait(timeout=60)
 
     def url(self, path):
         return f"http://127.0.0.1:{self.port}{path}"
 
     def get(self, path):
-        with urllib.request.urlopen(self.url(path), timeout=10) as answer:
+        with urllib.request.urlopen(self.url(path), timeout=60) as answer:
             return answer.status, dict(answer.headers), answer.read()
 
     def health(self):
@@ -76,7 +76,7 @@ class Page:
     async def connect(self):
         origin = f"http://127.0.0.1:{self.server.port}" if self.kind == "page" else None
         self.socket = await websockets.connect(f"ws://127.0.0.1:{self.server.port}/ws", origin=origin, subprotocols=["bl1"],
-                                               max_size=None, open_timeout=10, ping_interval=None, compression=None)
+                                               max_size=None, open_timeout=60, ping_interval=None, compression=None)
         hello = {"t": "hello", "room": self.server.code, "run": self.run, "kind": self.kind, "views": self.views,
                  "unacked": max(self.answers, default=0) if not self.waiting else min(self.waiting) - 1,
                  "have": max(self.entries, default=0)}
@@ -141,7 +141,7 @@ class Page:
         elif kind == "say":
             self.says.append(message["id"])
 
-    async def until(self, condition, seconds=30):
+    async def until(self, condition, seconds=60):
         end = time.monotonic() + seconds
         while not condition():
             self.changed.clear()
@@ -183,7 +183,7 @@ class Page:
             if (missing is not None and number >= missing) or self.pushed_at[number] < late:
                 await self.push(number)
 
-    async def answer(self, message, seconds=30):
+    async def answer(self, message, seconds=60):
         number = await self.say(message)
         await self.until(lambda: number in self.answers, seconds)
         return self.answers[number]

@@ -179,9 +179,14 @@ class MemoryRoom {
     for (auto& guest : guests) (void)guest->keep_up();
     std::this_thread::sleep_for(std::chrono::microseconds(300));
   }
+  /// Gives up after so many turns and a minute of real time: turns may be done before the threads that tick have had a processor.
   bool turn_until(const std::function<bool()>& is_over, int most = 6000) {
-    for (int k = 0; k < most && !is_over(); ++k) turn();
-    return is_over();
+    const double end = host::real_clock().now() + 60;
+    for (int k = 0; !is_over(); ++k) {
+      if (k >= most && host::real_clock().now() > end) return false;
+      turn();
+    }
+    return true;
   }
   /// Everybody has everything, and the ticks have stopped at the same one.
   bool come_to_rest() {
@@ -194,12 +199,17 @@ class MemoryRoom {
     });
     if (!is_still) return false;
     guests.front()->play(false);
+    // A tick that is computed when the clock is stopped comes to its end.
+    std::int64_t last = -1;
+    int still = 0;
     return turn_until([&] {
       const auto health = host->health();
-      return std::all_of(guests.begin(), guests.end(), [&](const auto& guest) {
-        return guest->standing().waiting == 0 && guest->people().is_paused && guest->fold().seq() == health.seq &&
-               guest->moment()->ticked->tick == health.tick;
-      });
+      still = health.tick == last ? still + 1 : 0;
+      last = health.tick;
+      return still >= 100 && std::all_of(guests.begin(), guests.end(), [&](const auto& guest) {
+               return guest->standing().waiting == 0 && guest->people().is_paused && guest->fold().seq() == health.seq &&
+                      guest->moment()->ticked->tick == health.tick;
+             });
     });
   }
 

@@ -27,9 +27,9 @@
 
 namespace bl::test {
 
-/// Looks again and again until it is so, for half a minute at most.
+/// Looks again and again until it is so, for a minute at most.
 inline bool eventually(const std::function<bool()>& is_so) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!is_so()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -203,6 +203,12 @@ class LiveWorld {
       }
       return is_so();
     });
+  }
+  /// The same, and nothing that was published is on its way any more: topics keep the order, and this number comes once.
+  bool hears_last(const Broker& broker, const std::string& topic, const std::string& node, double value) {
+    if (!hears(broker, topic, shortest(value - 1), [&] { return number(node) == value - 1; })) return false;
+    broker.publish(topic, shortest(value));
+    return steps_until([&] { return number(node) == value; });
   }
   double number(const std::string& node, const std::string& port = "sensor.value") const { return world_.number(node, port); }
   std::string text(const std::string& node, const std::string& port) const { return world_.text(node, port); }

@@ -201,6 +201,41 @@ TEST(Room, ARewindIsAStepLikeAnyOther) {
   EXPECT_EQ(why(world.say(lead, OperationKind::rewind, R"({"to": 99})")), "bad");
 }
 
+// Each step back once took back all steps back before it, too: the thirtieth would have had a thousand million commands.
+TEST(Room, AStepBackIsNoLongerThanWhatLiesBetween) {
+  RoomWorld world;
+  const auto lead = world.seat(Role::facilitator);
+  std::vector<std::pair<std::int64_t, Scene>> places = {{world.ledger().last_seq(), world.scene()}};
+  std::size_t most = 0;
+  const auto note = [&] {
+    places.emplace_back(world.ledger().last_seq(), world.scene());
+    const Command& said = world.ledger().log().back().command;
+    if (said.id == "batch") most = std::max(most, std::get<CommandList>(said.arguments.at("commands"))->size());
+  };
+  Random random(5);
+  int edits = 0;
+  for (int k = 0; k < 150; ++k) {
+    if (k % 10 == 0) {
+      (void)world.command(lead,
+                          ++edits % 3 == 0 ? command<AddNode>({"n" + std::to_string(k), {"{}"}}) : set_demand("south", 500 + k));
+    } else if (k % 10 == 5) {
+      (void)world.say(lead, random.below(2) == 0 ? OperationKind::undo : OperationKind::redo, "{}");
+      ++edits;
+    } else {
+      // Anywhere, or entry by entry from the beginning, as with a slider.
+      const std::size_t at = k < 100 ? random.below(places.size()) : static_cast<std::size_t>(k) - 100;
+      const auto& [seq, scene] = places[at];
+      const Answer answer = world.say(lead, OperationKind::rewind, R"({"to": )" + std::to_string(seq) + "}");
+      ASSERT_TRUE(world.scene() == scene) << k << ": " << sentence(answer);
+      EXPECT_NE(why(answer), "right");
+    }
+    note();
+    ASSERT_LE(most, 2u * static_cast<std::size_t>(edits)) << k;
+    if (k % 25 == 24) world.crash();
+  }
+  EXPECT_GT(most, 3u);
+}
+
 TEST(Room, UndoIsOnesOwn) {
   RoomWorld world;
   const auto lead = world.seat(Role::facilitator), ben = world.seat(Role::stakeholder, {}, "card");

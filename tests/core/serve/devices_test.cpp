@@ -64,7 +64,7 @@ TEST_P(RoomDevices, SpeakOnlyWhereTheyWereConnected) {
   {
     auto host = RoomHost::open(path, "BKRT", folder_ / "scene.json", options);
     ASSERT_TRUE(host.ok()) << host.error().text();
-    for (int k = 0; k < 12 && (k < 2 || (is_live && (*host)->health().seq < 3)); ++k) run_for(**host, 1000);
+    for (int k = 0; k < 60 && (k < 2 || (is_live && (*host)->health().seq < 3)); ++k) run_for(**host, 1000);
     EXPECT_EQ((*host)->health().seq, is_live ? 3 : 0);
   }
   auto journal = journal::Journal::open_to_read(path, full_registry());

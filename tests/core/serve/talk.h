@@ -19,7 +19,7 @@ struct Talk {
       : client(address, bell.ring(), authorities, as) {}
 
   template <class IsOver>
-  bool wait(const IsOver& is_over, std::chrono::seconds most = 20s) {
+  bool wait(const IsOver& is_over, std::chrono::seconds most = 60s) {
     const auto end = std::chrono::steady_clock::now() + most;
     while (true) {
       for (Happening& happening : client.take()) {

@@ -33,7 +33,8 @@ class TrialRunners : public ::testing::Test {
   }
   const wire::DraftTrial& trial(const std::string& id) { return runner_.shown().trials.at(id); }
   bool is_done(const std::string& id) {
-    for (int k = 0; k < 2000; ++k) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (std::chrono::steady_clock::now() < end) {
       follow();
       const auto found = runner_.shown().trials.find(id);
       if (found != runner_.shown().trials.end() && found->second.state == TrialState::done) return true;
@@ -53,11 +54,16 @@ TEST_F(TrialRunners, TwoAtOnceAndTheOthersWaitInLine) {
   EXPECT_TRUE(runner_.shown().trials.empty()) << "nobody looks at them";
   looked_at_[anna_] = {"d0", "d1", "d2", "d3"};
   follow();
-  EXPECT_EQ(trial("d0").state, TrialState::running);
-  EXPECT_EQ(trial("d1").state, TrialState::running);
+  // The first ones may be done by now.
+  std::int64_t running = 0;
+  for (const char* id : {"d0", "d1"}) {
+    EXPECT_TRUE(trial(id).state == TrialState::running || trial(id).state == TrialState::done) << id;
+    running += trial(id).state == TrialState::running ? 1 : 0;
+  }
   EXPECT_EQ(trial("d2").state, TrialState::waiting);
-  EXPECT_EQ(trial("d2").line, 2);
-  EXPECT_EQ(trial("d3").line, 3);
+  EXPECT_EQ(trial("d3").state, TrialState::waiting);
+  EXPECT_EQ(trial("d2").line, running);
+  EXPECT_EQ(trial("d3").line, running + 1);
   for (const char* id : {"d0", "d1", "d2", "d3"}) {
     ASSERT_TRUE(is_done(id)) << id;
     EXPECT_GT(trial(id).ticks, 0);
@@ -92,10 +98,10 @@ TEST_F(TrialRunners, WhatWasTriedGrowsOldAndIsTriedAgainForWhoLooks) {
   looked_at_[anna_] = {"d0"};
   ASSERT_TRUE(is_done("d0"));
   EXPECT_GT(trial("d0").seq, seq);
+  const auto picture = trial("d0").picture;
   (void)world_.command(anna_, room::set_demand("north_2", 350), "d0");
-  follow();
-  EXPECT_EQ(trial("d0").state, TrialState::running) << "it has another step";
   ASSERT_TRUE(is_done("d0"));
+  EXPECT_NE(trial("d0").picture, picture) << "it has another step";
   (void)world_.say(anna_, room::OperationKind::draft_drop, R"({"draft": "d0"})");
   follow();
   EXPECT_NE(trial("d0").state, TrialState::running);

@@ -68,7 +68,7 @@ TEST(Live, SensorAndActuatorOfOneNodeSpeakForThemselves) {
   const Workplace place;
   place.write("scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "s", "types": {
     "sensor": {"address": "mqtt://127.0.0.1:1/t"}, "actuator": {"address": "osc://127.0.0.1:9/a"}}}], "links": []})");
-  const Outcome live = run(place, "run scene.json --live --ticks 60 --rate 100");
+  const Outcome live = run(place, "run scene.json --live --ticks 300 --rate 100");
   std::size_t lines = 0;
   for (std::size_t at = live.err.find("refuses"); at != std::string::npos; at = live.err.find("refuses", at + 1)) ++lines;
   EXPECT_EQ(lines, 1u) << live.err;
@@ -80,7 +80,7 @@ TEST(Live, ConnectionsNeedToBeAskedFor) {
   const Outcome quiet = run(place, "run scene.json --ticks 5");
   EXPECT_EQ(quiet.code, 0) << quiet.err;
   EXPECT_EQ(quiet.out.find("sensor s"), std::string::npos) << quiet.out;
-  const Outcome live = run(place, "run scene.json --live --ticks 60 --rate 100 --log run.log");
+  const Outcome live = run(place, "run scene.json --live --ticks 300 --rate 100 --log run.log");
   EXPECT_EQ(live.code, 0) << live.err;
   EXPECT_NE(live.err.find("refuses the connection: nothing listens there"), std::string::npos) << live.err;
   EXPECT_NE(live.out.find("sensor s: 0 messages"), std::string::npos) << live.out;

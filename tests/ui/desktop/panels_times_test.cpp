@@ -135,7 +135,7 @@ TEST(Times, AtRestTheTableHasAllTicksAndAsksForNoFrame) {
   const std::int64_t first = session.moment()->ticked->tick;
   session.set_rate(1000);
   session.play(true);
-  for (int k = 0; k < 3000 && !session.moment()->is_resting; ++k) {
+  for (int k = 0; k < 30000 && !session.moment()->is_resting; ++k) {
     desktop.frames(1);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

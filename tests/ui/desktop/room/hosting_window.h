@@ -31,7 +31,7 @@ class HostingWindow : public ::testing::Test {
   HostDialog& host() { return editor().dialogs->host(); }
   template <class IsOver>
   bool frames_until(const IsOver& is_over) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (std::chrono::steady_clock::now() < end) {
       desktop_->frames(1);
       if (is_over()) return true;
