@@ -24,7 +24,7 @@ export const de: Record<Key, Text> = {
   reload: "Neu laden",
   closed_title: "Die Sitzung ist zu Ende",
   closed: "Es kann nichts mehr geändert werden. Danke fürs Mitmachen.",
-  closed_minutes: "Es kann nichts mehr geändert werden. Was für das Protokoll zu tun ist, steht unter „{tab}“.",
+  closed_minutes: "Es kann nichts mehr geändert werden. Das Protokoll finden Sie unter „{tab}“.",
   bad_code_title: "Welcher Raum?",
   bad_code: "Geben Sie die vier Buchstaben ein, die die Moderation zeigt.",
   code: "Code",

@@ -27,7 +27,7 @@ export const en = {
   reload: "Load again",
   closed_title: "The session is over",
   closed: "Nothing can be changed any more. Thank you for taking part.",
-  closed_minutes: "Nothing can be changed any more. What to do for the minutes stands under “{tab}”.",
+  closed_minutes: "Nothing can be changed any more. The minutes are under “{tab}”.",
   bad_code_title: "Which room?",
   bad_code: "Type the four letters that the facilitator shows.",
   code: "Code",

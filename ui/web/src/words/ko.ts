@@ -24,7 +24,7 @@ export const ko: Record<Key, Text> = {
   reload: "다시 불러오기",
   closed_title: "모임이 끝났습니다",
   closed: "이제 아무것도 바꿀 수 없습니다. 참여해 주셔서 감사합니다.",
-  closed_minutes: "이제 아무것도 바꿀 수 없습니다. 회의록을 만드는 방법은 “{tab}”에 있습니다.",
+  closed_minutes: "이제 아무것도 바꿀 수 없습니다. 회의록은 “{tab}”에 있습니다.",
   bad_code_title: "어느 방인가요?",
   bad_code: "진행자가 보여 주는 네 글자를 입력하세요.",
   code: "코드",

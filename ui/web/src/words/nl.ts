@@ -24,7 +24,7 @@ export const nl: Record<Key, Text> = {
   reload: "Opnieuw laden",
   closed_title: "De bijeenkomst is afgelopen",
   closed: "Er kan niets meer worden gewijzigd. Bedankt voor het meedoen.",
-  closed_minutes: "Er kan niets meer worden gewijzigd. Wat u voor het verslag moet doen, staat onder “{tab}”.",
+  closed_minutes: "Er kan niets meer worden gewijzigd. Het verslag vindt u onder “{tab}”.",
   bad_code_title: "Welke ruimte?",
   bad_code: "Typ de vier letters die de begeleider toont.",
   code: "Code",
