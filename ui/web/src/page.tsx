@@ -257,5 +257,5 @@ function start(): void {
   show(() => <App s={session} ui={ui} address={address} />);
 }
 
-// Not while the script itself runs: whoever asks then where a call comes from, as tools that measure pages do, has all of it parsed again.
-void Promise.resolve().then(start);
+// A task of its own: to read the script takes a slow phone long enough, and touches and messages may come in between.
+window.setTimeout(start);
