@@ -64,13 +64,7 @@ Result<void> may_fill_with_minutes(const std::string& directory) {
   return may;
 }
 
-Result<std::size_t> write_minutes(const std::string& directory, const Account& account) {
-  const fs::path folder(directory);
-  auto done = make_directory(folder);
-  if (done) done = may_fill_with_minutes(directory);
-  if (done) done = may_put_scenes(folder, account);
-  if (done) done = make_directory(folder / "scenes");
-  // The page first: the scenes are known as ours by it.
+std::vector<std::pair<std::string, std::string>> files_of(const Account& account) {
   std::vector<std::pair<std::string, std::string>> files = {{kPage, write_page(account)},
                                                             {"decisions.csv", decisions_csv(account)},
                                                             {"comments.csv", comments_csv(account)},
@@ -78,6 +72,17 @@ Result<std::size_t> write_minutes(const std::string& directory, const Account& a
                                                             {"log.jsonl", account.log},
                                                             {"scenes/end.json", account.last_scene}};
   for (const Saved& saved : account.scenarios) files.emplace_back(saved.file(), saved.scene);
+  return files;
+}
+
+Result<std::size_t> write_minutes(const std::string& directory, const Account& account) {
+  const fs::path folder(directory);
+  auto done = make_directory(folder);
+  if (done) done = may_fill_with_minutes(directory);
+  if (done) done = may_put_scenes(folder, account);
+  if (done) done = make_directory(folder / "scenes");
+  // The page first: the scenes are known as ours by it.
+  const auto files = files_of(account);
   for (const auto& [name, text] : files)
     if (done) done = write_file((folder / name).string(), text);
   if (!done) return done.error();

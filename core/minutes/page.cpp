@@ -60,8 +60,8 @@ void write_footer(drawing::Markup& page, const Account& account) {
           ": whoever has another log of this session, or one in which anything was changed, gets another hash");
   row("Names", "People appear by their pseudonyms. Words that were erased appear as [erased].");
   row("Made by",
-      "BehaviourLinks, behaviourlinks minutes; beside this page lie decisions.csv, comments.csv and votes.csv for spreadsheets, "
-      "log.jsonl, which behaviourlinks replay runs again, and the scenes of the scenarios and of the end");
+      "BehaviourLinks, behaviourlinks minutes; these minutes have other files as well: decisions.csv, comments.csv and votes.csv "
+      "for spreadsheets, log.jsonl, which behaviourlinks replay runs again, and the scenes of the scenarios and of the end");
   page.close().close();
 }
 

@@ -35,6 +35,8 @@ std::string type_of_file(const std::string& name) {
                                                             {".svg", "image/svg+xml"},
                                                             {".png", "image/png"},
                                                             {".json", "application/json"},
+                                                            {".jsonl", "application/x-ndjson"},
+                                                            {".csv", "text/csv; charset=utf-8"},
                                                             {".woff2", "font/woff2"},
                                                             {".webmanifest", "application/manifest+json"}};
   const auto found = kTypes.find(std::filesystem::path(name).extension().string());
@@ -133,6 +135,27 @@ Response Pages::qr(const std::string& name, const Request& request) const {
              : sentence(414, svg.error().message);
 }
 
+// A form, so that the token stands in no address. Rooms that there are not are answered as wrong tokens are: nobody learns codes
+// here.
+void Pages::minutes(const Request& request, const Reply& reply) const {
+  auto fields = form_fields(request.body);
+  const auto room = rooms_->find(code_in(fields["room"]));
+  if (room == rooms_->end() || !room->second->leads(room->second->seat_of_token(fields["token"])))
+    return reply(sentence(403, "Only who leads a room gets its minutes."));
+  room->second->make_minutes(fields["file"], [reply, name = fields["file"]](const Result<std::string>& made) {
+    if (made) {
+      Response response{.type = type_of_file(name), .body = *made, .fields = {{"Cache-Control", "no-store"}}};
+      if (name == "minutes.html") response.inline_sources = inline_sources_of(response.body);
+      else response.fields["Content-Disposition"] = "attachment";
+      return reply(std::move(response));
+    }
+    if (made.error().code == ErrorCode::conflict)
+      return reply(sentence(409, "The minutes are being made for somebody else; try again in a moment."));
+    if (made.error().code == ErrorCode::not_found) return reply(sentence(404, "These minutes have no such file."));
+    reply(sentence(500, "The minutes cannot be made: " + made.error().text() + "."));
+  });
+}
+
 // The build leaves a packed file beside each one.
 Response Pages::file(const std::string& path, bool is_immutable, bool takes_gzip) const {
   if (folder_.empty()) return sentence(404, "There is no such page.");
@@ -170,6 +193,7 @@ void Pages::answer(const Request& request, const Reply& reply) {
     return reply(svg ? Response{.type = "image/svg+xml", .body = std::move(*svg), .fields = {{"Cache-Control", "no-store"}}}
                      : sentence(414, svg.error().message));
   }
+  if (!is_read && path == "/minutes") return minutes(request, reply);
   if (!is_read) return reply(sentence(404, "There is no such form."));
   if (path == "/health") return reply(health(request.is_local));
   if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request));

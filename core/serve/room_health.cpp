@@ -102,6 +102,11 @@ wire::HealthOut RoomHost::health_message() const {
   return health;
 }
 
+bool RoomHost::leads(std::int64_t number) const {
+  const room::Seat* seat = room_->state().seat(number);
+  return seat != nullptr && seat->role == Role::facilitator;
+}
+
 // Also where nothing can be stored: then it matters most. Each facilitator gets the same.
 void RoomHost::tell_health() {
   const double now = options_.clock->now();
@@ -109,8 +114,7 @@ void RoomHost::tell_health() {
   last_health_ = now;
   std::shared_ptr<const std::string> frame;
   for (auto& [key, visitor] : visitors_) {
-    const room::Seat* seat = room_->state().seat(visitor.seat);
-    if (!visitor.is_welcome || seat == nullptr || seat->is_removed || seat->role != Role::facilitator) continue;
+    if (!visitor.is_welcome || !leads(visitor.seat)) continue;
     if (!frame) frame = frame_of_message(health_message());
     visitor.guest->send(frame);
   }

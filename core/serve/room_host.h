@@ -17,6 +17,7 @@
 #include "core/serve/followers.h"
 #include "core/serve/guest.h"
 #include "core/serve/machine.h"
+#include "core/serve/minutes_maker.h"
 #include "core/serve/room_windows.h"
 #include "core/serve/trial_runner.h"
 #include "core/session/session.h"
@@ -80,6 +81,10 @@ class RoomHost {
   /// Calls back once all that was said until now is stored.
   void when_stored(std::function<void()> done);
   wire::View view(std::string_view name, std::int64_t seat);
+
+  bool leads(std::int64_t seat) const;
+  /// One file of the minutes; for those who lead. Once at a time: whoever comes meanwhile is told so at once.
+  void make_minutes(const std::string& file, MinutesMaker::Done done) { minutes_->make(file, std::move(done)); }
 
   struct Health {
     std::size_t seats = 0, guests = 0, followers = 0;
@@ -185,6 +190,7 @@ class RoomHost {
   std::unique_ptr<room::Room> room_;
   std::unique_ptr<journal::Writer> writer_;
   std::unique_ptr<Followers> followers_;
+  std::unique_ptr<MinutesMaker> minutes_;
   std::string beginning_;  // the scene file before the first entry
   /// Grows where the room begins anew on another laptop, and with each return to a scenario: never the same one twice.
   std::int64_t epoch() const { return (epoch_ - 1) * kMostReturns + room_->state().epoch; }

@@ -66,6 +66,7 @@ Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path
                                                   [clock](std::condition_variable& wake, std::unique_lock<std::mutex>& lock,
                                                           double until) { clock->wait(wake, lock, until); }});
   host->followers_ = std::make_unique<Followers>(*host->writer_, host->options_.on_own_thread, *clock);
+  host->minutes_ = std::make_unique<MinutesMaker>(*host->writer_, host->options_.on_own_thread);
   if (auto begun = host->begin(*loaded); !begun) return begun.error();
   host->flush();
   return host;
@@ -233,8 +234,7 @@ void RoomHost::follow_renewals() {
 
 // A laptop gets all that this one has, so it comes in by a facilitator's key only.
 bool RoomHost::greet_follower(const std::shared_ptr<Guest>& guest, const wire::Hello& hello) {
-  const room::Seat* seat = room_->state().seat(room_->seat_of_token(hello.token));
-  const bool is_lead = seat != nullptr && seat->role == Role::facilitator;
+  const bool is_lead = leads(room_->seat_of_token(hello.token));
   if (!is_lead && !room::is_same_secret(follow_key_, hello.token)) {
     guest->close(CloseCode::no_seat, "a room is followed by the token that its server has printed, or by a facilitator's");
     return false;
@@ -271,6 +271,7 @@ void RoomHost::close() {
   is_alive_.reset();
   session_.reset();
   followers_.reset();
+  minutes_.reset();
   writer_.reset();  // stores what waits
 }
 

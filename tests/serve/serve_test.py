@@ -450,6 +450,58 @@ class Pictures(RoomCase):
         self.assertEqual(refused.exception.code, 414)
 
 
+class Minutes(RoomCase):
+    scene = VOTE
+
+    def ask(self, token, file="minutes.html"):
+        data = urllib.parse.urlencode({"room": self.server.code, "token": token, "file": file}).encode()
+        try:
+            with urllib.request.urlopen(urllib.request.Request(self.server.url("/minutes"), data=data), timeout=60) as answer:
+                return answer.status, answer.headers, answer.read().decode()
+        except urllib.error.HTTPError as refused:
+            return refused.code, refused.headers, refused.read().decode()
+
+    def test_they_come_from_a_room_that_is_closed_to_who_leads_it(self):
+        async def go():
+            lead = await self.page("facilitator").connect()
+            guest = await self.page("stakeholder", seed=1).connect()
+            for vote, ballot in (("height", 23.5), ("money", {"bridge": 5})):
+                self.assertEqual((await lead.event("open_vote", vote=vote))["t"], "ack")
+                cast = await guest.command("cast_vote", node=vote, voter=f"seat {guest.you['seat']}", ballot=ballot)
+                self.assertEqual(cast["t"], "ack", cast)
+            self.assertEqual((await guest.event("comment", id="c1", text="<b>More trees</b>"))["t"], "ack")
+            tokens = lead.token, guest.token
+            while_open = self.ask(lead.token, "votes.csv")[2]
+            for vote in ("height", "money"):
+                self.assertEqual((await lead.event("close_vote", vote=vote))["t"], "ack")
+            closed = await lead.event("close_room")
+            self.assertEqual(closed["t"], "ack", closed)
+            await lead.close()
+            await guest.close()
+            return tokens, while_open
+        (lead, guest), while_open = wait(go())
+        self.assertIn("height,1,vote", while_open)
+        self.assertNotIn("23.5", while_open, "a vote that is open shows no ballot before its close")
+        self.assertNotIn("money,1,ballot", while_open, "nobody learns how somebody voted in secret")
+        status, headers, page = self.ask(lead)
+        self.assertEqual(status, 200, page)
+        self.assertIn("&lt;b&gt;More trees&lt;/b&gt;", page)
+        self.assertIn("style-src 'self' 'sha256-", headers["Content-Security-Policy"])
+        self.assertNotIn("<script", page)
+        self.assertEqual(headers["Cache-Control"], "no-store")
+        status, headers, table = self.ask(lead, "comments.csv")
+        self.assertEqual((status, headers["Content-Disposition"]), (200, "attachment"))
+        self.assertIn("<b>More trees</b>", table)
+        votes = self.ask(lead, "votes.csv")[2]
+        self.assertIn("23.5", votes)
+        self.assertNotIn("money,1,ballot", votes)
+        self.assertEqual(self.ask(guest)[0], 403)
+        self.assertEqual(self.ask("0" * 32)[0], 403)
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            self.server.get(f"/minutes?room={self.server.code}&file=minutes.html&token={lead}")
+        self.assertEqual(refused.exception.code, 404, "an address opens nothing")
+
+
 class BadRequests(RoomCase):
     def raw(self, data, wait_for=60):
         with socket.create_connection(("127.0.0.1", self.server.port), timeout=wait_for) as connection:

@@ -1,20 +1,15 @@
 // The life of a connection: it keeps one seat in a room and gives every operation exactly one answer, whatever the network does.
+import { Heartbeat, kWakeWait } from "./heartbeat";
 import { hello_of } from "./hello";
 import { Queue, kLease } from "./queue";
 import type { Item } from "./queue";
 import { PresenceVoice } from "./presence";
-import { Timers, ask_again, back_off, hold_off, kLongestWait } from "./timers";
+import { Patience, Seeking } from "./seeking";
+import { Timers, back_off, hold_off, kLongestWait } from "./timers";
 import type { Deed, Json, Nack, Seen, ViewName, Welcome } from "./wire";
 import type { Answer, Link, Listener, Options, Stage, World } from "./world";
 
-// Heartbeats and patience [ms].
-const kPing = 5000;
-const kPongWait = 4000;
-const kWakeWait = 1500;
-const kHelloWait = 5000;
-const kSlowOpen = 1500; // a socket that takes longer to open may never do so; on a slow way each later one gets longer
-const kMostQuestions = 6; // that have no answer yet; browsers open no more connections at once
-const kUnasked = 20000; // after so long without an answer a socket is tried all the same
+// Patience [ms].
 const kLonely = 60000; // after so long, an operation is sent with the value that the person saw
 const kSilence = 8000; // an operation without an answer on a living connection is sent again
 // Below the limits of the server: 30 at once, and 10 in a second.
@@ -35,7 +30,7 @@ export class Connection {
   private attempt = 0;
   private isGreeted = false; // the welcome has come on this link
   private timers: Timers;
-  private pinged = 0;
+  private heartbeat: Heartbeat;
   private sent = new Map<number, { at: number; order: number }>(); // what has gone out on this link
   private order = 0;
   private tokens = kBurst;
@@ -47,10 +42,9 @@ export class Connection {
   private gapBefore = 0; // the operation that the server has missed
   private gapsDue = 0; // refusals because of it that are still to come on this link
   private isStopped = false;
-  private opened = 0; // when the link was asked for
-  private patience = kSlowOpen; // after so long, a link that has not opened is given up where a question is answered
-  private isBlind = false; // the link was asked for although nobody answered
-  private questions = new Set<() => void>(); // whether the server is there; each is ended by calling it
+  private seeking: Seeking;
+  private welcoming = new Patience(5000, 30000);
+  private opened = 0; // when the link was
   readonly presence: PresenceVoice;
   private looked: string[] = []; // drafts
   private asked = 0; // how many views the hello of this link has named
@@ -65,6 +59,21 @@ export class Connection {
     this.timers = new Timers(world);
     this.presence = new PresenceVoice(this.timers, (message) => this.send(message));
     this.since = world.now();
+    this.seeking = new Seeking(
+      world,
+      this.timers,
+      () => world.now() - this.since,
+      (isBlind) => {
+        if (isBlind) this.attempt = 1;
+        this.connect();
+      },
+    );
+    this.heartbeat = new Heartbeat(
+      world,
+      this.timers,
+      (message) => this.send(message),
+      () => this.reconnect(0),
+    );
     this.views = new Set(options.views);
     Queue.tidy(world.store, options.prefix, world.now());
     const own = options.run === null ? null : Queue.take(world.store, options.prefix, options.run, this.me, world.now());
@@ -147,14 +156,13 @@ export class Connection {
       this.reconnect(0);
     } else if (this.isGreeted) {
       this.presence.change({ hidden: false });
-      this.ping(kWakeWait);
-    } else if (this.world.now() - this.opened > kWakeWait || !this.link) this.reconnect(0);
+      this.heartbeat.wake();
+    } else if (this.seeking.sinceAsked > kWakeWait || !this.link) this.reconnect(0);
   }
 
   /// The page is hidden: phones slow its clock down, so it asks nothing.
   sleep(): void {
-    this.timers.stop("ping");
-    this.timers.stop("pong");
+    this.heartbeat.stop();
     this.presence.hide();
   }
 
@@ -197,11 +205,14 @@ export class Connection {
     if (this.stage !== "open" && this.stage !== "door" && this.stage !== "waiting") this.stage = "connecting";
     const link = this.world.open();
     this.link = link;
-    this.opened = this.world.now();
-    this.isBlind = false;
     link.onopen = () => {
       if (this.link !== link) return;
-      this.stopSeeking();
+      this.seeking.succeeded();
+      this.opened = this.world.now();
+      this.timers.start("hello", this.welcoming.wait, () => {
+        this.welcoming.ended();
+        this.lost();
+      });
       this.greet();
     };
     link.onmessage = (text) => {
@@ -210,56 +221,16 @@ export class Connection {
     link.onclose = (code, reason) => {
       if (this.link === link) this.closed(code, reason);
     };
-    this.timers.start("hello", kHelloWait, () => this.lost());
-    // A socket that was asked for while the network was away waits long, although the network is back.
-    this.timers.start("seek", kSlowOpen, () => this.seek());
-  }
-
-  // Browsers delay the sockets of a page of which many have failed, by seconds. They do not delay questions by HTTP, so one is opened
-  // when the server has answered one. Nobody has to pay for that: while nobody answers, a question is a packet.
-  private seek(): void {
-    if (!this.timers.has("retry")) this.timers.start("retry", kUnasked, () => this.tryBlindly());
-    if (this.questions.size < kMostQuestions) {
-      const end = this.world.ask((isThere) => {
-        this.questions.delete(end);
-        if (isThere) this.found();
-      });
-      this.questions.add(end);
-    }
-    this.timers.start("seek", ask_again(this.world.now() - this.since, this.world.isVisible(), this.world.chance()), () => this.seek());
-  }
-
-  // The server has answered. A socket that may still be in its handshake, which takes more round trips than a question, is left to it:
-  // seek() goes on asking. What was asked for while nobody answered may wait for packets that are lost.
-  private found(): void {
-    if (this.link && !this.isBlind) {
-      if (this.world.now() - this.opened < this.patience) return;
-      this.patience = Math.min(kHelloWait, 2 * this.patience);
-    }
-    this.connect();
-  }
-
-  // A way that is too slow for questions, or a proxy that does not pass them on, may still take sockets. Meanwhile it goes on asking.
-  private tryBlindly(): void {
-    this.attempt = 1;
-    this.connect();
-    this.isBlind = true;
-    this.seek();
-  }
-
-  private stopSeeking(): void {
-    this.timers.stop("seek");
-    this.timers.stop("retry");
-    for (const end of this.questions) end();
-    this.questions.clear();
+    this.seeking.asked(() => this.lost());
   }
 
   private dropLink(): void {
     const link = this.link;
     this.link = null;
-    this.stopSeeking();
+    this.seeking.stop();
     this.isGreeted = false;
-    for (const name of ["hello", "ping", "pong", "pump", "silence", "calm"]) this.timers.stop(name);
+    this.heartbeat.stop();
+    for (const name of ["retry", "hello", "pump", "silence", "calm"]) this.timers.stop(name);
     this.presence.gone();
     this.sent.clear();
     if (!link) return;
@@ -298,7 +269,7 @@ export class Connection {
     this.setStage(this.stage === "door" ? "door" : "waiting");
     if (delay <= 0) this.connect();
     // The first attempt is a socket at once: mostly nothing but the old one was lost.
-    else this.timers.start("retry", delay, () => (this.attempt <= 1 ? this.connect() : this.seek()));
+    else this.timers.start("retry", delay, () => (this.attempt <= 1 ? this.connect() : this.seeking.seek()));
   }
 
   private setStage(stage: Stage): void {
@@ -388,8 +359,7 @@ export class Connection {
       case "nack":
         return this.refused(message as unknown as Nack);
       case "pong":
-        if (message.n === this.pinged) this.timers.stop("pong");
-        return;
+        return this.heartbeat.answered(message.n);
       case "state":
         this.seq = Math.max(this.seq, Number(message.s) || 0);
         break;
@@ -401,8 +371,12 @@ export class Connection {
 
   private welcome(welcome: Welcome): void {
     this.timers.stop("hello");
+    if (!this.isGreeted) {
+      const trip = this.world.now() - this.opened;
+      this.welcoming.took(trip);
+      this.heartbeat.begin(trip);
+    }
     this.isGreeted = true;
-    this.patience = kSlowOpen;
     this.gapsDue = 0;
     // A room that could not store for a while greets its pages again; what it has not answered is sent again.
     this.sent.clear();
@@ -418,7 +392,6 @@ export class Connection {
     this.presence.greeted(this.world.isVisible());
     // What was wanted after the hello had gone out stands in no message yet.
     if (this.views.size > this.asked || this.looked.length > 0) this.sendWant();
-    this.schedulePing();
     this.pump();
   }
 
@@ -539,24 +512,5 @@ export class Connection {
     if (this.queue.isOurs()) this.queue.live(this.world.now());
     this.takeOver();
     this.timers.start("lives", kLease / 3, () => this.lives());
-  }
-
-  // --- Heartbeat ----------------------------------------------------------------------------------------------------
-
-  private schedulePing(): void {
-    if (this.world.isVisible()) this.timers.start("ping", kPing, () => this.ping(kPongWait));
-  }
-
-  private ping(wait: number): void {
-    if (!this.isGreeted) return;
-    this.pinged += 1;
-    this.send({ t: "ping", n: this.pinged });
-    const due = this.world.now() + wait;
-    this.timers.start("pong", wait, () => {
-      // A timer that comes much too late means that the page was frozen: its messages have not been read yet.
-      if (this.world.now() - due > 1000) this.ping(kWakeWait);
-      else this.reconnect(0);
-    });
-    this.schedulePing();
   }
 }

@@ -1,4 +1,33 @@
-// How the minutes of a session are made, as a command for the computer that has its file.
+// The minutes of a session: from the server, or by a command for the computer that has the session file.
+import type { Key } from "./words";
+
+/// What the server makes, by what it is called on the page.
+export const kMinutes = {
+  page: "minutes.html",
+  decisions: "decisions.csv",
+  comments: "comments.csv",
+  votes: "votes.csv",
+  log: "log.jsonl",
+  scene: "scenes/end.json",
+};
+
+/// The name under which a file is saved: those of several rooms may lie in one folder.
+export const saved_as = (room: string, file: string): string => `${room}-${file.replace(/^.*\//, "")}`;
+
+/// The form that asks for a file. It is posted, so that the token stands in no address.
+export const minutes_form = (room: string, token: string, file: string): Record<string, string> => ({ room, token, file });
+
+/// The file, or why there is none: a sentence, and what the server says.
+export async function minutes_from_server(form: Record<string, string>, ask: typeof fetch): Promise<Blob | { why: Key; text: string }> {
+  try {
+    const answer = await ask("/minutes", { method: "POST", body: new URLSearchParams(form) });
+    if (answer.ok) return await answer.blob();
+    const why: Key = answer.status === 409 ? "minutes_busy" : answer.status === 403 ? "minutes_right" : "minutes_failed";
+    return { why, text: (await answer.text()).trim() };
+  } catch {
+    return { why: "minutes_offline", text: "" };
+  }
+}
 
 /// One word of a command line, whatever stands in it.
 export function shell_word(text: string): string {

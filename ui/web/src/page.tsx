@@ -257,4 +257,5 @@ function start(): void {
   show(() => <App s={session} ui={ui} address={address} />);
 }
 
-start();
+// A task of its own: to read the script takes a slow phone long enough, and touches and messages may come in between.
+window.setTimeout(start);

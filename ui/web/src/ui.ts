@@ -76,6 +76,16 @@ export function useMedia(query: string): boolean {
 /// Is there room for the plan beside the screen?
 export const useWide = (): boolean => useMedia("(min-width: 900px)");
 
+/// False until the browser has had time to paint and to hear touches: for what a screen can begin without.
+export function useLater(): boolean {
+  const [isLater, set] = useState(false);
+  useEffect(() => {
+    const timer = window.setTimeout(() => set(true));
+    return () => window.clearTimeout(timer);
+  }, []);
+  return isLater;
+}
+
 /// The server tries these drafts while the caller is on the screen.
 export function useLook(s: { look(drafts: string[]): void }, drafts: string[]): void {
   useEffect(() => {

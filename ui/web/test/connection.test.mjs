@@ -331,6 +331,47 @@ test("a socket that is slow to open is waited for, also where questions are answ
     }
 });
 
+// TCP and the handshake are two round trips, a question is one or two, hello and welcome are another one. Of slower ways the server
+// sends everybody away: what it has not read after five seconds.
+test("a way on which everything takes seconds connects, and stays connected when somebody looks again", () => {
+  for (let trip = 1300; trip <= 4500; trip += 100)
+    for (const trips of [1, 2])
+      for (let seed = 1; seed <= 5; ++seed) {
+        const { clock, network, room, store } = setting(seed);
+        Object.assign(network, { latency: trip / 2, opening: 2 * trip, asking: trips * trip });
+        const page = new Page(network, store);
+        const begun = clock.time;
+        while (page.connection.stage !== "open" && clock.time < begun + 120_000) clock.run(100);
+        assert.ok(clock.time - begun < 60_000, `${trip} ms, a question takes ${trips}: ${clock.time - begun} ms`);
+        for (let k = 0; k < 20; ++k) {
+          clock.run(3000 + 500 * k);
+          page.connection.wake();
+        }
+        assert.equal(page.welcomes, 1, `${trip} ms`);
+        // It comes back sooner than it came the first time: the page has learnt how long it takes.
+        for (const link of room.links.values()) link.end(1006);
+        clock.run(trip / 2 + 1);
+        const lost = clock.time;
+        while (page.connection.stage !== "open" && clock.time < lost + 120_000) clock.run(100);
+        assert.ok(clock.time - lost < 4 * trip, `${trip} ms, back after ${clock.time - lost} ms`);
+      }
+});
+
+test("a socket that opens and says nothing is given up sooner at first", () => {
+  const { clock, network, room, store } = setting();
+  room.hello = () => {};
+  new Page(network, store);
+  const times = [];
+  for (let opened = 0; clock.time < 1_700_000_300_000; clock.run(10))
+    if (network.opened > opened) {
+      opened = network.opened;
+      times.push(clock.time);
+    }
+  const waits = times.slice(1).map((time, k) => time - times[k]);
+  assert.ok(waits[0] >= 5000 && waits[0] < 6000, `${waits}`);
+  assert.ok(waits.slice(4).every((wait) => wait >= 30_000 && wait < 40_000), `${waits}`);
+});
+
 test("a socket that was tried while nobody answered is not waited for once somebody does", () => {
   const { clock, network, store } = setting();
   network.isDown = true;

@@ -144,9 +144,11 @@ export class Network {
     this.asked += 1;
     let isWanted = true;
     const answer = (isThere) => isWanted && !page.isFrozen && then(isThere);
-    this.clock.set(this.asking ?? this.latency, () => {
+    const time = this.asking ?? this.latency;
+    // A browser waits two seconds for it.
+    this.clock.set(Math.min(time, 2000), () => {
       if (this.isDown) this.clock.set(2000, () => answer(false));
-      else answer(!this.isAway);
+      else answer(!this.isAway && time <= 2000);
     });
     return () => {
       isWanted = false;

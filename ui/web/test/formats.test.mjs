@@ -15,6 +15,8 @@ import {
   in_steps,
   kLanguages,
   ko,
+  minutes_form,
+  minutes_from_server,
   minutes_of,
   nl,
   number,
@@ -218,6 +220,23 @@ function read_wifi(text) {
   for (const [, name, value] of text.slice(5).matchAll(/([A-Z]):((?:\\.|[^;\\])*);/g)) fields[name] = value.replace(/\\(.)/g, "$1");
   return fields;
 }
+
+test("minutes are asked for by a form, and each way to get none has a sentence", async () => {
+  const asked = [],
+    form = minutes_form("BKRT", "secret", "votes.csv"),
+    answering = (status, text) => async (address, how) => {
+      asked.push({ address, method: how.method, body: how.body.toString() });
+      return new Response(text, { status });
+    };
+  const got = await minutes_from_server(form, answering(200, "vote,round"));
+  assert.equal(await got.text(), "vote,round");
+  assert.deepEqual(asked, [{ address: "/minutes", method: "POST", body: "room=BKRT&token=secret&file=votes.csv" }]);
+  const why = async (ask) => (await minutes_from_server(form, ask)).why;
+  assert.equal(await why(answering(409, "busy")), "minutes_busy");
+  assert.equal(await why(answering(403, "no")), "minutes_right");
+  assert.deepEqual(await minutes_from_server(form, answering(500, "The disk is full.\n")), { why: "minutes_failed", text: "The disk is full." });
+  assert.equal(await why(() => Promise.reject(new TypeError("no network"))), "minutes_offline");
+});
 
 test("the command of the minutes takes any name of a file as one word", () => {
   const plain = minutes_of("/home/a/scene.blsession");

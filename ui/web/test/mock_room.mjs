@@ -8,6 +8,8 @@ export class MockRoom {
   tick = 900;
   seats = {};
   tokens = new Map();
+  asked_minutes = [];
+  minutes_fault = 0; // the status of the answer, where there are none
   runs = new Map();
   links = new Set();
   log = [];

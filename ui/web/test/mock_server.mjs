@@ -22,6 +22,25 @@ function policy() {
 }
 const kTypes = { html: "text/html; charset=utf-8", js: "text/javascript; charset=utf-8", css: "text/css; charset=utf-8" };
 
+// The page of the minutes, or a table, for the token of a seat that leads.
+const kStyle = "body{font-family:sans-serif}";
+async function minutes(room, request, answer) {
+  let body = "";
+  for await (const part of request) body += part;
+  const form = new URLSearchParams(body);
+  room.asked_minutes.push({ address: request.url, method: request.method, file: form.get("file") });
+  const head = { "Content-Type": "text/plain; charset=utf-8", "Cache-Control": "no-store" };
+  if (form.get("room") !== "BCDF" || room.seats[room.tokens.get(form.get("token"))]?.role !== "facilitator")
+    return answer.writeHead(403, head).end("Only who leads a room gets its minutes.\n");
+  if (room.minutes_fault) return answer.writeHead(room.minutes_fault, head).end("The disk is full.\n");
+  const policy = `default-src 'none'; style-src 'sha256-${createHash("sha256").update(kStyle).digest("base64")}'`;
+  if (form.get("file") === "minutes.html")
+    return answer
+      .writeHead(200, { ...head, "Content-Type": "text/html; charset=utf-8", "Content-Security-Policy": policy })
+      .end(`<!doctype html><html lang="en"><title>Minutes</title><style>${kStyle}</style><main><h1>The quarter</h1></main></html>`);
+  return answer.writeHead(200, { ...head, "Content-Type": "text/csv; charset=utf-8" }).end("number,entry\n1,2\n");
+}
+
 /// Starts on a free port, or on the one that is named.
 export async function serve(port = 0) {
   const room = new MockRoom(),
@@ -29,6 +48,7 @@ export async function serve(port = 0) {
     own_policy = policy();
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
+    if (path === "/minutes") return minutes(room, request, answer);
     if (path.startsWith("/qr"))
       return answer
         .writeHead(200, { "Content-Type": "image/svg+xml" })

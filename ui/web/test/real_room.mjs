@@ -1,6 +1,7 @@
 // The page with the real server: people join, vote, change, comment and propose, and the facilitator leads.
 // BEHAVIOURLINKS names the program; its room is made of the quarter and lies in a folder that is removed afterwards.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { opened, shots, start_room } from "./real_server.mjs";
 
 const room = await start_room();
@@ -164,6 +165,21 @@ try {
     await picture(beamer, `beamer_${what.toLowerCase()}`);
   }
   assert.ok(Object.values(room.lead.views.room.seats).some((seat) => seat.role === "viewer" && seat.here));
+
+  // The session ends, and the facilitator reads what came of it and takes it along.
+  await lead.click('.rows li:has-text("Where is a tower good?") button:has-text("Close")');
+  await lead.waitForSelector('.rows li:has-text("Where is a tower good?") button:has-text("Open")');
+  await lead.click('button:has-text("End the session")');
+  await lead.click(".sure .danger");
+  const [minutes] = await Promise.all([lead.context().waitForEvent("page"), lead.click('button:has-text("Open the minutes")')]);
+  await minutes.waitForSelector("h1");
+  assert.match(await minutes.textContent("body"), /Without scripts\./);
+  assert.notEqual(await minutes.evaluate(() => getComputedStyle(document.body).fontFamily), "", "it has its style");
+  assert.ok(!minutes.url().includes("token"));
+  await picture(minutes, "minutes");
+  const [file] = await Promise.all([lead.waitForEvent("download"), lead.click('button:has-text("Comments, as a table")')]);
+  assert.match(readFileSync(await file.path(), "utf8"), /^number,id,entry[^]*Without scripts\./);
+  await picture(lead, "minutes_lead");
   assert.deepEqual(faults, []);
   console.log(`ok the page and the real server: ${requests} requests, none of them elsewhere`);
 } catch (error) {

@@ -45,7 +45,7 @@ async function person(server, { size = [390, 844], scheme = "light", fragment = 
   });
   page.on("pageerror", (error) => faults.push(`an error: ${error.message}`));
   page.on("console", (message) => {
-    if (message.type() === "error" && !/WebSocket connection/.test(message.text())) faults.push(`the console: ${message.text()}`);
+    if (message.type() === "error" && !/WebSocket connection|status of 409/.test(message.text())) faults.push(`the console: ${message.text()}`);
   });
   await page.goto(`${home}/BCDF${fragment}`);
   return page;
@@ -242,11 +242,37 @@ async function walk_facilitator(server, size, scheme) {
   await page.click('button:has-text("End the session")');
   await page.click(".sure .danger");
   await page.waitForSelector('h2:has-text("Minutes")');
+  await look(page, `lead_minutes_${at}`);
+  await look_at_minutes(page, room, at);
+  await page.click('summary:has-text("Minutes without the server")');
   const command = await page.inputValue('label:has-text("Command for the minutes") input');
   assert.equal(command, "./bl minutes '/home/anna/Sessions of spring/quarter.blsession' --out '/home/anna/Sessions of spring/quarter-minutes'");
-  await look(page, `lead_minutes_${at}`);
+  await look(page, `lead_minutes_command_${at}`);
   room.room.closed = false;
   await page.context().close();
+}
+
+// They open as a page, and are saved as files; the token stands in no address.
+async function look_at_minutes(page, room, at) {
+  room.asked_minutes.length = 0;
+  const [opened] = await Promise.all([page.context().waitForEvent("page"), page.click('button:has-text("Open the minutes")')]);
+  await opened.waitForSelector("h1");
+  assert.equal(await opened.evaluate(() => getComputedStyle(document.body).fontFamily), "sans-serif", "the page has its style");
+  await opened.close();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click('button:has-text("Votes, as a table")')]);
+  assert.equal(file.suggestedFilename(), "BCDF-votes.csv");
+  assert.equal(readFileSync(await file.path(), "utf8"), "number,entry\n1,2\n");
+  await page.waitForSelector('[role=status]:has-text("BCDF-votes.csv was saved")');
+  room.minutes_fault = 409;
+  await page.click('button:has-text("Comments, as a table")');
+  await page.waitForSelector('[role=status]:has-text("for somebody else")');
+  await page.locator('button:has-text("Scene at the end")').scrollIntoViewIfNeeded();
+  await look(page, `lead_minutes_busy_${at}`);
+  room.minutes_fault = 0;
+  assert.deepEqual(
+    room.asked_minutes,
+    ["minutes.html", "votes.csv", "comments.csv"].map((file) => ({ address: "/minutes", method: "POST", file })),
+  );
 }
 
 async function walk_beamer(server, size, scheme) {

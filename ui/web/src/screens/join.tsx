@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { Avatar, Icon, Moved, Sheet, StatusLine, Title } from "../parts";
 import { Plan } from "../plan";
 import type { Session } from "../session";
+import { useLater } from "../ui";
 import { Language, kLanguages, kNames, t } from "../words";
 
 export function Join({
@@ -17,15 +18,14 @@ export function Join({
   onLanguage(one: Language): void;
   onGo(): void;
 }): JSX.Element {
-  const [isReading, read] = useState(false);
+  const [isReading, read] = useState(false),
+    isPainted = useLater();
   const you = s.you;
   return (
     <div class="join">
       <main>
         <Title>{s.views.room.title ?? s.views.room.code ?? "…"}</Title>
-        <div class="picture">
-          <Plan s={s} binding={null} selected={null} isStill />
-        </div>
+        <div class="picture">{isPainted ? <Plan s={s} binding={null} selected={null} isStill /> : null}</div>
         <div class="who">
           {you ? (
             <>

@@ -1,19 +1,81 @@
-// After the session: how the minutes are made, with the session file of this room.
+// After the session: its minutes, to open and to save.
 import type { JSX } from "preact";
-import { minutes_of } from "../minutes";
+import { useState } from "preact/hooks";
+import { kMinutes, minutes_form, minutes_from_server, minutes_of, saved_as } from "../minutes";
+import { Icon } from "../parts";
 import type { Session } from "../session";
-import { t } from "../words";
+import { Key, t } from "../words";
 import { AddressRow } from "./invitations";
 
+function save(blob: Blob, name: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  // Some browsers begin to read only after the click.
+  window.setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+// A page of its own, which the browser asks for as for any form. It is not taken from memory, because the policy of this page would
+// forbid its style.
+function OpenMinutes({ room, token }: { room: string; token: string }): JSX.Element {
+  return (
+    <form method="post" action="/minutes" target="_blank">
+      {Object.entries(minutes_form(room, token, kMinutes.page)).map(([name, value]) => (
+        <input key={name} type="hidden" name={name} value={value} />
+      ))}
+      <button class="main">
+        {t("minutes_open")}
+        <Icon name="right" />
+      </button>
+    </form>
+  );
+}
+
+function SaveMinutes({ room, token }: { room: string; token: string }): JSX.Element {
+  const [said, say] = useState<{ state: "making" | "saved" | "failed"; text: string } | null>(null);
+  const get = async (file: string): Promise<void> => {
+    if (said?.state === "making") return;
+    say({ state: "making", text: t("minutes_making") });
+    const got = await minutes_from_server(minutes_form(room, token, file), window.fetch.bind(window));
+    if (!(got instanceof Blob)) return say({ state: "failed", text: t(got.why, { why: got.text }) });
+    save(got, saved_as(room, file));
+    say({ state: "saved", text: t("minutes_saved", { file: saved_as(room, file) }) });
+  };
+  return (
+    <>
+      <h3>{t("minutes_save")}</h3>
+      <div class="row">
+        {Object.entries(kMinutes).map(([what, file]) => (
+          <button key={what} class="quiet" aria-disabled={said?.state === "making"} onClick={() => void get(file)}>
+            {t(`minutes_of_${what}` as Key)}
+          </button>
+        ))}
+      </div>
+      <p role="status" class={said?.state === "failed" ? "notice" : "small"}>
+        {said?.text ?? ""}
+      </p>
+    </>
+  );
+}
+
 export function MinutesPart({ s }: { s: Session }): JSX.Element {
-  const { command, page } = minutes_of(s.health?.file || "FILE.blsession");
+  const { command, page } = minutes_of(s.health?.file || "FILE.blsession"),
+    room = s.views.room.code ?? "",
+    token = s.connection.token ?? "";
   return (
     <section class="panel">
       <h2>{t("minutes_title")}</h2>
-      <p>{t("minutes_make")}</p>
-      <AddressRow name={t("minutes_command")} address={command} />
-      <p>{t("minutes_open")}</p>
-      <AddressRow name={t("minutes_page")} address={page} />
+      <p>{t("minutes_about")}</p>
+      <OpenMinutes room={room} token={token} />
+      <SaveMinutes room={room} token={token} />
+      <details>
+        <summary>{t("minutes_by_command")}</summary>
+        <p>{t("minutes_make")}</p>
+        <AddressRow name={t("minutes_command")} address={command} />
+        <p>{t("minutes_then")}</p>
+        <AddressRow name={t("minutes_page")} address={page} />
+      </details>
     </section>
   );
 }
