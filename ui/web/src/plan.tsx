@@ -162,7 +162,7 @@ function names_beside(id: string, item: PlanItem, font: number): Name[] {
 const is_apart = (one: Name, other: Name): boolean =>
   Math.abs(one.x - other.x) * 2 >= one.width + other.width || Math.abs(one.y - other.y) * 2 >= one.height + other.height;
 
-// A name beside a thing covers no other thing, and does not leave the picture.
+// A name beside a thing keeps away from others, so that nobody takes it for theirs, and does not leave the picture.
 function is_on_nothing(name: Name, items: [string, PlanItem][], frame: Frame): boolean {
   const left = name.x - name.width / 2,
     top = name.y - name.height / 2;
@@ -170,10 +170,15 @@ function is_on_nothing(name: Name, items: [string, PlanItem][], frame: Frame): b
     left >= frame.x && left + name.width <= frame.x + frame.width && top >= frame.y && top + name.height <= frame.y + frame.height;
   return (
     isInside &&
-    items.every(([, item]) => {
+    items.every(([id, item]) => {
       const found = item.kind === "volume" || item.kind === "building" ? extent(item) : null;
+      const gap = id === name.id ? 0 : name.font * 0.6;
       return (
-        !found || left >= found.x + found.width || left + name.width <= found.x || top >= found.y + found.height || top + name.height <= found.y
+        !found ||
+        left >= found.x + found.width + gap ||
+        left + name.width <= found.x - gap ||
+        top >= found.y + found.height + gap ||
+        top + name.height <= found.y - gap
       );
     })
   );
