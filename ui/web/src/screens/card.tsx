@@ -60,7 +60,7 @@ function ControlRow({
         isDisabled={isDisabled}
         onChange={(value) => change(s, control, value, draft)}
       />
-      {outcome === null || outcome === set ? null : <p class="small">{t("control_outcome", { value: outcome })}</p>}
+      {draft !== null || outcome === null || outcome === set ? null : <p class="small">{t("control_outcome", { value: outcome })}</p>}
       {control.by ? <p class="small faint">{t("changed_by", { name: control.by })}</p> : null}
       {costs ? <p class="small">{t("costs", { who: costs })}</p> : null}
     </li>
