@@ -76,6 +76,7 @@ struct VoteToWeight {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     if (in.mapping.rows.empty())
       return Error{ErrorCode::missing, "mapping", "no option is worth anything: add a row for at least one"};
+    if (auto unknown = unknown_option(in.mapping, ends.results, ends.vote)) return *unknown;  // before the session, not in it
     if (const auto waits = why_it_waits(in, ends)) {
       remark(tick, LinkRemark::short_of, *waits);
       return Out{};
@@ -85,9 +86,7 @@ struct VoteToWeight {
     for (std::size_t row = 0; row < in.mapping.rows.size(); ++row) {
       const std::string& option = in.mapping.text(row, "option");
       const std::size_t result = counted.row_of("option", option);
-      if (result == counted.rows.size())
-        return Error{ErrorCode::not_found, "mapping/" + std::to_string(row) + "/option",
-                     "the vote `" + ends.vote + "` has no option `" + option + "`" + did_you_mean(option, options_of(counted))};
+      if (result == counted.rows.size()) return no_option(row, option, counted, ends.vote);
       const double share = counted.number(result, "share");
       value += in.mapping.number(row, "least") * (1 - share) + in.mapping.number(row, "most") * share;
     }
@@ -114,6 +113,19 @@ struct VoteToWeight {
     if (turnout >= in.minimum_turnout) return std::nullopt;
     return waits("minimum_turnout",
                  "has a turnout of " + rough(100 * turnout) + " % and needs " + rough(100 * in.minimum_turnout) + " %");
+  }
+
+  static Error no_option(std::size_t row, const std::string& option, const Table& counted, const std::string& vote) {
+    return Error{ErrorCode::not_found, "mapping/" + std::to_string(row) + "/option",
+                 "the vote `" + vote + "` has no option `" + option + "`" + did_you_mean(option, options_of(counted))};
+  }
+
+  static std::optional<Error> unknown_option(const Table& mapping, const Table& results, const std::string& vote) {
+    if (results.rows.empty()) return std::nullopt;  // the vote has not been evaluated yet
+    for (std::size_t row = 0; row < mapping.rows.size(); ++row)
+      if (const std::string& option = mapping.text(row, "option"); results.row_of("option", option) == results.rows.size())
+        return no_option(row, option, results, vote);
+    return std::nullopt;
   }
 
   static std::vector<std::string> options_of(const Table& counted) {

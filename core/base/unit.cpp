@@ -54,17 +54,28 @@ const UnitInfo* find_unit(std::string_view symbol) {
   return nullptr;
 }
 
+// "; known are `m`, `m2`, ...": those in which values are kept.
+static std::string kept_units() {
+  std::string list;
+  for (const UnitInfo& row : kTable)
+    if (row.scale == 1 && !row.symbol.empty()) list += (list.empty() ? "; known are `" : ", `") + std::string(row.symbol) + "`";
+  return list;
+}
+
 Result<const UnitInfo*> stored_unit(std::string_view symbol) {
   const UnitInfo* found = find_unit(symbol);
   const std::string text(symbol);
   if (found == nullptr) {
     std::vector<std::string> known;
     for (const UnitInfo& row : kTable) known.emplace_back(row.symbol);
-    return Error{ErrorCode::wrong_unit, "", "`" + text + "` is no unit that is known" + did_you_mean(symbol, known)};
+    std::string help = did_you_mean(symbol, known);
+    if (help.empty()) help = kept_units();
+    return Error{ErrorCode::wrong_unit, "", "`" + text + "` is no unit that is known" + help};
   }
   if (found->scale == 1) return found;
-  return Error{ErrorCode::wrong_unit, "",
-               "values are not kept in `" + text + "`: write `" + std::string(info(found->unit).symbol) + "`, and the numbers in it"};
+  return Error{
+      ErrorCode::wrong_unit, "",
+      "values are not kept in `" + text + "`: write `" + std::string(info(found->unit).symbol) + "`, and the numbers in it"};
 }
 
 bool same_dimension(Unit a, Unit b) { return info(a).dimension == info(b).dimension; }

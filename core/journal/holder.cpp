@@ -50,7 +50,7 @@ std::string sentence_of_holder(const std::string& path) {
   std::int64_t milliseconds = 0;
   std::from_chars(since.data(), since.data() + since.size(), milliseconds);
   const std::string moment = milliseconds > 0 ? moment_text(milliseconds) : std::string();
-  return moment.empty() ? sentence : sentence + ", since " + moment;
+  return (moment.empty() ? sentence : sentence + ", since " + moment) + "; end it first";
 }
 
 }  // namespace bl::journal

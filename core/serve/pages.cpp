@@ -77,15 +77,21 @@ std::string inline_sources_of(const std::string& page) {
 
 }  // namespace
 
-Response Pages::door() const {
+Response Pages::door(const std::string& mistaken) const {
   drawing::Markup page;
   page.raw(
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>BehaviourLinks</title><link rel=\"stylesheet\" "
-      "href=\"/plain.css\"></head><body><main><h1>Join a session</h1><form method=\"get\" action=\"/\"><label for=\"code\">Code "
+      "href=\"/plain.css\"></head><body><main><h1>Join a session</h1>");
+  if (!mistaken.empty())
+    page.raw("<p class=\"notice\" role=\"status\">There is no room with the code “")
+        .text(code_in(mistaken).substr(0, 12))
+        .raw("”. Look at the beamer, and type its four letters.</p>");
+  page.raw(
+      "<form method=\"get\" action=\"/\"><label for=\"code\">Code "
       "of the room</label><input id=\"code\" name=\"code\" autocomplete=\"off\" autocapitalize=\"characters\" "
       "required><button>Join</button></form></main></body></html>");
-  return {.body = page.str()};
+  return {.status = mistaken.empty() ? 200 : 404, .body = page.str()};
 }
 
 // What of the computer tells strangers nothing that they could use. Its addresses are told on this computer alone.
@@ -210,11 +216,11 @@ void Pages::answer(const Request& request, const Reply& reply) {
         query == std::string::npos ? std::map<std::string, std::string>() : form_fields(request.target.substr(query + 1));
     const auto code = fields.find("code");
     if (code != fields.end() && rooms_->contains(code_in(code->second))) return reply(moved("/" + code_in(code->second)));
-    return reply(door());
+    return reply(door(code == fields.end() ? "" : code->second));
   }
   const auto room = rooms_->find(code_in(path.substr(1)));
-  if (room == rooms_->end() || path.find('/', 1) != std::string::npos)
-    return reply(sentence(404, "There is no room with this code."));
+  if (path.find_first_of("/.", 1) != std::string::npos) return reply(sentence(404, "There is no such page."));
+  if (room == rooms_->end()) return reply(door(path.substr(1)));
   Response page = file("index.html", false, request.takes_gzip);
   if (page.status != 200) return reply(moved("/plain/" + room->first));
   page.inline_sources = inline_sources_of(file("index.html", false, false).body);

@@ -24,7 +24,7 @@ class Pages {
   void answer(const Request& request, const Reply& reply);
 
  private:
-  Response door() const;
+  Response door(const std::string& mistaken = "") const;  ///< where a code is typed, and which one is of no room
   Response health(bool is_local) const;
   Response qr(const std::string& name, const Request& request) const;
   void minutes(const Request& request, const Reply& reply) const;

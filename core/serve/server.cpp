@@ -6,6 +6,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "core/file/file_io.h"
 #include "core/serve/beast.h"
 
 namespace bl::serve {
@@ -171,6 +172,14 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
   bool keeps_alive_ = false, is_head_ = false;
 };
 
+std::string what_to_do(const beast::error_code& error, const ServerOptions& options) {
+  if (error == asio::error::address_in_use) return "; another server may run there, choose another --port";
+  if (error == asio::error::access_denied) return "; ports below 1024 are kept for the system, choose another --port";
+  if (error == std::errc::address_not_available)
+    return "; " + options.address + " is no address of this computer, choose another --bind";
+  return "";
+}
+
 class BeastServer : public Server {
  public:
   Result<void> begin(const ServerOptions& options) {
@@ -181,6 +190,9 @@ class BeastServer : public Server {
       shared_.tls.emplace(asio::ssl::context::tls_server);
       shared_.tls->set_options(asio::ssl::context::no_sslv2 | asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 |
                                asio::ssl::context::no_tlsv1_1);
+      // OpenSSL says of a file that is not there only that it went wrong.
+      for (const std::string& file : {options.certificate, options.key})
+        if (const auto text = read_file(file); !text) return text.error();
       shared_.tls->use_certificate_chain_file(options.certificate, error);
       if (error) return Error{ErrorCode::io, options.certificate, "is no certificate in PEM form: " + error.message()};
       shared_.tls->use_private_key_file(options.key, asio::ssl::context::pem, error);
@@ -197,8 +209,7 @@ class BeastServer : public Server {
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error)
       return Error{ErrorCode::io, "port " + std::to_string(options.port),
-                   "cannot be opened: " + error.message() +
-                       (error == asio::error::address_in_use ? "; another server may run there, choose another --port" : "")};
+                   "cannot be opened: " + error.message() + what_to_do(error, options)};
     if (!options.watched_folder.empty()) shared_.machine.emplace(options.watched_folder);
     shared_.pages.emplace(shared_.rooms, options.page_folder, [this] { return surroundings(); });
     return {};

@@ -110,23 +110,62 @@ View figures_view(const ViewSources& sources) {
   return view;
 }
 
-// A row of a role card with the value as people have set it.
-Json control_of(const ViewSources& sources, const Table& controls, std::size_t row) {
-  const std::string node = controls.text(row, "node"), port = controls.text(row, "port");
-  Json control = {{"node", node}, {"port", port}, {"label", controls.text(row, "label")}};
+// A number that links leave of what people have set; nothing where it is the same.
+std::optional<double> outcome_of(const State& state, const std::string& node, const PortPath& path, const Json& set) {
+  const std::uint32_t index = state.plan->node_index(node);
+  const auto port = index < state.plan->nodes.size() ? state.plan->find(index, path) : std::nullopt;
+  if (!port || !set.is_number()) return std::nullopt;
+  const Value& value = state.value(*port);
+  const double wanted = set.get<double>();
+  if (!std::holds_alternative<double>(value) || as_number(value) == wanted) return std::nullopt;
+  return as_number(value);
+}
+
+// What a control is of: the port, the value as people have set it, and where that stands.
+void describe_value(Json& control, const PortDefinition& port, const PortValues& values) {
+  const auto set = values.find(port.id);
+  control["value"] = value_to_json(set == values.end() ? port.default_value : set->second, port);
+  control["unit"] = info(port.unit).symbol;
+  if (control["label"] == "") control["label"] = port.id;
+}
+
+// Of a node: also what comes of the value together with the links that act on it.
+void describe_node_control(Json& control, const ViewSources& sources, const std::string& node, const std::string& port) {
   const auto path = parse_port_path(port);
   const auto definition = path ? full_registry().port(*path) : Result<const PortDefinition*>(Error{});
   const auto record = sources.room.scene().nodes.find(node);
-  if (definition && record != sources.room.scene().nodes.end() && record->second.types.contains(path->typification)) {
-    const PortValues& values = record->second.types.at(path->typification);
-    const auto set = values.find(path->port);
-    control["value"] = value_to_json(set == values.end() ? (*definition)->default_value : set->second, **definition);
-    control["unit"] = info((*definition)->unit).symbol;
-    if (control["label"] == "") control["label"] = (*definition)->id;
-    const std::string by =
-        sources.room.last_writer({ScenePart::node, node, "types/" + step_of(path->typification) + "/" + step_of(path->port)});
-    if (!by.empty()) control["by"] = seat_name(sources.room.state(), by);
+  if (!definition || record == sources.room.scene().nodes.end() || !record->second.types.contains(path->typification)) return;
+  describe_value(control, **definition, record->second.types.at(path->typification));
+  if (const auto outcome = outcome_of(sources.state, node, *path, control["value"])) control["outcome"] = *outcome;
+}
+
+// Of a link: its strength, or a parameter of its kind.
+void describe_link_control(Json& control, const LinkRecord& link, const std::string& port, const Registry& kinds) {
+  const LinkDefinition* kind = kinds.link(link.kind);
+  if (port == "strength") {
+    control["value"] = link.strength;
+    control["unit"] = "";
+    if (control["label"] == "") control["label"] = port;
+  } else if (const PortDefinition* parameter = kind == nullptr ? nullptr : kind->find_port(port)) {
+    describe_value(control, *parameter, link.parameters);
   }
+}
+
+// A row of a role card.
+Json control_of(const ViewSources& sources, const Table& controls, std::size_t row) {
+  const std::string node = controls.text(row, "node"), port = controls.text(row, "port");
+  Json control = {{"node", node}, {"port", port}, {"label", controls.text(row, "label")}};
+  const Scene& scene = sources.room.scene();
+  Touch place{ScenePart::node, node, ""};
+  if (const auto link = scene.links.find(node); link != scene.links.end() && !scene.nodes.contains(node)) {
+    describe_link_control(control, link->second, port, scene.scripts.types(full_registry()));
+    place = {ScenePart::link, node, port == "strength" ? port : "parameters/" + step_of(port)};
+  } else {
+    describe_node_control(control, sources, node, port);
+    if (const auto path = parse_port_path(port)) place.path = "types/" + step_of(path->typification) + "/" + step_of(path->port);
+  }
+  const std::string by = control.contains("value") ? sources.room.last_writer(place) : std::string();
+  if (!by.empty()) control["by"] = seat_name(sources.room.state(), by);
   for (const char* number : {"minimum", "maximum", "step"}) control[number] = controls.number(row, number);
   control["costs"] = controls.text(row, "costs_whom");
   return control;

@@ -84,6 +84,8 @@ TEST(VoteToWeight, NeedsItsTurnout) {
 TEST(VoteToWeight, NamesOptionsThatAreNotThere) {
   auto link = voted(mapping_of({{"a", 0, 1}, {"park", 0, 1}}));
   EXPECT_EQ(link.run(), "mapping/1/option: the vote `poll` has no option `park`");
+  link.from("vote.decided_ballots", std::int64_t{0});
+  EXPECT_EQ(link.run(), "mapping/1/option: the vote `poll` has no option `park`") << "also before anybody has voted";
   EXPECT_EQ(voted(mapping_of({})).run(), "mapping: no option is worth anything: add a row for at least one");
 }
 

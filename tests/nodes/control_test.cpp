@@ -57,7 +57,9 @@ TEST(Control, RefusesRangesThatCannotBe) {
 TEST(Control, KnowsItsUnits) {
   EXPECT_EQ(output_of(R"("value": 3, "unit": "m3")"), 3);
   EXPECT_EQ(output_of(R"("value": 3, "unit": "m²")"), 3);
-  EXPECT_EQ(control_error(R"("unit": "metre")"), "nodes/it/control/unit: `metre` is no unit that is known");
+  EXPECT_EQ(control_error(R"("unit": "metre")"),
+            "nodes/it/control/unit: `metre` is no unit that is known; known are `ratio`, `count`, `m`, `m2`, `m3`, `1/m`, `deg`, "
+            "`s`, `m/s`, `1/h`, `EUR`");
   EXPECT_EQ(control_error(R"("unit": "EURO")"), "nodes/it/control/unit: `EURO` is no unit that is known, did you mean `EUR`?");
   EXPECT_EQ(control_error(R"("unit": "ha")"),
             "nodes/it/control/unit: values are not kept in `ha`: write `m2`, and the numbers in it");

@@ -116,7 +116,9 @@ TEST(Expression, UnitsThatDoNotFit) {
   EXPECT_EQ(error_of("5", R"("unit": "EUR")"),
             "nodes/it/expression/unit: the formula gives a plain number, but the result is to be in `EUR`: change the formula or "
             "the unit");
-  EXPECT_EQ(error_of("a", R"("a_unit": "meter")"), "nodes/it/expression/a_unit: `meter` is no unit that is known");
+  EXPECT_EQ(error_of("a", R"("a_unit": "meter")"),
+            "nodes/it/expression/a_unit: `meter` is no unit that is known; known are `ratio`, `count`, `m`, `m2`, `m3`, `1/m`, "
+            "`deg`, `s`, `m/s`, `1/h`, `EUR`");
   EXPECT_EQ(error_of("a", R"("a_unit": "km", "unit": "m")"),
             "nodes/it/expression/a_unit: values are not kept in `km`: write `m`, and the numbers in it");
 }

@@ -125,6 +125,25 @@ class Check(unittest.TestCase):
         self.assertEqual(verdict, "bad")
         self.assertIn("another key", text)
 
+    def test_a_role_card_that_names_nothing_is_told(self):
+        with open(os.path.join(ROOT, "scenes/nodes/stakeholder_group.json")) as file:
+            scene = json.load(file)
+        path = os.path.join(self.folder, "cards.json")
+
+        def lines(port):
+            for node in scene["nodes"]:
+                for control in node["types"].get("stakeholder_group", {}).get("controls", []):
+                    control["port"] = port
+            with open(path, "w") as file:
+                json.dump(scene, file)
+            return self.check(scene=path)[1]["scene"]
+
+        self.assertEqual([verdict for verdict, _ in lines("indicator.target")], ["good"])
+        good, told = lines("indicator.tarject")
+        self.assertEqual((good[0], told[0]), ("good", "look"))
+        self.assertIn("did you mean `target`?", told[1])
+        self.assertIn("1 more", told[1])
+
     def test_wrong_calls_are_refused(self):
         for words in (["serve", "--check"], ["serve", self.scene, "--check", "--port", "70000"],
                       ["serve", self.scene, "--json", os.path.join(self.folder, "x.json")]):

@@ -8,6 +8,7 @@ import hashlib
 import json
 import os
 import re
+import signal
 import socket
 import sqlite3
 import ssl
@@ -321,6 +322,19 @@ class Operations(RoomCase):
         self.assertIn(str(self.server.process.pid), second.stderr)
 
 
+    def test_who_goes_on_with_a_file_is_told_that_the_scene_is_not_read(self):
+        with open(os.path.join(self.folder.name, "server.log")) as log:
+            self.assertNotIn("goes on", log.read(), "a new session")
+        self.assertEqual(self.server.stop(), 0)
+        again = subprocess.Popen([PROGRAM, "serve", QUARTER, "--port", "0", "--bind", "127.0.0.1", "--journal", self.server.journal],
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertIn(self.server.code, again.stdout.readline())
+        again.send_signal(signal.SIGINT)
+        said = again.communicate(timeout=20)[1]
+        self.assertIn(f"goes on with {self.server.journal}", said)
+        self.assertIn(f"{QUARTER} now is not read", said)
+
+
 class Votes(RoomCase):
     scene = VOTE
 
@@ -360,6 +374,16 @@ class WithoutScripts(RoomCase):
         with urllib.request.urlopen(urllib.request.Request(self.server.url(path), data=data), timeout=60) as answer:
             self.assertNotIn("token", answer.url)
             return answer.read().decode()
+
+    def test_a_mistyped_code_can_be_typed_again(self):
+        for path in ("/ZZZZ", "/?code=zz+zz"):
+            with self.assertRaises(urllib.error.HTTPError) as missing:
+                self.server.get(path)
+            self.assertEqual(missing.exception.code, 404)
+            page = missing.exception.read().decode()
+            self.assertIn("no room with the code “ZZZZ”", page)
+            self.assertIn('name="code"', page)
+        self.assertNotIn("no room", self.server.get("/")[2].decode())
 
     def test_join_and_comment(self):
         status, headers, door = self.server.get("/plain/" + self.server.code)
@@ -558,6 +582,13 @@ class Files(unittest.TestCase):
             refused = self.serve(broken, *journal)
             self.assertEqual(refused.returncode, 2)
             self.assertIn("polygon", refused.stderr)
+            self.assertFalse(os.path.exists(journal[1]), "nothing is left behind")
+            paper = self.serve(QUARTER, *journal, "--certificate", os.path.join(folder, "c.pem"), "--key", os.path.join(folder, "k.pem"))
+            self.assertEqual(paper.returncode, 2)
+            self.assertRegex(paper.stderr, r"c\.pem: .*No such file")
+            away = subprocess.run([PROGRAM, "serve", QUARTER, "--port", "0", "--bind", "203.0.113.7", *journal], capture_output=True, text=True,
+                                  timeout=30)
+            self.assertIn("203.0.113.7 is no address of this computer", away.stderr)
             self.assertFalse(os.path.exists(journal[1]), "nothing is left behind")
             other = os.path.join(folder, "other.blsession")
             with open(other, "w") as file:

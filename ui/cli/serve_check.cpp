@@ -179,6 +179,19 @@ Finding describe_scene(const Scene& scene) {
               "are made before the session."};
 }
 
+// What is told and refuses no file, such as a role card that names a value that is not there: the holder of the card would find
+// out.
+void add_warnings(const std::string& source, const std::vector<Problem>& problems, std::vector<Finding>& findings) {
+  const auto is_warning = [](const Problem& problem) { return !problem.is_error; };
+  const auto first = std::find_if(problems.begin(), problems.end(), is_warning);
+  if (first == problems.end()) return;
+  const auto count = static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), is_warning));
+  std::string text = first->error.within(source).text();
+  if (!text.ends_with('?')) text += '.';
+  if (count > 1) text += " `behaviourlinks check` lists this and " + std::to_string(count - 1) + " more.";
+  findings.push_back({Verdict::look, "scene", std::move(text)});
+}
+
 void check_scene(const std::string& source, const PortCheck& port, std::vector<Finding>& findings) {
   const auto reading = scene_of(source);
   if (!reading) {
@@ -188,11 +201,12 @@ void check_scene(const std::string& source, const PortCheck& port, std::vector<F
   }
   std::optional<Error> fault;
   if (!reading->is_usable()) fault = reading->first_error();
-  if (!fault)
-    for (const Problem& problem : check_scene(reading->scene, full_registry()))
-      if (problem.is_error && !fault) fault = problem.error;
+  const std::vector<Problem> problems = check_scene(reading->scene, full_registry());
+  for (const Problem& problem : problems)
+    if (problem.is_error && !fault) fault = problem.error;
   if (fault) return findings.push_back({Verdict::bad, "scene", fault->within(source).text() + "."});
   findings.push_back(describe_scene(reading->scene));
+  add_warnings(source, problems, findings);
   if (const auto ticks = serve::measure_ticks(reading->scene))
     findings.push_back(serve::judge_ticks(*ticks, room::RoomState().rate));
   else findings.push_back({Verdict::bad, "ticks", ticks.error().text() + "."});

@@ -71,17 +71,27 @@ void tell_renewal(const ServeOptions& options, const serve::Rooms& rooms, const 
   if (auto written = write_invites(options.invites, rooms); !written) print_error(options.invites, written.error());
 }
 
+// Whoever has changed the scene since expects it in the room.
+void tell_going_on(const serve::RoomHost& room, const std::string& journal, const std::string& source) {
+  complain(room.title() + ": goes on with " + journal + ", with its people, votes and scene. What stands in " + source +
+           " now is not read. For a new session give another --journal, or move the file away.");
+}
+
 // One for each source. False where one cannot be opened, which it has said.
 bool open_rooms(const ServeOptions& options, serve::RoomHostOptions how, serve::Rooms& rooms) {
   for (const std::string& source : options.sources) {
     std::string code = new_code();
     while (rooms.contains(code)) code = new_code();
     if (options.is_live) how.live = live::LiveOptions{fs::path(source).parent_path().string(), true, {}};
-    auto room = serve::RoomHost::open(journal_of(options, source), code, source, how);
+    const std::string journal = journal_of(options, source);
+    std::error_code ignored;
+    const bool goes_on = journal != source && fs::exists(journal, ignored) && fs::file_size(journal, ignored) > 0;
+    auto room = serve::RoomHost::open(journal, code, source, how);
     if (!room) {
       print_error(source, room.error());
       return false;
     }
+    if (goes_on) tell_going_on(**room, journal, source);
     code = (*room)->code();
     if (!rooms.emplace(code, std::move(*room)).second) {
       print_error(source, {ErrorCode::duplicate, "", "a room with the code " + code + " is open already"});
@@ -119,6 +129,10 @@ int serve_command(ServeOptions options) {
                            .proxy = options.proxy};
   if (how.page_folder.empty())
     if (const char* page = std::getenv("BEHAVIOURLINKS_PAGE")) how.page_folder = page;
+  std::error_code none;
+  if (!how.page_folder.empty() && !fs::exists(fs::path(how.page_folder) / "index.html", none))
+    complain(how.page_folder +
+             " holds no built page: people get pages without scripts. ui/web/build.sh builds it into build/web.");
   const fs::path stored = fs::absolute(journal_of(options, options.sources.front()));
   how.watched_folder = stored.parent_path().string();
   auto server = serve::Server::open(how);

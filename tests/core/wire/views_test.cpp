@@ -132,6 +132,50 @@ TEST(Views, ThePageKnowsCardsFormsDirectionsAndWhoChangedAValue) {
   }
 }
 
+// A card on a value that a link acts on as well, on the strength of that link, and on a parameter of another.
+constexpr const char* kSharedValue = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+  {"id": "hall", "types": {"smart_volume": {"demand": 4000}}},
+  {"id": "dial", "types": {"control": {"value": 9000, "maximum": 10000, "unit": "m3"}}},
+  {"id": "card", "types": {"stakeholder_group": {"controls": [
+    {"node": "hall", "port": "smart_volume.demand", "label": "Hall", "minimum": 0, "maximum": 9000},
+    {"node": "hall", "port": "smart_volume.storey_height", "label": "Storey", "minimum": 3, "maximum": 5},
+    {"node": "moves", "port": "strength", "label": "", "minimum": 0, "maximum": 1},
+    {"node": "moves", "port": "in_max", "label": "Top", "minimum": 0, "maximum": 9}]}}}],
+  "links": [{"id": "moves", "kind": "map_value", "from": "dial", "to": "hall", "strength": 0.75, "parameters": {"in_max": 3}}]})";
+
+TEST(Views, ControlsOfLinksHaveValuesAndThoseThatLinksMoveTellTheOutcome) {
+  World world = World::from_text(kSharedValue);
+  room::Room room(world.session().ledger(), {});
+  ASSERT_TRUE(
+      std::holds_alternative<room::Admission>(room.admit({.role = Role::stakeholder, .areas = {}, .card = "card"}, {0, 0})));
+  world.tick(2);
+  const View card = make_view("card", {world.state(), room, "", ""}, 1);
+  const Json controls = *parse_json(card.at("controls"));
+  ASSERT_EQ(controls.size(), 4u);
+  EXPECT_EQ(controls[0]["value"], 4000);
+  EXPECT_EQ(controls[0]["outcome"], world.number("hall", "smart_volume.demand"));
+  EXPECT_NE(controls[0]["outcome"], 4000);
+  EXPECT_FALSE(controls[1].contains("outcome")) << "no link acts on it";
+  EXPECT_EQ(controls[2]["value"], 0.75);
+  EXPECT_EQ(controls[2]["label"], "strength");
+  EXPECT_EQ(controls[3]["value"], 3);
+  EXPECT_FALSE(controls[3].contains("by"));
+  const auto said = room.submit(
+      1,
+      {.run = "r",
+       .id = 1,
+       .kind = room::OperationKind::command,
+       .content =
+           JsonValue(R"({"command": "set_link_parameter", "arguments": {"id": "moves", "parameter": "in_max", "value": 5}})"),
+       .draft = ""},
+      {0, 0});
+  EXPECT_TRUE(std::holds_alternative<room::Acknowledgement>(said)) << "the page says it in these words";
+  const View later = make_view("card", {world.state(), room, "", ""}, 1);
+  const Json now = *parse_json(later.at("controls"));
+  EXPECT_EQ(now[3]["value"], 5);
+  EXPECT_TRUE(now[3].contains("by"));
+}
+
 TEST(Views, StepsAndControlsNameValuesAndWhoSetThem) {
   World world = World::from_file("scenes/start/quarter.json");
   room::Room room(world.session().ledger(), {});

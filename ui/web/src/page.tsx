@@ -169,7 +169,11 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
   if (stage === "removed") return <Message title={t("removed_title")} text={t("removed")} />;
   if (stage === "old")
     return <Message title={t("old_title")} text={t("old")} action={t("reload")} onAction={() => window.location.reload()} />;
-  if (stage === "door") return <Message title={t("door_title")} text={t(s.isInvited ? "door_invite" : "door")} s={s} />;
+  if (stage === "door") return s.isInvited ? (
+      <Message title={t("door_invite_title")} text={t("door_invite")} />
+    ) : (
+      <Message title={t("door_title")} text={t("door")} s={s} />
+    );
   const go = (): void => {
     keep(`joined/${address.code}`, "1");
     ui.tab = s.you?.role === "facilitator" ? "lead" : "now";

@@ -19,6 +19,7 @@ const kMost = 12,
   kTap = 10,
   kNear = 14,
   kLongTap = 600,
+  kLongLine = 14, // letters; a longer name beside a thing stands in two lines
   kMargin = 0.03;
 const kOrder = ["boundary", "plot", "street", "building", "volume"];
 const extents = new WeakMap<PlanItem, Extent | null>();
@@ -146,14 +147,58 @@ function name_of(id: string, item: PlanItem, fonts: number[]): Name | null {
   return null;
 }
 
-// What lies on top gets its name first; a name that would lie on another is left out, and a touch tells it.
-function names_of(items: [string, PlanItem][], fonts: number[]): Name[] {
-  const names: Name[] = [];
+// Below or above a volume that is too small for its name.
+function names_beside(id: string, item: PlanItem, font: number): Name[] {
+  const found = item.kind === "volume" ? extent(item) : null;
+  if (!found || !item.name) return [];
+  const [x] = middle_of(found),
+    lines = lines_of(item.name, kLongLine);
+  const width = Math.max(...lines.map((line) => line.length)) * font * 0.58,
+    height = lines.length * font * 1.1,
+    far = height / 2 + font * 0.15;
+  return [found.y + found.height + far, found.y - far].map((y) => ({ id, kind: item.kind, lines, x, y, font, width, height }));
+}
+
+const is_apart = (one: Name, other: Name): boolean =>
+  Math.abs(one.x - other.x) * 2 >= one.width + other.width || Math.abs(one.y - other.y) * 2 >= one.height + other.height;
+
+// A name beside a thing keeps away from others, so that nobody takes it for theirs, and does not leave the picture.
+function is_on_nothing(name: Name, items: [string, PlanItem][], frame: Frame): boolean {
+  const left = name.x - name.width / 2,
+    top = name.y - name.height / 2;
+  const isInside =
+    left >= frame.x && left + name.width <= frame.x + frame.width && top >= frame.y && top + name.height <= frame.y + frame.height;
+  return (
+    isInside &&
+    items.every(([id, item]) => {
+      const found = item.kind === "volume" || item.kind === "building" ? extent(item) : null;
+      const gap = id === name.id ? 0 : name.font * 0.6;
+      return (
+        !found ||
+        left >= found.x + found.width + gap ||
+        left + name.width <= found.x - gap ||
+        top >= found.y + found.height + gap ||
+        top + name.height <= found.y - gap
+      );
+    })
+  );
+}
+
+/// What lies on top gets its name first; a name that would lie on another is left out, and a touch tells it. Names that fit into
+/// their things come before those that stand beside them.
+export function names_of(items: [string, PlanItem][], fonts: number[], frame: Frame): Name[] {
+  const names: Name[] = [],
+    without: [string, PlanItem][] = [];
   for (const [id, item] of [...items].reverse()) {
     const name = name_of(id, item, fonts);
-    const isFree = (one: Name): boolean =>
-      name !== null && (Math.abs(one.x - name.x) * 2 >= one.width + name.width || Math.abs(one.y - name.y) * 2 >= one.height + name.height);
-    if (name && names.every(isFree)) names.push(name);
+    if (name && names.every((one) => is_apart(one, name))) names.push(name);
+    else if (!name) without.push([id, item]);
+  }
+  for (const [id, item] of without) {
+    const name = names_beside(id, item, fonts[fonts.length - 1] ?? 0).find(
+      (one) => names.every((other) => is_apart(one, other)) && is_on_nothing(one, items, frame),
+    );
+    if (name) names.push(name);
   }
   return names;
 }
@@ -295,7 +340,7 @@ export function Plan({ s, binding, selected, label = 12, isStill, children }: Pl
             <Shape key={id} id={id} item={item} isSelected={id === selected} />
           ))}
           {children}
-          {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82]).map((name) => (
+          {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82], frame).map((name) => (
             <Label key={name.id} name={name} />
           ))}
           {(binding?.pins ?? []).map((pin) => (

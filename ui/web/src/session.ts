@@ -407,5 +407,7 @@ export function why_of(answer: Answer & { kind: "refused" }): { key: Key; args: 
   if (why === "range" && minimum !== null && maximum !== null) return { key: "why_range_from", args: { minimum, maximum } };
   if (why === "stale" && by !== null) return { key: "why_stale_by", args: { by } };
   if (why === "size" && most !== null) return { key: "why_size_most", args: { most } };
+  if (why === "gone" && answer.place === "to") return { key: "why_rewind", args: {} };
+  if (why === "locked" && answer.place === "") return { key: "why_muted", args: {} };
   return { key: `why_${why}` as Key, args: {} };
 }

@@ -11,6 +11,9 @@ export function wifi_text({ name, password }: Wifi): string {
   return `WIFI:T:${password === "" ? "nopass" : "WPA"};S:${plain(name)};${password === "" ? "" : `P:${plain(password)};`};`;
 }
 
+/// What a router takes as a password: 8 to 63 signs of ASCII (IEEE 802.11, annex J); an open network has none.
+export const is_password = (text: string): boolean => text === "" || /^[ -~]{8,63}$/.test(text);
+
 /// For the address of the beamer, behind the #: letters, digits and `%`.
 export const wifi_to_address = (wifi: Wifi): string => encodeURIComponent(JSON.stringify([wifi.name, wifi.password]));
 

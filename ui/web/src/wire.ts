@@ -141,6 +141,7 @@ export interface Control {
   step: number;
   costs: string | string[];
   by?: string; ///< who has changed it last
+  outcome?: number; ///< what links leave of the value, where that is something else
 }
 export interface CardView {
   name?: string;

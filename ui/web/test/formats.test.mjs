@@ -28,6 +28,7 @@ import {
   t,
   typed_number,
   why_of,
+  is_password,
   wifi_of_address,
   wifi_text,
   wifi_to_address,
@@ -161,7 +162,7 @@ test("every sentence is used, and every reason has one", () => {
     "seat",
   ];
   each_language((language) => {
-    const said = reasons.map((why) => t(why_of({ kind: "refused", why, place: "", text: "", args: {} }).key));
+    const said = reasons.map((why) => t(why_of({ kind: "refused", why, place: "nodes/a", text: "", args: {} }).key));
     assert.equal(new Set(said).size, reasons.length, `${language}: a sentence of its own for each reason`);
   });
 });
@@ -175,6 +176,11 @@ test("a refusal says what its arguments tell", () => {
   assert.equal(said("range", { minimum: 2000, maximum: 9000 }), "Your role card allows 2,000 to 9,000.");
   assert.equal(said("stale", { by: "Ben", now: 5 }), "Ben has changed it since.");
   assert.equal(said("stale", {}), "Somebody has changed it since.");
+  const why = (reason, place) => t(why_of({ kind: "refused", why: reason, place, text: "", args: {} }).key);
+  assert.equal(why("gone", "to"), "Nothing of the model can be taken back for that time.");
+  assert.equal(why("gone", "nodes/a"), "It is not there any more.");
+  assert.equal(why("locked", ""), "The facilitator has muted you.");
+  assert.equal(why("locked", "nodes/a"), "It is locked.");
   assert.equal(subject_of({ mark: "vote/bridge" }), "what_vote");
   assert.equal(subject_of({}), "what_op");
 });
@@ -214,6 +220,11 @@ test("outlines are read as browsers read them", () => {
 });
 
 // A reader of such codes that shares nothing with the page: fields end at a `;` that no `\\` stands before.
+test("a password of a Wi-Fi has 8 to 63 signs of ASCII, or none", () => {
+  for (const good of ["", "12345678", "tulips in spring", "~".repeat(63)]) assert.ok(is_password(good), good);
+  for (const bad of ["1234567", "~".repeat(64), "καλημέρα 2026", "schöner Tag", "tab\tand more"]) assert.ok(!is_password(bad), bad);
+});
+
 function read_wifi(text) {
   assert.ok(text.startsWith("WIFI:") && text.endsWith(";;"));
   const fields = {};

@@ -50,7 +50,7 @@ function VoteLayout({ s }: { s: Session }): JSX.Element {
   return (
     <div class="stage text">
       <h2>{vote.question}</h2>
-      {vote.result && !vote.open ? (
+      {vote.result && (!vote.open || vote.count > 0) ? (
         <ResultOf vote={vote} />
       ) : vote.kind === "yes_no" || vote.kind === "slider" ? null : (
         <ol class="options">

@@ -7,15 +7,21 @@ import type { Ui } from "../ui";
 import type { Control, Goal, Seen } from "../wire";
 import { t } from "../words";
 
+// Ports of nodes are written `typification.port`; a link has a strength and parameters.
+const is_parameter = (control: Pick<Control, "port">): boolean => !control.port.includes(".") && control.port !== "strength";
+
 /// The place of a control in the scene, as conditions name it.
 export function place_of(control: Pick<Control, "node" | "port">): string {
-  return control.port === "strength" ? `links/${control.node}/strength` : `nodes/${control.node}/types/${control.port.replace(".", "/")}`;
+  if (control.port === "strength") return `links/${control.node}/strength`;
+  if (is_parameter(control)) return `links/${control.node}/parameters/${control.port}`;
+  return `nodes/${control.node}/types/${control.port.replace(".", "/")}`;
 }
 
 function change(s: Session, control: Control, value: number, draft: string | null): void {
   const seen: Seen[] = control.value === null ? [] : [{ key: place_of(control), was: control.value }];
   const more = { mark: `control/${control.node}/${control.port}`, shown: value, ...(draft ? { draft } : { seen }) };
   if (control.port === "strength") s.command("set_link_strength", { id: control.node, strength: value }, more);
+  else if (is_parameter(control)) s.command("set_link_parameter", { id: control.node, parameter: control.port, value }, more);
   else s.command("set_port", { node: control.node, port: control.port, value }, more);
 }
 
@@ -32,6 +38,10 @@ function ControlRow({
 }): JSX.Element {
   const mark = `control/${control.node}/${control.port}`,
     shown = s.shown(mark, "card");
+  const in_words = (value: number | null | undefined): string | null =>
+    value === null || value === undefined ? null : amount(value, control.unit, control.step);
+  const outcome = in_words(control.outcome),
+    set = in_words(control.value);
   const costs = Array.isArray(control.costs) ? control.costs.join(", ") : control.costs;
   return (
     <li class="control">
@@ -50,6 +60,7 @@ function ControlRow({
         isDisabled={isDisabled}
         onChange={(value) => change(s, control, value, draft)}
       />
+      {draft !== null || outcome === null || outcome === set ? null : <p class="small">{t("control_outcome", { value: outcome })}</p>}
       {control.by ? <p class="small faint">{t("changed_by", { name: control.by })}</p> : null}
       {costs ? <p class="small">{t("costs", { who: costs })}</p> : null}
     </li>

@@ -5,7 +5,7 @@ import { MarkState, Segments, Sure } from "../parts";
 import { is_local } from "../places";
 import { CodePicture, WifiPicture } from "../qr_picture";
 import type { Session } from "../session";
-import { wifi_to_address } from "../wifi";
+import { is_password, wifi_to_address } from "../wifi";
 import { useWifi } from "../wifi_kept";
 import type { Ui } from "../ui";
 import type { Door, Role } from "../wire";
@@ -104,7 +104,12 @@ export function WifiPart({ s }: { s: Session }): JSX.Element {
           />
         </label>
       </div>
-      {wifi ? (
+      {is_password(password) ? null : (
+        <p class="missing" role="status">
+          {t("wifi_password_hint")}
+        </p>
+      )}
+      {wifi && is_password(password) ? (
         <>
           <WifiPicture wifi={wifi} />
           <AddressRow name={t("wifi_beamer")} address={`${join_address(s)}#beamer&w=${wifi_to_address(wifi)}`} />

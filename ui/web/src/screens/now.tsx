@@ -24,6 +24,12 @@ export function task_of(s: Session, ui: Ui): Task {
   const open = Object.entries(s.views.votes).filter(([, vote]) => vote.open);
   const due = open.find(([id, vote]) => !s.hasVoted(id, vote) && s.mark(`vote/${id}`)?.state !== "sending");
   const hasCard = (s.views.card.controls ?? []).length > 0;
+  const isOver = s.views.room.closed === true,
+    isMuted = s.views.room.seats?.[s.you?.seat ?? 0]?.muted === true;
+  const hasResult = Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open);
+  if (isOver && hasResult) return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
+  if (isOver) return { kind: "look", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
+  if (isMuted) return { kind: "look", title: t("now_look"), text: t("now_muted"), action: t("open_plan"), go: "plan" };
   const canSpeak = s.you?.role !== "viewer";
   if (due && canSpeak) return { kind: "vote", title: t("now_vote"), text: due[1].question, action: t("vote_now"), go: "votes" };
   if (activities.includes("change") && hasCard)
@@ -51,22 +57,23 @@ export function task_of(s: Session, ui: Ui): Task {
   const counted = open.find(([id, vote]) => s.hasVoted(id, vote));
   if (counted)
     return { kind: "votes", title: t("now_vote_done"), text: t("now_vote_change"), action: t("change_vote"), go: "votes", isDone: true };
-  if (Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open))
-    return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
+  if (hasResult) return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
   if (!phase || activities.length > 0)
     return { kind: "plan", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
   return { kind: "now", title: t("now_wait"), text: t("now_wait_text") };
 }
 
 export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
-  const { phase, paused } = s.views.room,
+  const { phase, paused, closed } = s.views.room,
     task = task_of(s, ui);
   return (
     <>
-      <div class="phase">
-        <p class="faint">{phase?.name ?? ""}</p>
-        <Timer s={s} ends_at={phase?.ends_at} />
-      </div>
+      {closed ? null : (
+        <div class="phase">
+          <p class="faint">{phase?.name ?? ""}</p>
+          <Timer s={s} ends_at={phase?.ends_at} />
+        </div>
+      )}
       <section class={`task ${task.isDone ? "done" : ""}`}>
         <Title>
           {task.isDone ? <Icon name="check" /> : null}
@@ -85,7 +92,7 @@ export function Now({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
             <Icon name="right" />
           </button>
         ) : null}
-        {paused ? (
+        {paused && !closed ? (
           <p class="small">
             <Icon name="pause" />
             {t("now_paused")}
