@@ -95,6 +95,13 @@ export interface Presence {
 }
 /// The numbers that a visitor's form asks for, by port.
 export type FormRanges = Record<string, { minimum: number; maximum: number; unit: string }>;
+export interface Scenario {
+  name: string;
+  note: string;
+  seat: number;
+  seq: number;
+  tick: number;
+}
 export interface RoomView {
   title?: string;
   code?: string;
@@ -107,6 +114,7 @@ export interface RoomView {
   paused?: boolean;
   closed?: boolean;
   rate?: number;
+  scenarios?: Record<string, Scenario>;
 }
 
 export type Figure = [label: string, value: number, unit: string];

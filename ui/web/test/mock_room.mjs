@@ -345,7 +345,12 @@ export class MockRoom {
     else if (event === "set_door") this.room.door = a.door;
     else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
     else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas });
-    else if (event === "close_room") this.room.closed = true;
+    else if (event === "close_room") {
+      if (Object.values(this.votes).some((vote) => vote.open)) return { why: "closed", place: "event", text: "a vote is open" };
+      this.room.closed = true;
+    } else if (event === "save_scenario")
+      this.room.scenarios = { ...this.room.scenarios, [a.id]: { name: a.name, note: "", seat, seq: this.seq, tick: 1200 } };
+    else if (event === "restart") this.restarted = a.scenario;
     return null;
   }
 

@@ -159,6 +159,7 @@ export function first_views() {
       paused: false,
       closed: false,
       rate: 10,
+      scenarios: { first: { name: "Before the first vote", note: "The park is whole.", seat: 1, seq: 11, tick: 480 } },
     },
     figures: {
       sun: { name: "Sun in the gardens", value: 3.42, unit: "h", target: 4, direction: "at_least", status: "close", score: 0.8 },

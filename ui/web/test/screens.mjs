@@ -238,6 +238,8 @@ async function walk_facilitator(server, size, scheme) {
   await page.waitForSelector(".codes img >> nth=1");
   await look(page, `lead_code_${at}`);
   await page.click('button:has-text("Close")');
+  room.open_votes("bridge");
+  await page.waitForSelector('p:has-text("still open. Close it first")');
   room.open_votes();
   await page.click('button:has-text("End the session")');
   await page.click(".sure .danger");
@@ -482,6 +484,34 @@ async function leads(server) {
   await page.context().close();
 }
 
+/// The plan is kept under a name, and the room goes back to it; many comments do not bury what stands below them.
+async function scenarios(server) {
+  const { room } = server;
+  const comments = { ...room.comments };
+  for (let k = 0; k < 30; ++k)
+    room.comments[`more${k}`] = { ...Object.values(comments)[0], text: `Words ${k}`, state: "open", answer: "", parent: "", plus: k === 20 ? 99 : 0 };
+  const page = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  room.publish();
+  await page.waitForSelector('button:has-text("Show all")');
+  assert.equal(await page.locator("#lead-comments li").count(), 5);
+  assert.match(await page.textContent("#lead-comments li >> nth=0"), /Words 20/, "what most agree with comes first");
+  await page.locator('h2:has-text("Scenarios")').scrollIntoViewIfNeeded();
+  await look(page, "lead_scenarios_1280x800_light");
+  await page.click('button:has-text("Show all")');
+  assert.ok((await page.locator("#lead-comments li").count()) >= 30);
+  await page.click('button:has-text("Show fewer")');
+  await page.fill('label:has-text("Name of the scenario") input', "Two libraries");
+  await page.click('button:has-text("Keep the plan")');
+  await page.waitForSelector('li b:has-text("Two libraries")');
+  await page.click('li:has-text("Two libraries") button:has-text("Go back to it")');
+  await page.click('button:has-text("Yes, go back")');
+  await page.waitForTimeout(300);
+  assert.match(room.restarted, /^scenario_/);
+  room.comments = comments;
+  room.publish();
+  await page.context().close();
+}
+
 /// Roles keep cards and areas; people see who looks at the page; the facilitator sees what would come of a proposal.
 async function people_and_cards(server) {
   const { room } = server;
@@ -683,6 +713,7 @@ const parts = {
   moved_room,
   stale_change,
   leads,
+  scenarios,
   people_and_cards,
   happened,
   space,

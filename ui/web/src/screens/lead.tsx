@@ -14,11 +14,13 @@ import { HealthPart } from "./health";
 import { JoinPart, KeysPart, join_address } from "./invitations";
 import { MinutesPart } from "./minutes";
 import { People } from "./people";
+import { ScenariosPart } from "./scenarios";
 import { ResultOf, Turnout } from "./votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
 const kRewind = 30000;
 const kFold = 2; // more proposals than this are folded, so that all of them are in sight
+const kComments = 5; // more comments than this are shown on demand
 
 interface Plan {
   name: string;
@@ -33,8 +35,8 @@ function set_phase(s: Session, name: string, activities: Activity[], ends_at: nu
 function PhasePart({ s }: { s: Session }): JSX.Element {
   const { phase, paused, rate } = s.views.room;
   const [typed, set] = useState<Plan | null>(null);
-  // Until something is typed, the form shows what holds now.
-  const plan = typed ?? { name: "", activities: phase?.activities ?? [], minutes: "10" };
+  // Until something is typed, the form shows what holds now. Before the first phase that is everything, and nobody's choice.
+  const plan = typed ?? { name: "", activities: phase?.name ? phase.activities : [], minutes: "10" };
   const allowed = kActivities.filter((one) => phase?.activities.includes(one)).map((one) => t(`lead_${one}` as Key));
   if (phase && phase.forms.length > 0) allowed.push(t("form_title"));
   const minutes = typed_number(plan.minutes) ?? 0;
@@ -233,6 +235,15 @@ function DecisionPart({ s }: { s: Session }): JSX.Element {
 }
 
 function EndPart({ s }: { s: Session }): JSX.Element {
+  // Ballots of an open vote would be counted by nobody, so the server refuses it.
+  const open = Object.values(s.views.votes).filter((vote) => vote.open).length;
+  if (open > 0)
+    return (
+      <section class="panel">
+        <h2>{t("lead_end")}</h2>
+        <p class="small">{t("lead_end_votes", { n: open })}</p>
+      </section>
+    );
   return (
     <section class="panel">
       <h2>{t("lead_end")}</h2>
@@ -281,7 +292,11 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const votes = Object.entries(s.views.votes),
     proposals = proposals_waiting(s),
     isTwo = useMedia("(min-width: 1200px)");
-  const comments = Object.entries(s.views.comments).filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent);
+  const [isLong, setLong] = useState(false);
+  // Those that most agree with come first; of the others, those that wait longest.
+  const comments = Object.entries(s.views.comments)
+    .filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent)
+    .sort(([, a], [, b]) => b.plus - a.plus);
   const warnings = s.health ? findings_of(s.health, s.views.room.paused ?? false, String).filter((one) => one.verdict === "bad").length : 0;
   useLook(
     s,
@@ -324,10 +339,15 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
         <section class="panel" id="lead-comments" tabIndex={-1}>
           <h2>{t("ideas_comments")}</h2>
           <ul class="comments">
-            {comments.map(([id, comment]) => (
+            {comments.slice(0, isLong ? comments.length : kComments).map(([id, comment]) => (
               <Answer key={id} s={s} id={id} comment={comment} />
             ))}
           </ul>
+          {comments.length > kComments ? (
+            <button class="quiet" aria-expanded={isLong} onClick={() => setLong(!isLong)}>
+              {isLong ? t("lead_comments_few") : t("lead_comments_all", { n: comments.length })}
+            </button>
+          ) : null}
         </section>
       ) : null}
     </>
@@ -336,6 +356,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     <>
       <BeamerPart s={s} />
       <DecisionPart s={s} />
+      <ScenariosPart s={s} />
       <People s={s} />
       <KeysPart s={s} />
       <HealthPart s={s} />
