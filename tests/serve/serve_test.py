@@ -321,7 +321,6 @@ class Operations(RoomCase):
         self.assertEqual(second.returncode, 2)
         self.assertIn(str(self.server.process.pid), second.stderr)
 
-
     def test_who_goes_on_with_a_file_is_told_that_the_scene_is_not_read(self):
         with open(os.path.join(self.folder.name, "server.log")) as log:
             self.assertNotIn("goes on", log.read(), "a new session")

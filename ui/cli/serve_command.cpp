@@ -156,10 +156,10 @@ int serve_command(ServeOptions options) {
       print_error(options.invites, written.error());
       return kBadInput;
     }
+  catch_interrupts();             // whoever has read that it is ready may end it at once
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a disk that is full, and no reason to end
   tell_addresses(rooms, addresses.front());
   if (options.certificate.empty()) complain("Without a certificate everybody in this network can read along.");
-  catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a disk that is full, and no reason to end
   // Signals set a flag; this thread looks at it, because a handler may not do more.
   std::thread watch([&server] {
     while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));

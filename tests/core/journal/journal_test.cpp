@@ -463,7 +463,7 @@ TEST(Journal, ASecondProcessIsToldWhoHasTheFile) {
   char host[256] = {};
   gethostname(host, sizeof host - 1);
   const std::string sentence = path + ": another program has this file open: process " + std::to_string(other) +
-                               " on the computer " + host + ", since 2026-03-01 09:30 UTC";
+                               " on the computer " + host + ", since 2026-03-01 09:30 UTC; end it first";
   EXPECT_EQ(why(Journal::open(path, full_registry(), {})), sentence);
   EXPECT_EQ(why(Journal::open_to_read(path, full_registry())), sentence);
   kill(other, SIGKILL);
