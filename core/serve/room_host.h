@@ -154,6 +154,9 @@ class RoomHost {
   void hold_shapes(Published& made);
   void show();
   void show(Visitor& visitor);
+  bool has_events_since(std::int64_t seq) const;
+  /// The view that is shown at present; none where nobody has wanted it.
+  std::shared_ptr<const wire::View> shown_to(std::int64_t seat, const std::string& name) const;
   std::shared_ptr<const std::string> step(const std::string& name, const std::shared_ptr<const wire::View>& before,
                                           const std::shared_ptr<const wire::View>& now);
   void store_hash();

@@ -28,9 +28,17 @@ void RoomHost::publish() {
   const bool were_shapes_held = std::exchange(are_shapes_held_, false);
   hold_shapes(made);
   const wire::ViewSources from = sources(*moment->state);
+  const bool has_events = !now_ || has_events_since(now_->seq);
+  std::map<std::string, std::shared_ptr<const wire::View>> for_all;
   for (const auto& [key, visitor] : visitors_)
     for (const std::string& name : visitor.wanted) {
       auto& place = wire::is_of_seat(name) ? made.by_seat[visitor.seat][name] : made.shared[name];
+      if (!place && !has_events && wire::is_of_events(name)) place = shown_to(visitor.seat, name);
+      if (!place && wire::is_of_seat(name) && wire::is_as_for_all(name, from, visitor.seat)) {
+        auto& common = for_all[name];
+        if (!common) common = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
+        place = common;
+      }
       if (!place && is_same_state && wire::is_of_state(name) && !(were_shapes_held && name == kShapes))
         if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
       if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
@@ -57,15 +65,25 @@ void RoomHost::show() {
   for (auto& [key, visitor] : visitors_) show(visitor);
 }
 
+bool RoomHost::has_events_since(std::int64_t seq) const {
+  const auto& log = session_->log();
+  for (auto entry = log.rbegin(); entry != log.rend() && entry->seq > seq; ++entry)
+    if (!entry->is_command()) return true;
+  return false;
+}
+
+std::shared_ptr<const wire::View> RoomHost::shown_to(std::int64_t seat, const std::string& name) const {
+  const auto own = now_->by_seat.find(seat);
+  if (wire::is_of_seat(name) && own == now_->by_seat.end()) return nullptr;
+  const auto& views = wire::is_of_seat(name) ? own->second : now_->shared;
+  const auto found = views.find(name);
+  return found == views.end() ? nullptr : found->second;
+}
+
 void RoomHost::show(Visitor& visitor) {
   if (!now_ || !visitor.is_welcome || visitor.guest->unsent() > kSkipAbove) return;
   for (const std::string& name : visitor.wanted) {
-    std::shared_ptr<const wire::View> view;
-    if (!wire::is_of_seat(name)) {
-      if (const auto found = now_->shared.find(name); found != now_->shared.end()) view = found->second;
-    } else if (const auto seat = now_->by_seat.find(visitor.seat); seat != now_->by_seat.end()) {
-      if (const auto found = seat->second.find(name); found != seat->second.end()) view = found->second;
-    }
+    const std::shared_ptr<const wire::View> view = shown_to(visitor.seat, name);
     if (!view) {
       is_changed_ = true;  // it was not wanted by anybody when these views were made
       continue;
@@ -87,8 +105,8 @@ std::shared_ptr<const std::string> RoomHost::step(const std::string& name, const
     auto changes = wire::changes_of(name, before.get(), *now, now_->tick, now_->seq);
     return changes ? frame_of(std::move(*changes)) : nullptr;
   };
-  // Few share a view of a seat: what is kept would only hold memory until the next views.
-  if (wire::is_of_seat(name)) return make();
+  // Few share most views of seats: what is kept would only hold memory until the next views.
+  if (wire::is_of_seat(name) && !wire::is_of_events(name)) return make();
   const auto [place, is_new] = steps_.try_emplace({before.get(), now.get()}, Step{before, now, nullptr});
   if (is_new) place->second.frame = make();
   return place->second.frame;

@@ -311,6 +311,14 @@ bool is_of_seat(std::string_view view) {
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
+bool is_as_for_all(std::string_view name, const ViewSources& sources, std::int64_t seat) {
+  const auto& comments = sources.room.state().comments;
+  return name == "comments" &&
+         std::none_of(comments.begin(), comments.end(), [seat](const auto& one) { return one.second.ratings.contains(seat); });
+}
+
+bool is_of_events(std::string_view name) { return name == "comments"; }
+
 bool is_of_state(std::string_view view) { return view == "plan" || view == "shapes"; }
 
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat) {

@@ -38,6 +38,10 @@ bool is_of_seat(std::string_view view);
 bool is_of_state(std::string_view view);
 
 /// One view, as this seat sees it; empty for an unknown name.
+/// Is the view of a seat the same for this one as for everybody who has done nothing? Such a view is made once for all of them.
+bool is_as_for_all(std::string_view name, const ViewSources& sources, std::int64_t seat);
+/// Do only events change the view, and no command, tick or connection?
+bool is_of_events(std::string_view name);
 View make_view(std::string_view name, const ViewSources& sources, std::int64_t seat);
 
 /// What has changed from `before` to `now` as a `state` message; nothing where nothing has. Without `before` all of it.
