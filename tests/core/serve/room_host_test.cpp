@@ -206,6 +206,47 @@ TEST_F(RoomHosts, ItGoesOnWhereItWas) {
   EXPECT_EQ((*lead->last("state"))["set"]["phase"]["name"], "Look");
 }
 
+// The comments as a guest sees them, from all that it was sent.
+std::map<std::string, Json> comments_of(const FakeGuest& guest) {
+  std::map<std::string, Json> seen;
+  for (const Json& frame : guest.frames)
+    if (frame["t"] == "state" && frame["view"] == "comments")
+      for (const auto& [id, comment] : frame["set"].items()) seen[id] = comment;
+  return seen;
+}
+
+// Who has rated nothing sees what all others of these see, and whoever rates one sees it as their own from then on.
+TEST_F(RoomHosts, CommentsComeToAllAndARatingIsOnesOwn) {
+  auto lead = join("a", "facilitator", {"comments"}), anna = join("b", "participant", {"comments"});
+  const auto says = [&](FakeGuest& who, int id, const Json& event) {
+    host_->hear(who, Json{{"t", "room"}, {"id", id}, {"e", event}}.dump());
+  };
+  says(*lead, 1, {{"event", "set_phase"}, {"arguments", {{"name", "Say it"}, {"activities", {"comment"}}}}});
+  says(*lead, 2, {{"event", "comment"}, {"arguments", {{"id", "first"}, {"text", "A bench"}}}});
+  run_until([&] { return comments_of(*lead).contains("first") && comments_of(*anna).contains("first"); });
+  says(*anna, 1, {{"event", "rate_comment"}, {"arguments", {{"comment", "first"}, {"rating", 1}}}});
+  run_until([&] { return comments_of(*lead)["first"]["plus"] == 1 && comments_of(*anna)["first"]["plus"] == 1; });
+  EXPECT_EQ(comments_of(*anna)["first"]["mine"], 1);
+  EXPECT_EQ(comments_of(*lead)["first"]["mine"], 0);
+  // Who comes later has all of them, with what they have rated before.
+  auto late = join("c", "participant", {"comments"});
+  says(*lead, 3, {{"event", "comment"}, {"arguments", {{"id", "second"}, {"text", "A tree"}}}});
+  for (const auto& guest : {lead, anna, late}) run_until([&] { return comments_of(*guest).contains("second"); });
+  EXPECT_EQ(comments_of(*late)["first"]["mine"], 0);
+  EXPECT_EQ(comments_of(*anna)["first"]["mine"], 1);
+  // A command and its ticks bring no comments once more.
+  const auto count = [&] {
+    return std::count_if(anna->frames.begin(), anna->frames.end(), [](const Json& frame) { return frame["t"] == "state"; });
+  };
+  const auto before = count();
+  host_->hear(*lead,
+              R"({"t": "op", "id": 4, "c": {"command": "set_setting", "arguments": {"setting": "title", "value": "Ours"}}})");
+  run_until([&] { return lead->last("ack") != nullptr && (*lead->last("ack"))["id"] == 4; });
+  const std::int64_t tick = host_->health().tick;
+  run_until([&] { return host_->health().tick > tick + 3; });
+  EXPECT_EQ(count(), before);
+}
+
 // The indices of the frames that bring shapes.
 std::vector<std::size_t> shapes_of(const FakeGuest& guest) {
   std::vector<std::size_t> found;
