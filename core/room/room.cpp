@@ -278,7 +278,8 @@ std::int64_t Room::goes_back_to(const LogEntry& entry) const {
   if (!entry.label.starts_with(kBackLabel)) return -1;
   const char* begin = entry.label.data() + kBackLabel.size();
   const char* end = entry.label.data() + entry.label.size();
-  return std::from_chars(begin, end, seq).ptr == end ? seq : -1;
+  // Nobody goes back to what comes later, whatever a damaged file says.
+  return std::from_chars(begin, end, seq).ptr == end && seq < entry.seq ? seq : -1;
 }
 
 // The scene first, by a command that can be undone; then the running state, which cannot; then what the minutes say of it. From

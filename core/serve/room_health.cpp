@@ -104,7 +104,7 @@ wire::HealthOut RoomHost::health_message() const {
 
 bool RoomHost::leads(std::int64_t number) const {
   const room::Seat* seat = room_->state().seat(number);
-  return seat != nullptr && seat->role == Role::facilitator;
+  return seat != nullptr && !seat->is_removed && seat->role == Role::facilitator;
 }
 
 // Also where nothing can be stored: then it matters most. Each facilitator gets the same.
