@@ -17,7 +17,7 @@ export * from "./space/orbit";
 export * from "./timers";
 export * from "./whole";
 export * from "./wifi";
-export { names_of } from "./plan";
+export { names_of } from "./plan_names";
 export * from "./words";
 export * from "./words/de";
 export * from "./words/en";

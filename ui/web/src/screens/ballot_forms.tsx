@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { coins, coins_left, coins_put, dots, rank_added, rank_moved, ranking } from "../ballots";
 import { round_step } from "../format";
 import { Icon, Stepper } from "../parts";
-import { middle } from "../plan";
+import { middle } from "../plan_names";
 import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Pin, Ui } from "../ui";

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { Icon, MarkState, Segments, Title } from "../parts";
-import { middle } from "../plan";
+import { middle } from "../plan_names";
 import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Pin, Ui } from "../ui";
