@@ -1,5 +1,6 @@
 // Frames from the network, as a page might send them: nothing crashes, a refused operation changes nothing, and each is answered
 // once.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "core/file/scene_file.h"
 #include "core/room/room.h"
 #include "core/wire/operations.h"
+#include "tests/fuzz/frame_mutator.h"
 #include "tests/fuzz/require.h"
 
 namespace {
@@ -23,6 +25,11 @@ constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "no
   {"id": "a", "types": {"smart_volume": {"demand": 900}}}, {"id": "b", "types": {"smart_volume": {}}},
   {"id": "card", "types": {"stakeholder_group": {}}}, {"id": "poll", "types": {"vote": {"kind": "yes_no"}}}],
   "links": [{"id": "l", "kind": "keep_distance", "from": "a", "to": "b"}]})";
+
+const Scene& start() {
+  static const Scene kStart = read_scene(kScene, full_registry()).scene;
+  return kStart;
+}
 
 // Made anew for each input, so that an input that finds something finds it again by itself; and only for those that get so far,
 // because it takes longer than to refuse a frame that is none.
@@ -59,8 +66,19 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   return 0;
 }
 
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+  if (seed % 2 == 0) return LLVMFuzzerMutate(data, size, most);
+  bl::fuzz::FrameMutator mutator(start(), seed);
+  const std::string text = mutator.changed({reinterpret_cast<const char*>(data), size});
+  // Half a frame would be refused for its form alone.
+  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
+  std::copy(text.begin(), text.end(), data);
+  return text.size();
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Scene kStart = read_scene(kScene, full_registry()).scene;
   static Count count;
   std::optional<World> made;
   std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -70,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto frame = wire::read_frame(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (!frame || !wire::is_operation((*frame)["t"].get<std::string>())) continue;
-    World& world = made ? *made : made.emplace(kStart);
+    World& world = made ? *made : made.emplace(start());
     const std::string run = "run " + std::to_string(seat);
     room::Operation operation = wire::read_operation(*frame, run);
     operation.id = world.room.greet(seat, run, 0) + 1;
