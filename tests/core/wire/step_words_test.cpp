@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/define/codec.h"
 #include "core/define/json_text.h"
 #include "tests/support/random_commands.h"
 #include "tests/support/world.h"
