@@ -236,6 +236,21 @@ std::ptrdiff_t Room::place_after(std::int64_t seq) const {
   return same_as >= 0 && is_known ? place_after(same_as) : last;
 }
 
+std::vector<std::pair<std::int64_t, std::int64_t>> Room::unchanged_since() const {
+  std::vector<std::pair<std::int64_t, std::int64_t>> spans;
+  const std::int64_t last = ledger_->last_seq();
+  const std::ptrdiff_t now = place_after(last);
+  const std::size_t first = inverses_.size() > kLookedBack ? inverses_.size() - kLookedBack : 0;
+  if (now < 0 && first == 0) spans.emplace_back(0, inverses_.empty() ? last : inverses_.front().seq - 1);
+  for (std::size_t k = first; k < inverses_.size(); ++k) {
+    if (place_after(inverses_[k].seq) != now) continue;
+    const std::int64_t end = k + 1 < inverses_.size() ? inverses_[k + 1].seq - 1 : last;
+    if (!spans.empty() && spans.back().second + 1 == inverses_[k].seq) spans.back().second = end;
+    else spans.emplace_back(inverses_[k].seq, end);
+  }
+  return spans;
+}
+
 std::vector<Command> Room::commands_of(std::size_t place) const {
   const std::int64_t first = place == 0 ? 0 : inverses_[place - 1].seq, last = inverses_[place].seq;
   std::vector<Command> commands;

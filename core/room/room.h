@@ -105,6 +105,10 @@ class Room {
   const Scene& scene() const { return ledger_->scene(); }
   /// The number of the last entry that has changed the scene; 0 where none has.
   std::int64_t scene_seq() const { return scene_seq_; }
+  /// The entries after which the scene was as it is now, as ascending spans of their numbers: a rewind to one of them takes
+  /// nothing back. Of the last kLookedBack entries that have changed the scene.
+  std::vector<std::pair<std::int64_t, std::int64_t>> unchanged_since() const;
+  static constexpr std::size_t kLookedBack = 1000;
   const std::map<std::string, Draft>& drafts() const { return drafts_; }
   /// A draft whose scene follows the head of the log, with what of it fits; it must be there.
   const Draft& follow_draft(const std::string& draft);

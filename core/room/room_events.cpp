@@ -277,6 +277,8 @@ std::variant<Admission, Refusal> Room::admit(const Invitation& invitation, Now n
                                          {"name", name},
                                          {"colour", std::string(kColours[index % std::size(kColours)])},
                                          {"card", invitation.card}};
+  // Who is to watch only, such as a beamer, waits for nothing.
+  arguments["waits"] = only_watches && invitation.role != Role::viewer;
   arguments["areas"] = Shared<std::vector<std::string>>({invitation.areas.begin(), invitation.areas.end()});
   note_as_room("join", arguments, now);
   Admission admission{seat, hex_of(options_.random(16))};

@@ -25,6 +25,7 @@ Json seat_to_json(const Seat& seat) {
   json["here"] = seat.is_here;
   if (seat.is_muted) json["muted"] = true;
   if (seat.is_removed) json["removed"] = true;
+  if (seat.is_waiting) json["waits"] = true;
   return json;
 }
 
@@ -129,6 +130,7 @@ Json to_json(const RoomState& state) {
   json["votes"] = map_to_json(state.votes, [](const OpenVote& vote) {
     return Json{{"ends_at", vote.ends_at}, {"secret", vote.is_secret}};
   });
+  if (!state.opened.empty()) json["opened"] = state.opened;
   json["makers"] = map_to_json(state.makers, [](std::int64_t seat) { return Json(seat); });
   json["layout"] = state.layout;
   json["rate"] = state.rate;

@@ -22,6 +22,7 @@ struct Seat {
   std::set<std::string> areas = {};  ///< what a designer may change
   std::string card = {};             ///< node with the role card; empty: none
   bool is_here = false, is_muted = false, is_removed = false;
+  bool is_waiting = false;  ///< came while the door asked, and has not been given a role yet
   bool operator==(const Seat&) const = default;
 };
 
@@ -111,6 +112,7 @@ struct RoomState {
   std::map<std::string, Scenario> scenarios = {};
   std::vector<Mark> marks = {};
   std::map<std::string, OpenVote> votes = {};       ///< by node
+  std::set<std::string> opened = {};                ///< votes that are or have been open, by node
   std::map<std::string, std::int64_t> makers = {};  ///< the seat that has added a node or link, by `nodes/…` or `links/…`
   std::string layout = {};                          ///< of the beamer
   double rate = 10;                                 ///< ticks a second

@@ -9,6 +9,7 @@
 #include "core/reading/figures.h"
 #include "core/room/refusals.h"
 #include "core/wire/plan_view.h"
+#include "core/wire/step_words.h"
 #include "core/wire/view_parts.h"
 
 namespace bl::wire {
@@ -55,21 +56,39 @@ std::string change_of(const ViewSources& sources, const Command& step) {
   return ": " + (is_told ? reading::readable(past) : shortest(past)) + " to " + (is_told ? set : shortest(now)) + measure;
 }
 
-// A step that was taken back has no words, and keeps its number.
-Json words_of_steps(const ViewSources& sources, const room::Draft& draft) {
-  Json words = Json::array();
-  for (const Command& step : draft.steps())
-    words.push_back(
-        step.id.empty() ? "" : host::label_of_step(full_registry(), step, sources.room.scene()) + change_of(sources, step));
-  return words;
+// The id of a link says nothing to people.
+std::string with_link_named(std::string label, const std::string& id, const Scene& scene) {
+  const std::string end = "\xC2\xB7 " + id;
+  if (scene.links.contains(id) && !scene.nodes.contains(id) && label.ends_with(end))
+    label.replace(label.size() - id.size(), id.size(), name_of_link(scene, id));
+  return label;
 }
 
-Json conflicts_of(const ViewSources& sources, const room::DraftSummary& summary) {
+std::string words_of_step(const ViewSources& sources, const Command& step) {
+  const Scene& scene = sources.room.scene();
+  const auto id = step.arguments.find("id");
+  const auto* name = id == step.arguments.end() ? nullptr : std::get_if<std::string>(&id->second);
+  const std::string label = host::label_of_step(full_registry(), step, scene);
+  return (name == nullptr ? label : with_link_named(label, *name, scene)) + change_of(sources, step);
+}
+
+// A step that was taken back has no words, and keeps its number. `words`: in English, for whoever has no others.
+void put_steps(Json& json, const char* words, const ViewSources& sources, const room::Draft& draft) {
+  json[words] = Json::array();
+  json["said"] = Json::array();
+  for (const Command& step : draft.steps()) {
+    json[words].push_back(step.id.empty() ? "" : words_of_step(sources, step));
+    json["said"].push_back(step.id.empty() ? Json() : said_of_step(sources, draft, step));
+  }
+}
+
+Json conflicts_of(const ViewSources& sources, const room::Draft& draft, const room::DraftSummary& summary) {
   const auto content = [](const std::optional<JsonValue>& value) { return value ? Json(**value->read()) : Json(); };
   Json list = Json::array();
   for (const room::DraftConflict& conflict : summary.conflicts)
     list.push_back({{"place", text_of(conflict.place)},
                     {"label", host::label_of_place(conflict.place, sources.room.scene())},
+                    {"said", said_of_place(sources, draft, conflict.place)},
                     {"by", seat_name(sources.room.state(), conflict.author)},
                     {"live", content(conflict.live)},
                     {"draft", content(conflict.drafted)}});
@@ -90,10 +109,10 @@ View proposals_view(const ViewSources& sources) {
                  {"kept", proposal.kept}};
     if (!proposal.answer.empty()) json["answer"] = text_of(sources.room, proposal.answer);
     const auto draft = sources.room.drafts().find(id);
-    if (draft != sources.room.drafts().end()) json["words"] = words_of_steps(sources, draft->second);
+    if (draft != sources.room.drafts().end()) put_steps(json, "words", sources, draft->second);
     if (draft != sources.room.drafts().end() && proposal.state == room::ProposalState::proposed) {
       const room::DraftSummary summary = sources.room.summary_of(id);
-      json["conflicts"] = conflicts_of(sources, summary);
+      json["conflicts"] = conflicts_of(sources, draft->second, summary);
       json["misfits"] = misfits_of(summary.misfits);
     }
     json["trial"] = trial_to_json(sources.trials, id);
@@ -107,13 +126,13 @@ View drafts_view(const ViewSources& sources, std::int64_t seat) {
   for (const auto& [id, draft] : sources.room.drafts()) {
     if (draft.seat() != seat || draft.state() == room::DraftState::dropped) continue;
     const room::DraftSummary summary = sources.room.summary_of(id);
-    put(view, id,
-        {{"title", draft.title()},
-         {"state", room::kDraftStateNames[static_cast<std::size_t>(draft.state())]},
-         {"steps", words_of_steps(sources, draft)},
-         {"conflicts", conflicts_of(sources, summary)},
-         {"misfits", misfits_of(summary.misfits)},
-         {"trial", trial_to_json(sources.trials, id)}});
+    Json json = {{"title", draft.title()},
+                 {"state", room::kDraftStateNames[static_cast<std::size_t>(draft.state())]},
+                 {"conflicts", conflicts_of(sources, draft, summary)},
+                 {"misfits", misfits_of(summary.misfits)},
+                 {"trial", trial_to_json(sources.trials, id)}};
+    put_steps(json, "steps", sources, draft);
+    put(view, id, json);
   }
   return view;
 }

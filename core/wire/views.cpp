@@ -13,6 +13,7 @@
 #include "core/reading/views/people.h"
 #include "core/wire/decisions_view.h"
 #include "core/wire/draft_views.h"
+#include "core/wire/lead_view.h"
 #include "core/wire/messages.h"
 #include "core/wire/plan_view.h"
 #include "core/wire/shapes_view.h"
@@ -56,15 +57,17 @@ View room_view(const ViewSources& sources) {
   for (const Activity activity : state.phase.activities)
     phase["activities"].push_back(kActivityNames[static_cast<std::size_t>(activity)]);
   Json seats = Json::object();
-  for (const auto& [number, seat] : state.seats)
-    if (!seat.is_removed)
-      seats[std::to_string(number)] = {{"role", kRoleNames[static_cast<std::size_t>(seat.role)]},
-                                       {"name", seat.name},
-                                       {"colour", seat.colour},
-                                       {"card", seat.card},
-                                       {"areas", seat.areas},
-                                       {"here", seat.is_here},
-                                       {"muted", seat.is_muted}};
+  for (const auto& [number, seat] : state.seats) {
+    if (seat.is_removed) continue;
+    seats[std::to_string(number)] = {{"role", kRoleNames[static_cast<std::size_t>(seat.role)]},
+                                     {"name", seat.name},
+                                     {"colour", seat.colour},
+                                     {"card", seat.card},
+                                     {"areas", seat.areas},
+                                     {"here", seat.is_here},
+                                     {"muted", seat.is_muted}};
+    if (seat.is_waiting) seats[std::to_string(number)]["waits"] = true;
+  }
   put(view, "title", sources.title);
   put(view, "code", sources.code);
   put(view, "phase", phase);
@@ -251,6 +254,7 @@ View votes_view(const ViewSources& sources, std::int64_t seat) {
                  {"most", figures.most},
                  {"unit", figures.unit},
                  {"open", open != sources.room.state().votes.end()},
+                 {"opened", sources.room.state().opened.contains(id)},
                  {"secret", figures.is_secret},
                  {"ends_at", open == sources.room.state().votes.end() ? 0 : open->second.ends_at},
                  {"mine", own_ballot(*figures.ballots, figures.kind, seat)},
@@ -307,7 +311,8 @@ bool is_view(std::string_view name) {
 }
 
 bool is_of_seat(std::string_view view) {
-  static constexpr std::string_view kOfSeats[] = {"card", "votes", "comments", "drafts", "draft_steps", "draft_plans", "keys"};
+  static constexpr std::string_view kOfSeats[] = {"card",        "votes",       "comments", "drafts",
+                                                  "draft_steps", "draft_plans", "keys",     "lead"};
   return std::find(std::begin(kOfSeats), std::end(kOfSeats), view) != std::end(kOfSeats);
 }
 
@@ -333,6 +338,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "draft_steps") return draft_steps_view(sources, seat);
   if (name == "draft_plans") return draft_plans_view(sources, seat);
   if (name == "keys") return keys_view(sources, seat);
+  if (name == "lead") return lead_view(sources, seat);
   if (name == "decisions") return decisions_view(sources);
   if (name == "shapes") return shapes_view(sources.state);
   return {};

@@ -27,11 +27,11 @@ struct ViewSources {
       nullptr;  ///< by role: the key of its invitation; none where nobody is invited
 };
 
-/// The names of all views. Of these, `card`, `votes`, `comments`, `drafts`, `draft_steps`, `draft_plans` and `keys` are
+/// The names of all views. Of these, `card`, `votes`, `comments`, `drafts`, `draft_steps`, `draft_plans`, `keys` and `lead` are
 /// different for each seat.
-inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figures",  "card",        "votes",
-                                                  "comments", "proposals", "drafts",   "draft_steps", "draft_plans",
-                                                  "keys",     "shapes",    "decisions"};
+inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figures",   "card",        "votes",
+                                                  "comments", "proposals", "drafts",    "draft_steps", "draft_plans",
+                                                  "keys",     "shapes",    "decisions", "lead"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
 /// Whether it is the same as long as the scene's state is, whatever happens in the room.

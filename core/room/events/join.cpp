@@ -13,6 +13,7 @@ struct Join {
     Role role = Role::viewer;
     std::string name, colour, card;
     std::vector<std::string> areas;
+    bool waits = false;
   };
   static constexpr Rights kRights{.facilitator = {}};
   static void declare(EventBuilder<Join>& e) {
@@ -23,6 +24,7 @@ struct Join {
     e.argument(&In::colour, "colour").doc("The colour of the person's marks, such as `#1b9e77`.");
     e.argument(&In::areas, "areas").doc("Areas that the person may change.");
     e.argument(&In::card, "card").doc("Node with the role card; empty for none.");
+    e.argument(&In::waits, "waits").doc("On where the door asks: the person watches until the facilitator gives them a role.");
   }
   static Result<void> apply(RoomState& state, const In& in, const EventPlace&) {
     if (state.seats.contains(in.seat))
@@ -32,7 +34,8 @@ struct Join {
                             .colour = in.colour,
                             .areas = {in.areas.begin(), in.areas.end()},
                             .card = in.card,
-                            .is_here = true};
+                            .is_here = true,
+                            .is_waiting = in.waits};
     return {};
   }
 };

@@ -23,6 +23,7 @@ struct OpenVoteEvent {
     if (state.votes.contains(in.vote)) return Error{ErrorCode::duplicate, "vote", "the vote `" + in.vote + "` is open already"};
     const PortValues& settings = node->second.types.at("vote");
     const auto secret = settings.find("is_secret");
+    state.opened.insert(in.vote);
     state.votes[in.vote] = {in.ends_at, secret != settings.end() && std::get<bool>(secret->second)};
     return {};
   }

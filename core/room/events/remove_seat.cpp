@@ -21,6 +21,7 @@ struct RemoveSeat {
     if (in.seat == place.seat) return Error{ErrorCode::conflict, "seat", "nobody can remove themselves"};
     (*seat)->is_removed = true;
     (*seat)->is_here = false;
+    (*seat)->is_waiting = false;
     drop_pens_of(state, in.seat);
     return {};
   }

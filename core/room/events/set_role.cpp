@@ -33,6 +33,7 @@ struct SetRole {
     (*seat)->role = in.role;
     (*seat)->areas = {in.areas.begin(), in.areas.end()};
     (*seat)->card = in.card;
+    (*seat)->is_waiting = false;
     drop_pens_of(state, in.seat);
     return {};
   }

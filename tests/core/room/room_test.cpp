@@ -201,6 +201,40 @@ TEST(Room, ARewindIsAStepLikeAnyOther) {
   EXPECT_EQ(why(world.say(lead, OperationKind::rewind, R"({"to": 99})")), "bad");
 }
 
+// What is told of them is what a rewind would find: it has nothing to take back exactly where it goes to one of those entries.
+TEST(Room, ARewindTakesNothingBackWhereTheSceneIsAsItWas) {
+  RoomWorld world;
+  const auto lead = world.seat(Role::facilitator);
+  Random random(11);
+  int empty = 0, full = 0;
+  const auto is_unchanged = [&](std::int64_t seq) {
+    const auto spans = world.room().unchanged_since();
+    return std::any_of(spans.begin(), spans.end(), [&](const auto& span) { return seq >= span.first && seq <= span.second; });
+  };
+  for (int k = 0; k < 800; ++k) {
+    switch (random.below(5)) {
+      case 0: (void)world.command(lead, set_demand("south", 500 + k)); break;
+      case 1: (void)world.event(lead, "mark", R"({"text": "We talk."})"); break;
+      case 2: (void)world.say(lead, OperationKind::undo, "{}"); break;
+      default: {
+        // Mostly not far back, as people do it.
+        const std::size_t count = static_cast<std::size_t>(world.ledger().last_seq());
+        const std::int64_t back =
+            1 + static_cast<std::int64_t>(random.below(k % 4 == 0 ? count : std::min<std::size_t>(count, 6)));
+        const std::int64_t to = world.ledger().last_seq() - back;
+        const bool expected = is_unchanged(to);
+        const Answer answer = world.say(lead, OperationKind::rewind, R"({"to": )" + std::to_string(to) + "}");
+        ASSERT_EQ(why(answer), expected ? "gone" : "") << k << ": to " << to;
+        ++(expected ? empty : full);
+      }
+    }
+    ASSERT_TRUE(is_unchanged(world.ledger().last_seq())) << k;
+    if (k % 50 == 49) world.crash();
+  }
+  EXPECT_GT(empty, 20);
+  EXPECT_GT(full, 20);
+}
+
 // Each step back once took back all steps back before it, too: the thirtieth would have had a thousand million commands.
 TEST(Room, AStepBackIsNoLongerThanWhatLiesBetween) {
   RoomWorld world;
@@ -234,6 +268,34 @@ TEST(Room, AStepBackIsNoLongerThanWhatLiesBetween) {
     if (k % 25 == 24) world.crash();
   }
   EXPECT_GT(most, 3u);
+}
+
+TEST(Room, WhoComesWhileTheDoorAsksWaitsForARole) {
+  RoomWorld world;
+  const auto lead = world.seat(Role::facilitator);
+  const auto come = [&](Role role, bool is_by_code) {
+    const auto admitted = world.room().admit({.role = role, .areas = {}, .card = {}, .is_by_code = is_by_code}, world.now());
+    world.store();
+    return std::get<Admission>(admitted).seat;
+  };
+  const auto waits = [&](std::int64_t seat) { return world.room().state().seat(seat)->is_waiting; };
+  EXPECT_FALSE(waits(come(Role::participant, true))) << "the door is open";
+  ASSERT_EQ(sentence(world.event(lead, "set_door", R"({"door": "asks"})")), "");
+  const auto anna = come(Role::participant, true), ben = come(Role::participant, true);
+  EXPECT_TRUE(waits(anna) && waits(ben));
+  EXPECT_EQ(world.room().state().seat(anna)->role, Role::viewer);
+  EXPECT_FALSE(waits(come(Role::designer, false))) << "an invitation is an answer";
+  EXPECT_FALSE(waits(come(Role::viewer, true))) << "a beamer watches";
+  ASSERT_EQ(sentence(world.event(lead, "set_role", R"({"seat": )" + std::to_string(anna) + R"(, "role": "viewer"})")), "");
+  EXPECT_FALSE(waits(anna)) << "to watch is a role as well";
+  ASSERT_EQ(sentence(world.event(lead, "set_door", R"({"door": "open"})")), "");
+  EXPECT_TRUE(waits(ben)) << "nobody has answered";
+  const auto hash = hash_of(world.room().state());
+  world.crash();
+  EXPECT_EQ(hash_of(world.room().state()), hash);
+  EXPECT_TRUE(waits(ben));
+  ASSERT_EQ(sentence(world.event(lead, "remove_seat", R"({"seat": )" + std::to_string(ben) + "}")), "");
+  EXPECT_FALSE(world.room().state().seats.at(ben).is_waiting);
 }
 
 TEST(Room, UndoIsOnesOwn) {

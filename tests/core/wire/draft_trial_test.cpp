@@ -52,6 +52,7 @@ TEST(DraftTrials, ConflictsAreToldInWordsWithBothValues) {
   ASSERT_EQ(draft["conflicts"].size(), 1u);
   EXPECT_EQ(draft["conflicts"][0], (Json{{"place", "nodes/north/types/smart_volume/demand"},
                                          {"label", "north, demand"},
+                                         {"said", {{"of", "north"}, {"what", {{"port", "demand"}}}}},
                                          {"by", "Heron"},
                                          {"live", 500},
                                          {"draft", 300}}));

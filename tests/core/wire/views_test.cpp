@@ -214,6 +214,38 @@ TEST(Views, AVisitorsFormKnowsItsRange) {
   EXPECT_EQ(demand["maximum"], 20000);
 }
 
+TEST(Views, AVoteKnowsWhetherItWasEverOpen) {
+  World world = World::from_text(
+      R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "poll", "types": {"vote": {}}}, {"id": "other", "types": {"vote": {}}}]})");
+  world.tick(1);
+  room::Room room(world.session().ledger(), {});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(room.admit({.role = Role::facilitator}, {0, 0})));
+  const auto opened = [&](const char* vote) {
+    return (*parse_json(make_view("votes", {world.state(), room, "", ""}, 1).at(vote)))["opened"].get<bool>();
+  };
+  EXPECT_FALSE(opened("poll"));
+  std::int64_t id = 0;
+  for (const char* event : {"open_vote", "close_vote"}) {
+    const JsonValue said(std::string(R"({"event": ")") + event + R"(", "arguments": {"vote": "poll"}})");
+    (void)room.submit(1, {.run = "r", .id = ++id, .kind = room::OperationKind::event, .content = said}, {0, 0});
+    EXPECT_TRUE(opened("poll")) << event;
+    EXPECT_FALSE(opened("other")) << event;
+  }
+}
+
+TEST(Views, WhoWaitsAtTheDoorIsMarked) {
+  World world = World::from_file("scenes/start/quarter.json");
+  room::Room room(world.session().ledger(), {});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(room.admit({.role = Role::facilitator}, {0, 0})));
+  const JsonValue door(R"({"event": "set_door", "arguments": {"door": "asks"}})");
+  (void)room.submit(1, {.run = "r", .id = 1, .kind = room::OperationKind::event, .content = door}, {0, 0});
+  ASSERT_TRUE(std::holds_alternative<room::Admission>(room.admit({.is_by_code = true}, {0, 0})));
+  const View view = make_view("room", {world.state(), room, "", ""}, 1);
+  const Json seats = *parse_json(view.at("seats"));
+  EXPECT_FALSE(seats["1"].contains("waits"));
+  EXPECT_EQ(seats["2"]["waits"], true);
+}
+
 TEST(Views, AnUnknownViewIsEmpty) {
   EXPECT_FALSE(is_view("secrets"));
   EXPECT_TRUE(is_view("plan"));

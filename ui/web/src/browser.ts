@@ -83,13 +83,18 @@ export async function speak(language: Language): Promise<void> {
 export const wanted_language = (chosen: Language | null): Language =>
   chosen ?? best_language([kept("language") ?? "", ...navigator.languages]);
 
-// The first connection was begun before this script had come.
+// A code of our own server, and none of a network that has failed.
+const kFirstCode = 4000;
+
+// The first connection was begun before this script had come. Where the server has ended it, it has said why.
 function early_socket(): WebSocket | null {
   const socket = early?.socket ?? null;
-  return socket !== null && socket.readyState <= WebSocket.OPEN ? socket : null;
+  if (early === undefined || socket === null) return null;
+  const isTold = early.run !== null && (socket.readyState === WebSocket.CLOSING || (early.closed?.code ?? 0) >= kFirstCode);
+  return socket.readyState <= WebSocket.OPEN || isTold ? socket : null;
 }
 
-/// The run by which hello was said already, on a connection that lives.
+/// The run by which hello was said already, on a connection that lives or that the server has answered by ending it.
 export const early_run = (): string | null => (early_socket() === null ? null : (early?.run ?? null));
 
 function open(address: string): Link {
@@ -113,7 +118,9 @@ function open(address: string): Link {
     link.onopen?.();
     if (begun !== null) early?.heard.splice(0).forEach(hear);
   };
-  if (socket.readyState === WebSocket.OPEN) void Promise.resolve().then(opened);
+  const ended = begun === null ? null : (early?.closed ?? null);
+  if (ended !== null) void Promise.resolve().then(() => link.onclose?.(ended.code, ended.reason));
+  else if (socket.readyState === WebSocket.OPEN) void Promise.resolve().then(opened);
   // Where hello is to be said at the opening, the one who says it does so first.
   else socket.addEventListener("open", opened);
   socket.onmessage = (event) => hear(event.data);

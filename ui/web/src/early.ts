@@ -33,7 +33,7 @@ function language(): string {
   return "en";
 }
 
-const early: Early = { socket: null, run: null, heard: [], words: {}, files: WORDS };
+const early: Early = { socket: null, run: null, heard: [], closed: null, words: {}, files: WORDS };
 // Two round trips of a handshake cost nothing while the script is on its way. It comes first: a browser takes time to read what it keeps.
 const socket = /^\w+$/.test(room)
   ? new WebSocket(`${window.location.protocol === "https:" ? "wss:" : "ws:"}//${window.location.host}/ws`, "bl1")
@@ -67,6 +67,7 @@ if (socket !== null) {
         ),
       );
     socket.onmessage = (event) => early.heard.push(event.data);
+    socket.onclose = ({ code, reason }) => (early.closed = { code, reason });
   }
 }
 (window as unknown as { early: Early }).early = early;

@@ -1,4 +1,5 @@
 // What the unit tests see of the page; not part of the page itself.
+export * from "./areas";
 export * from "./ballots";
 export * from "./connection";
 export * from "./format";
@@ -13,7 +14,9 @@ export * from "./queue";
 export * from "./random";
 export * from "./session";
 export * from "./space/decode";
+export * from "./space/names";
 export * from "./space/orbit";
+export * from "./steps";
 export * from "./timers";
 export * from "./whole";
 export * from "./wifi";

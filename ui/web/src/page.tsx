@@ -13,6 +13,7 @@ import { Ideas } from "./screens/ideas";
 import { CodeScreen, Join, LanguageChoice, Message } from "./screens/join";
 import { LargeCode } from "./screens/invitations";
 import { Lead, proposals_waiting } from "./screens/lead";
+import { at_door } from "./screens/people";
 import { Now } from "./screens/now";
 import { PlanScreen } from "./screens/plan_screen";
 import { Votes } from "./screens/votes";
@@ -66,7 +67,7 @@ function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const isDue = (tab: Tab): boolean =>
     tab === "votes"
       ? Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote))
-      : tab === "lead" && proposals_waiting(s).length > 0;
+      : tab === "lead" && proposals_waiting(s).length + at_door(s).length > 0;
   return (
     <nav aria-label={t("navigation")}>
       {tabs_of(s).map((tab) => (
@@ -91,7 +92,8 @@ function screen_of(s: Session, ui: Ui, isWide: boolean): JSX.Element {
     case "ideas":
       return <Ideas s={s} ui={ui} />;
     case "lead":
-      return <Lead s={s} ui={ui} />;
+      // Somebody may have got another role meanwhile.
+      return s.you?.role === "facilitator" ? <Lead s={s} ui={ui} /> : <Now s={s} ui={ui} />;
     case "form":
       return <Form s={s} ui={ui} />;
     default:

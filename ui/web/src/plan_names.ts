@@ -30,8 +30,8 @@ export function middle(item: PlanItem): Point | null {
   return [x, -y, 0];
 }
 
-// In one line, or in the two that are most alike.
-function lines_of(name: string, room: number): string[] {
+/// In one line, or in the two that are most alike.
+export function lines_of(name: string, room: number): string[] {
   const words = name.split(" ");
   if (name.length <= room || words.length < 2) return [name];
   let best: string[] = [name],

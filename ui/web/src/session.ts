@@ -37,6 +37,7 @@ const kEmpty = (): Views => ({
   drafts: {},
   draft_plans: {},
   keys: {},
+  lead: {},
   decisions: {},
   shapes: {},
 });
@@ -164,6 +165,13 @@ export class Session {
     return found;
   }
 
+  /// The entry to which a rewind of that long would go; nothing where it would take nothing back.
+  rewindTo(milliseconds: number): number | null {
+    const to = this.seqBefore(milliseconds);
+    if (to === null || to >= this.connection.seq) return null;
+    return (this.views.lead.unchanged ?? []).some(([first, last]) => to >= first && to <= last) ? null : to;
+  }
+
   /// A name for something new that nobody else makes.
   freshName(kind: string): string {
     const number = parseInt(this.world.name().slice(0, 8), 16) % 1000000000;
@@ -289,6 +297,13 @@ export class Session {
     this.arrived.add(view);
     this.read.set(view, state.s);
     if (view === "votes") this.forgetClosed();
+    if (view === "room") this.meetMyself();
+  }
+
+  // The facilitator may have given another role, such as to who waited at the door.
+  private meetMyself(): void {
+    const seat = this.you ? this.views.room.seats?.[this.you.seat] : undefined;
+    if (this.you && seat) this.you = { ...this.you, role: seat.role, card: seat.card ?? "", areas: seat.areas ?? [] };
   }
 
   // --- Secret ballots -----------------------------------------------------------------------------------------------

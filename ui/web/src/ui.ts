@@ -52,10 +52,11 @@ export class Ui {
   }
 }
 
-/// Draws the component again whenever one of them changes.
+/// Draws the component again whenever one of them changes. It listens before the browser paints: what comes between the two would
+/// not be seen until something else comes.
 export function useWatched(...sources: { watch(watcher: () => void): () => void }[]): void {
   const [, again] = useReducer((count: number) => count + 1, 0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const ends = sources.map((source) => source.watch(() => again(undefined as never)));
     return () => ends.forEach((end) => end());
   }, sources);

@@ -84,6 +84,7 @@ export interface Seat {
   colour: string;
   here: boolean;
   muted?: boolean;
+  waits?: boolean; ///< came while the door asked, and has no role yet
   card?: string;
   areas?: string[];
 }
@@ -102,6 +103,15 @@ export interface Scenario {
   seq: number;
   tick: number;
 }
+/// Nodes as files name a set of them: by name, or by what they have in common.
+export type Selection = string | string[] | { typification?: string; tag?: string };
+/// What only facilitators are told.
+export interface LeadView {
+  unchanged?: [number, number][]; ///< spans of entries: a rewind to one of them takes nothing back
+  areas?: Record<string, { nodes: Selection; corners: number }>;
+  tags?: Record<string, number>; ///< of the scene, with the number of nodes
+  roles?: Record<string, { label: string; count: number }>;
+}
 export interface RoomView {
   title?: string;
   code?: string;
@@ -109,6 +119,7 @@ export interface RoomView {
   seats?: Record<string, Seat>;
   cards?: Record<string, { name: string; interest: string }>;
   forms?: Record<string, FormRanges>;
+  areas?: Record<string, { pen: number; asking: number[] }>;
   door?: Door;
   layout?: Layout | "";
   paused?: boolean;
@@ -185,6 +196,7 @@ export interface Vote {
   most: number;
   unit: string;
   open: boolean;
+  opened?: boolean; ///< it is or has been open
   secret: boolean;
   ends_at: number;
   mine: Ballot | null;
@@ -211,11 +223,28 @@ export interface Comment {
   state: "open" | "accepted" | "rejected";
   answer?: string;
 }
+/// A link by its kind and its ends.
+export interface LinkName {
+  kind: string;
+  from: string;
+  to: string;
+}
+/// A step, or a place, in parts that the page puts into words.
+export interface Said {
+  id?: string; ///< of the command; missing for a place
+  of?: string | LinkName;
+  what?: { port: string; label?: string };
+  from?: Json;
+  to?: Json;
+  unit?: string;
+  n?: number;
+}
 /// A place that somebody else has changed since the draft was begun.
 export interface Conflict {
   place: string;
   by: string;
   label?: string;
+  said?: Said;
   live?: Json;
   draft?: Json;
 }
@@ -252,7 +281,8 @@ export interface Proposal {
   steps: number;
   kept: number;
   answer?: string;
-  words: string[];
+  words: string[]; ///< in English
+  said?: (Said | null)[]; ///< the same in parts
   conflicts: Conflict[];
   misfits: Misfit[];
   trial?: Trial | null;
@@ -260,7 +290,8 @@ export interface Proposal {
 export interface Draft {
   title: string;
   state: string;
-  steps: string[];
+  steps: string[]; ///< in English
+  said?: (Said | null)[];
   misfits: Misfit[];
   trial?: Trial | null;
 }
@@ -286,6 +317,7 @@ export interface Views {
   proposals: Record<string, Proposal>;
   drafts: Record<string, Draft>;
   keys: Partial<Record<Role, string>>; ///< of invitations; empty for all but facilitators
+  lead: LeadView; ///< empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
   decisions: Record<string, Decision>; ///< by entry
   shapes: Record<string, Json>; ///< what space/contents has the types of

@@ -42,11 +42,12 @@ export interface Listener {
 }
 
 /// What the beginning of the script has started (early.ts): a socket, and files of words by language. `run`: it has said hello by
-/// this run, and `heard` what came.
+/// this run, and `heard` what came; `closed` is how the server has ended it, where it has: then nobody need ask once more.
 export interface Early {
   socket: WebSocket | null;
   run: string | null;
   heard: unknown[];
+  closed: { code: number; reason: string } | null;
   words: Record<string, Promise<unknown>>;
   files: Record<string, string>;
 }

@@ -8,6 +8,7 @@ export class MockRoom {
   tick = 900;
   seats = {};
   tokens = new Map();
+  areas = {};
   asked_minutes = [];
   minutes_fault = 0; // the status of the answer, where there are none
   runs = new Map();
@@ -57,7 +58,11 @@ export class MockRoom {
   // --- Views ----------------------------------------------------------------------------------------------------
 
   view(name, seat) {
-    if (name === "room") return { ...this.room, seats: this.seats };
+    if (name === "room") {
+      const areas = Object.fromEntries(Object.keys(this.areas).map((area) => [area, { pen: 0, asking: [] }]));
+      return { ...this.room, seats: this.seats, areas };
+    }
+    if (name === "lead") return this.seats[seat]?.role === "facilitator" ? this.lead_view() : {};
     if (name === "plan") return this.plan;
     if (name === "decisions") return this.decisions;
     if (name === "shapes") return shapes_of(this.plan);
@@ -94,6 +99,14 @@ export class MockRoom {
     if (name === "keys") return this.seats[seat]?.role === "facilitator" ? this.keys() : {};
     if (name === "drafts") return Object.fromEntries(Object.entries(this.drafts).filter(([, one]) => one.seat === seat));
     return {};
+  }
+
+  lead_view() {
+    return {
+      areas: this.areas,
+      tags: { living: 6, work: 4 },
+      roles: { smart_volume: { label: "Volume", count: 17 }, street: { label: "Street", count: 3 } },
+    };
   }
 
   keys() {
@@ -202,7 +215,9 @@ export class MockRoom {
     if (m.token && seat === undefined) return link.close(4401);
     if (seat === undefined) {
       if (this.room.door === "shut") return link.close(4401);
-      seat = this.take_seat(roles[m.invite] ?? "participant");
+      const waits = this.room.door === "asks" && !m.invite && m.kind !== "beamer";
+      seat = this.take_seat(waits ? "viewer" : (roles[m.invite] ?? "participant"));
+      if (waits) this.seats[seat].waits = true;
       token = `token-${seat}-${Math.random().toString(36).slice(2)}`;
       this.tokens.set(token, seat);
     }
@@ -273,7 +288,12 @@ export class MockRoom {
           text: "Otter holds the pen of the area north",
           args: { area: "north", holder: "Otter" },
         };
-      if (m.draft) this.drafts[m.draft].steps.push(`${control.label}: ${control.value} to ${value}`);
+      if (m.draft) {
+        const draft = this.drafts[m.draft],
+          said = { id: command, of: control.node, what: { port: control.port, label: control.label }, from: control.value, to: value, unit: control.unit };
+        draft.steps.push(`${control.label}: ${control.value} to ${value}`);
+        draft.said = [...(draft.said ?? []), said];
+      }
       else this.card.controls = this.card.controls.map((one) => (one === control ? { ...one, value } : one));
       return null;
     }
@@ -324,6 +344,7 @@ export class MockRoom {
         steps: draft.steps.length,
         kept: 0,
         words: draft.steps,
+        said: draft.said,
         conflicts: [],
         misfits: [],
       };
@@ -336,7 +357,7 @@ export class MockRoom {
         answer: a.answer,
         kept: a.keep?.length ?? this.proposals[a.draft].steps,
       });
-    else if (event === "open_vote") Object.assign(this.votes[a.vote], { open: true, ends_at: a.ends_at });
+    else if (event === "open_vote") Object.assign(this.votes[a.vote], { open: true, opened: true, ends_at: a.ends_at });
     else if (event === "close_vote") this.votes[a.vote].open = false;
     else if (event === "set_phase") this.room.phase = { name: a.name, activities: a.activities, forms: a.forms, ends_at: a.ends_at };
     else if (event === "set_pace") Object.assign(this.room, { rate: a.rate, paused: a.is_paused });
@@ -344,7 +365,12 @@ export class MockRoom {
     else if (event === "renew_keys") this.renewals += 1;
     else if (event === "set_door") this.room.door = a.door;
     else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
-    else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas });
+    else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas, waits: undefined });
+    else if (event === "define_area") this.areas[a.area] = { nodes: a.nodes, corners: 0 };
+    else if (event === "drop_area") {
+      delete this.areas[a.area];
+      for (const one of Object.values(this.seats)) one.areas = one.areas.filter((area) => area !== a.area);
+    }
     else if (event === "close_room") {
       if (Object.values(this.votes).some((vote) => vote.open)) return { why: "closed", place: "event", text: "a vote is open" };
       this.room.closed = true;

@@ -121,7 +121,7 @@ try {
   await heron.fill(field, "3000");
   await heron.keyboard.press("Enter");
   await heron.click('.banner button:has-text("Propose it")');
-  await heron.waitForSelector(".steps li");
+  await heron.waitForSelector('.steps li:has-text("Size of the library: from"):has-text("to 3,000")');
   await heron.fill("textarea", "It is full.");
   await heron.click('.proposal button:has-text("Propose it")');
   await lead.waitForSelector('.proposal:has-text("A larger library")');
@@ -156,6 +156,38 @@ try {
   await other.waitForSelector('.said:has-text("Without scripts.")');
   await plain.screenshot({ path: `${shots}/real_plain.png`, fullPage: true });
 
+  // An area is made of a tag of the scene, and given to somebody.
+  const areas = "#lead-areas";
+  await lead.click(`${areas} summary`);
+  await lead.selectOption(`${areas} label:has-text("A tag") select`, "living");
+  await lead.click(`${areas} button:has-text("Make the area")`);
+  await lead.waitForSelector(`${areas} li:has-text("Tag: living")`);
+  const designer = '.people li:has-text("Badger")';
+  await lead.click(`${designer} summary`);
+  await lead.check(`${designer} .tick:has-text("living") input`);
+  await lead.waitForSelector(`${designer} summary:has-text("Designer (living)")`);
+  await lead.waitForSelector(`${areas} li:has-text("Has it: Badger")`);
+  await picture(lead, "areas");
+
+  // Who comes to a shut door is told at once; who comes while it asks is counted, and let in by a press.
+  await lead.click('.segments button:text-is("Shut")');
+  await lead.waitForSelector('p:has-text("Nobody new gets in by the code")');
+  const began = performance.now();
+  const late = await person("");
+  await late.waitForSelector('p:has-text("Ask the facilitator to let you in")', { timeout: 3000 });
+  const told = performance.now() - began;
+  await lead.click('.segments button:text-is("People ask")');
+  await lead.waitForSelector('p:has-text("New people only watch")');
+  await late.reload();
+  await late.click(".join .main");
+  await late.waitForSelector('h1:has-text("Please wait")');
+  await lead.click('.waiting button:has-text("1 person at the door")');
+  await picture(lead, "door");
+  await lead.click('.door button:has-text("Let in")');
+  await lead.waitForSelector(".door", { state: "detached" });
+  await late.waitForSelector('h1:not(:has-text("Please wait"))');
+  await lead.click('.segments button:text-is("Open") >> nth=0');
+
   // A beamer that was opened by the code alone watches, and is nobody who votes.
   const beamer = await person("#beamer", [1920, 1080]);
   await beamer.waitForSelector(".beamer .shape");
@@ -181,7 +213,7 @@ try {
   assert.match(readFileSync(await file.path(), "utf8"), /^number,id,entry[^]*Without scripts\./);
   await picture(lead, "minutes_lead");
   assert.deepEqual(faults, []);
-  console.log(`ok the page and the real server: ${requests} requests, none of them elsewhere`);
+  console.log(`ok the page and the real server: ${requests} requests, none of them elsewhere; a shut door told after ${told.toFixed(0)} ms`);
 } catch (error) {
   for (const [i, page] of browser
     .contexts()

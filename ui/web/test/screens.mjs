@@ -277,6 +277,18 @@ async function look_at_minutes(page, room, at) {
   );
 }
 
+/// As the browser has drawn them, in whatever letters.
+async function names_are_apart(page, name) {
+  const boxes = await page.$$eval(".space .names .name", (all) => all.map((one) => ({ text: one.textContent, ...one.getBoundingClientRect().toJSON() })));
+  const room = await page.evaluate(() => document.querySelector(".space canvas").getBoundingClientRect().toJSON());
+  assert.ok(boxes.length >= 4, `${name}: ${boxes.length} names`);
+  for (const [i, a] of boxes.entries()) {
+    if (a.left < room.left - 1 || a.right > room.right + 1 || a.top < room.top - 1 || a.bottom > room.bottom + 1) faults.push(`${name}: "${a.text}" leaves the picture`);
+    for (const b of boxes.slice(i + 1))
+      if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) faults.push(`${name}: "${a.text}" lies on "${b.text}"`);
+  }
+}
+
 async function walk_beamer(server, size, scheme) {
   const { room } = server,
     at = `${size[0]}x${size[1]}_${scheme}`;
@@ -288,6 +300,7 @@ async function walk_beamer(server, size, scheme) {
     room.room.layout = layout;
     room.publish();
     if (layout === "space") await page.waitForSelector(".space .north").then(() => page.waitForTimeout(900));
+    if (layout === "space") await names_are_apart(page, `beamer_${layout}_${at}`);
     await look(page, `beamer_${layout}_${at}`, { isBeamer: true });
   }
   // A beamer on a computer of its own is told the Wi-Fi by its address, which does not keep it.
@@ -512,6 +525,127 @@ async function scenarios(server) {
   await page.context().close();
 }
 
+/// Who comes while the door asks is counted, and let in by a press; a shut door is told at once.
+async function door(server) {
+  const { room } = server,
+    lead = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  room.open_votes();
+  room.phase("Exploring", ["comment"]);
+  room.room.door = "asks";
+  room.publish();
+  assert.equal(await lead.locator('.waiting button:has-text("at the door")').count(), 0);
+  const phone = await joined(server);
+  await phone.waitForSelector('h1:has-text("Please wait")');
+  await look(phone, "door_waits_390x844_light");
+  await lead.click('.waiting button:has-text("1 person at the door")');
+  await look(lead, "door_lead_1280x800_light");
+  await lead.click('.door button:has-text("Let in")');
+  await phone.waitForSelector('h1:has-text("Say what you think")');
+  assert.equal(await phone.locator(".join").count(), 0, "nothing is asked again");
+  await lead.waitForSelector(".door", { state: "detached" });
+  assert.equal(await lead.locator('.waiting button:has-text("at the door")').count(), 0);
+  room.room.door = "shut";
+  room.publish();
+  const late = await person(server);
+  // Before it was told by the next try, five seconds later.
+  await late.waitForSelector('p:has-text("Ask the facilitator to let you in")', { timeout: 3000 });
+  await look(late, "door_shut_390x844_light");
+  room.room.door = "open";
+  for (const page of [lead, phone, late]) await page.context().close();
+}
+
+/// Areas are made of a tag, a role or things, given to people, and given up.
+async function areas(server) {
+  const { room } = server,
+    other = await joined(server),
+    lead = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  const part = "#lead-areas",
+    seat = Math.max(...[...room.links].map((link) => link.seat)) - 1;
+  await lead.click(`${part} summary`);
+  await lead.selectOption(`${part} label:has-text("A tag") select`, "living");
+  await lead.click(`${part} button:has-text("Make the area")`);
+  await lead.waitForSelector(`${part} li:has-text("Tag: living"):has-text("Nobody has it")`);
+  await lead.click(`${part} .segments button:has-text("Things")`);
+  await lead.check(`${part} .tick:has-text("Library") input`);
+  // On the plan beside it, and there again: chosen, and not any more.
+  for (const node of ["hotel", "garage", "garage"]) await lead.click(`aside .shape[data-node="${node}"]`);
+  await lead.fill(`${part} label:has-text("Name of the area") input`, "Südliche Höfe");
+  await lead.waitForSelector(`${part} p:has-text("sudliche_hofe")`);
+  await lead.locator(part).scrollIntoViewIfNeeded();
+  await look(lead, "areas_1280x800_light");
+  await lead.click(`${part} button:has-text("Make the area")`);
+  await lead.waitForSelector(`${part} li:has-text("sudliche_hofe"):has-text("Library"):has-text("Hotel")`);
+  assert.deepEqual(room.areas, { living: { nodes: { tag: "living" }, corners: 0 }, sudliche_hofe: { nodes: ["library", "hotel"], corners: 0 } });
+  await lead.click(`${part} .segments button:has-text("A role")`);
+  await lead.selectOption(`${part} label:has-text("A role") select`, "smart_volume");
+  await lead.fill(`${part} label:has-text("Name of the area") input`, "living");
+  await lead.click(`${part} button:has-text("Change the area")`);
+  await lead.waitForSelector(`${part} li:has-text("Role: Volume")`);
+  const row = `.people li:has-text("${room.seats[seat].name}")`;
+  await lead.click(`${row} summary`);
+  await lead.check(`${row} .tick:has-text("sudliche_hofe") input`);
+  await lead.waitForSelector(`${row} summary:has-text("Designer (sudliche_hofe)")`);
+  assert.deepEqual([room.seats[seat].role, room.seats[seat].areas], ["designer", ["sudliche_hofe"]]);
+  await lead.waitForSelector(`${part} li:has-text("Has it: ${room.seats[seat].name}")`);
+  await lead.selectOption(`${row} label:has-text("Role of") select`, "stakeholder");
+  await lead.waitForSelector(`${row} .missing:has-text("for designers only")`);
+  await look(lead, "areas_person_1280x800_light");
+  await lead.click(`${part} li:has-text("sudliche_hofe") button:has-text("Give up the area")`);
+  await lead.click(`${part} .sure .danger`);
+  await lead.waitForSelector(`${part} li:has-text("sudliche_hofe")`, { state: "detached" });
+  assert.deepEqual(room.seats[seat].areas, []);
+  for (const page of [other, lead]) await page.context().close();
+  const narrow = await joined(server, { size: [320, 568], fragment: "#k=LEAD" });
+  await narrow.click(`${part} summary`);
+  await narrow.click(`${part} .segments button:has-text("Things")`);
+  await narrow.locator(`${part} .things`).scrollIntoViewIfNeeded();
+  await look(narrow, "areas_320x568_light");
+  await narrow.context().close();
+}
+
+/// However much others have said: the field for one's own words, and the button that sends them, are in sight on a phone.
+async function own_words(server) {
+  const { room } = server;
+  room.phase("Say it", ["comment"]);
+  for (let k = 0; k < 30; ++k) room.comments[`more${k}`] = { ...room.comments.c1, text: `Words ${k}` };
+  for (const size of [
+    [390, 844],
+    [320, 568],
+  ]) {
+    const page = await joined(server, { size });
+    await tab(page, "Ideas");
+    const is_seen = (selector) =>
+      page.evaluate((one) => {
+        const box = document.querySelector(one).getBoundingClientRect(),
+          main = document.querySelector(".frame > main").getBoundingClientRect();
+        return box.top >= main.top && box.bottom <= main.bottom;
+      }, selector);
+    assert.ok(await is_seen("main > .main"), "the button that begins it");
+    await page.click('button:has-text("Write a comment")');
+    assert.ok(await is_seen(".write textarea"), "the field");
+    assert.ok(await is_seen(".write .main"), "and the button that sends it");
+    await look(page, `own_words_${size.join("x")}_light`);
+    await page.context().close();
+  }
+}
+
+/// A vote that nobody could take part in has no turnout.
+async function unopened_vote(server) {
+  const { room } = server;
+  room.open_votes("bridge");
+  Object.assign(room.votes.height, { open: false, opened: false });
+  room.ballots.delete("height");
+  const page = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  const row = '.rows li:has-text("How high may the tallest building be?")';
+  await page.waitForSelector(`${row}:has-text("It has not been opened yet.")`);
+  assert.doesNotMatch(await page.textContent(row), /have voted/);
+  assert.match(await page.textContent('.rows li:has-text("bridge over High Street")'), /have voted/);
+  await look(page, "unopened_1280x800_light");
+  await page.click(`${row} button:has-text("Open")`);
+  await page.waitForSelector(`${row}:has-text("0% of 48 people have voted")`);
+  await page.context().close();
+}
+
 /// Roles keep cards and areas; people see who looks at the page; the facilitator sees what would come of a proposal.
 async function people_and_cards(server) {
   const { room } = server;
@@ -715,6 +849,10 @@ const parts = {
   leads,
   scenarios,
   people_and_cards,
+  door,
+  areas,
+  own_words,
+  unopened_vote,
   happened,
   space,
   swipe,

@@ -144,3 +144,32 @@ test("names of new things are of the seat", () => {
   assert.match(session.freshName("smart_volume"), /^smart_volume_3_\d+$/);
   assert.notEqual(session.freshName("a"), session.freshName("a"));
 });
+
+test("a rewind is offered only where it takes something back", () => {
+  const { session, state, clock, welcome } = played();
+  assert.equal(session.rewindTo(30000), null, "the page has not been here so long");
+  clock.time += 31000; // no timers: nobody answers here whether the connection lives
+  state("lead", { unchanged: [[0, 0]] }, [], 0);
+  assert.equal(session.rewindTo(30000), null, "nothing has happened");
+  welcome(5);
+  state("lead", { unchanged: [[0, 5]] }, [], 5);
+  assert.equal(session.rewindTo(30000), null, "people have come and said something: the model is as it was");
+  state("lead", { unchanged: [[7, 7]] }, [], 7);
+  assert.equal(session.rewindTo(30000), 0, "somebody has changed the model");
+  state("lead", { unchanged: [[0, 0], [8, 8]] }, [], 8);
+  assert.equal(session.rewindTo(30000), null, "that was taken back");
+  state("lead", { unchanged: [[9, 9]] }, [], 9);
+  assert.equal(session.rewindTo(30000), 0);
+  clock.time += 31000; // no timers: nobody answers here whether the connection lives
+  state("lead", { unchanged: [[9, 9]] }, [], 9);
+  assert.equal(session.rewindTo(30000), null, "that is longer ago");
+});
+
+test("somebody who gets another role is somebody else at once", () => {
+  const { session, state } = played();
+  assert.equal(session.you.role, "participant");
+  state("room", { seats: { 3: { role: "designer", name: "Heron", areas: ["north"], card: "" } } });
+  assert.deepEqual([session.you.role, session.you.areas, session.you.name], ["designer", ["north"], "Heron"]);
+  state("room", { seats: { 4: { role: "viewer", name: "Lynx" } } });
+  assert.equal(session.you.role, "designer");
+});

@@ -1,7 +1,7 @@
 // Shapes in three dimensions: laws of what a cell becomes, and from where it is looked at.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { bounded, cell_body, eye, home, lines_body, moved, prism_body, surface_body, terrain_body } from "../../../build/web_test/modules.mjs";
+import { bounded, cell_body, eye, home, kFieldOfView, lines_body, moved, placed, prism_body, seen, surface_body, terrain_body } from "../../../build/web_test/modules.mjs";
 
 // A number from 0 to 1 that follows from a seed.
 function random(seed) {
@@ -139,4 +139,71 @@ test("wherever people turn and move, they see it from above and can come back", 
   const north = { ...home(all, 1), azimuth: 0 };
   assert.ok(eye(north)[1] < north.target[1]);
   assert.ok(moved(north, 0.1, 0).target[0] > north.target[0] && moved(north, 0, 0.1).target[1] > north.target[1]);
+});
+
+test("at home all is in the picture, as much room is left on one side as on the other, and no more than there must be", () => {
+  const next = random(17);
+  for (let i = 0; i < 200; ++i) {
+    const aspect = 0.4 + 2.2 * next();
+    const corners = Array.from({ length: 5 + Math.floor(20 * next()) }, () => [300 * next(), 200 * next(), 60 * next() * next()]);
+    const [low, high] = [Math.min, Math.max].map((pick) => [0, 1, 2].map((k) => pick(...corners.map((one) => one[k]))));
+    const orbit = home({ low, high, corners }, aspect),
+      tall = Math.tan(kFieldOfView / 2);
+    // From -1 to 1 over the picture.
+    const places = corners.map((corner) => {
+      const [right, up, nearer] = seen(orbit, corner);
+      return [right / (orbit.distance - nearer) / (tall * aspect), up / (orbit.distance - nearer) / tall];
+    });
+    const ends = [0, 1].map((k) => [Math.min(...places.map((one) => one[k])), Math.max(...places.map((one) => one[k]))]);
+    for (const [least, most] of ends) {
+      assert.ok(least > -1 && most < 1, "all of it is seen");
+      assert.ok(Math.abs(least + most) < 0.02, `it stands in the middle: ${least} to ${most}`);
+    }
+    assert.ok(Math.max(...ends.map(([, most]) => most)) > 0.9, "it is as large as the picture lets it be");
+  }
+  // One tower does not make the rest small.
+  const flat = [0, 100].flatMap((x) => [0, 100].map((y) => [x, y, 0])),
+    box = { low: [0, 0, 0], high: [100, 100, 40] };
+  const tower = [...flat, [50, 50, 40]];
+  assert.ok(home({ ...box, corners: tower }, 1.5).distance < home(box, 1.5).distance);
+});
+
+const is_apart = (a, b) => a.left >= b.left + b.width || b.left >= a.left + a.width || a.top >= b.top + b.height || b.top >= a.top + a.height;
+
+test("names of the picture never lie on each other or on what else stands there, and the first ones come first", () => {
+  const next = random(23),
+    frame = { width: 900, height: 600 };
+  let shown = 0,
+    hidden = 0,
+    aside = 0;
+  for (let round = 0; round < 200; ++round) {
+    const taken = [{ left: 800, top: 500, width: 100, height: 100 }];
+    const labels = Array.from({ length: 25 }, () => ({ x: 1100 * next() - 100, y: 800 * next() - 100, width: 40 + 220 * next(), height: next() < 0.3 ? 100 : 50 }));
+    const places = placed(labels, taken, frame);
+    assert.equal(places.length, labels.length);
+    places.forEach((one, i) => {
+      const { x, y, width, height } = labels[i];
+      const isSeen = x >= 0 && x <= frame.width && y >= 0 && y <= frame.height;
+      if (!one) return void (hidden += isSeen ? 1 : 0);
+      assert.ok(isSeen, "what is outside has no name");
+      shown += 1;
+      assert.deepEqual([one.width, one.height], [width, height]);
+      assert.ok(one.left >= 0 && one.top >= 0 && one.left + width <= frame.width && one.top + height <= frame.height, "inside the picture");
+      for (const other of [...taken, ...places.slice(0, i).filter(Boolean)]) assert.ok(is_apart(one, other), "on another");
+      if (Math.abs(one.left + width / 2 - x) > 1) aside += 1;
+    });
+    // Who comes first has the place that they would have alone.
+    assert.deepEqual(places[0], placed([labels[0]], taken, frame)[0]);
+  }
+  assert.ok(shown > 1000 && hidden > 200 && aside > 50, `${shown} shown, ${hidden} hidden, ${aside} aside`);
+});
+
+test("a name stands above its place, and where that is taken beside it or over it", () => {
+  const frame = { width: 400, height: 300 },
+    label = { x: 200, y: 150, width: 100, height: 20 };
+  const [first, second, third] = placed([label, { ...label, x: 210 }, { ...label, x: 200, y: 151 }], [], frame);
+  assert.deepEqual(first, { left: 150, top: 130, width: 100, height: 20 });
+  assert.ok(second && second.top > 150, "over it");
+  assert.equal(third, null, "there is no room left for it");
+  assert.equal(placed([{ ...label, x: 5 }], [], frame)[0].left, 0, "near the edge it is moved into the picture");
 });

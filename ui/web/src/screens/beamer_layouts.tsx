@@ -5,6 +5,7 @@ import { heat, kBands } from "../heat";
 import { Extent, extent_of, points_of } from "../outline";
 import { Plan } from "../plan";
 import type { Session } from "../session";
+import { steps_words } from "../steps";
 import { useLook } from "../ui";
 import type { PlanItem, Proposal } from "../wire";
 import { t } from "../words";
@@ -67,7 +68,7 @@ function ShortTable({ both }: { both: Proposal[] }): JSX.Element {
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => {
-            const words = one.words.filter(Boolean);
+            const words = steps_words(one.words, one.said).filter(Boolean);
             return (
               <td key={i}>
                 {words[0] ?? (one.why || t("none"))}

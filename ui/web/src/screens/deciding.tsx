@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { Icon, MarkState } from "../parts";
 import type { Session } from "../session";
+import { steps_words } from "../steps";
 import type { Comment, Json, Proposal } from "../wire";
 import { t } from "../words";
 import { ProposalEntry } from "./proposals";
@@ -15,7 +16,7 @@ export function Decide({ s, id, proposal, isOpen }: { s: Session; id: string; pr
   const [isUnfolded] = useState(isOpen);
   // Steps that were taken back have no words; those that do not fit any more cannot be taken.
   const isOut = (i: number): boolean => left.includes(i) || proposal.misfits.some((one) => one.step === i);
-  const steps = proposal.words.map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
+  const steps = steps_words(proposal.words, proposal.said).map((word, i) => ({ word, i })).filter(({ word }) => word !== "");
   const keep = steps.map(({ i }) => i).filter((i) => !isOut(i));
   const decide = (is_accepted: boolean): void => {
     const args: Record<string, Json> = { draft: id, is_accepted, answer: answer.trim() };

@@ -43,6 +43,7 @@ function about(s: Session, node: string | null | undefined, place: Point | null)
   return place ? `${t("comment_place")} (${place_name(s, place)})` : t("comment_all");
 }
 
+// The words come first: on a phone, a plan above them would push them out of sight.
 function Write({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const [text, set] = useState("");
   const left = kMostText - [...text].length,
@@ -59,31 +60,7 @@ function Write({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const pins: Pin[] = ui.place ? [{ id: "new", x: ui.place[0], y: ui.place[1], letter: "!", tone: "mine", label: t("comment_new") }] : [];
   return (
     <section class="write">
-      {parent ? (
-        <blockquote>{parent.text}</blockquote>
-      ) : (
-        <>
-          <p class="how">{t("comment_pick")}</p>
-          <PlanHere
-            s={s}
-            ui={ui}
-            binding={{
-              pins,
-              onTap: (place, node) => ui.set(node && s.nameOf(node) !== node ? { selected: node, place: null } : { selected: null, place }),
-            }}
-          />
-          <div class="row spread">
-            <p>
-              {t("comment_about")}: <b>{about(s, ui.selected, ui.place)}</b>
-            </p>
-            {ui.selected || ui.place ? (
-              <button class="link" onClick={() => ui.set({ selected: null, place: null })}>
-                {t("clear_place")}
-              </button>
-            ) : null}
-          </div>
-        </>
-      )}
+      {parent ? <blockquote>{parent.text}</blockquote> : null}
       <label class="field">
         <span>{t("comment_text")}</span>
         <textarea rows={4} value={text} maxLength={kMostText * 2} onInput={(event) => set(event.currentTarget.value)} />
@@ -97,6 +74,29 @@ function Write({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
           {t("lead_cancel")}
         </button>
       </div>
+      {parent ? null : (
+        <>
+          <div class="row spread">
+            <p>
+              {t("comment_about")}: <b>{about(s, ui.selected, ui.place)}</b>
+            </p>
+            {ui.selected || ui.place ? (
+              <button class="link" onClick={() => ui.set({ selected: null, place: null })}>
+                {t("clear_place")}
+              </button>
+            ) : null}
+          </div>
+          <p class="how">{t("comment_pick")}</p>
+          <PlanHere
+            s={s}
+            ui={ui}
+            binding={{
+              pins,
+              onTap: (place, node) => ui.set(node && s.nameOf(node) !== node ? { selected: node, place: null } : { selected: null, place }),
+            }}
+          />
+        </>
+      )}
     </section>
   );
 }

@@ -1,19 +1,20 @@
 // The facilitator's page: the phase and its clock, votes, proposals, people, and what the beamer shows.
 import type { JSX } from "preact";
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { typed_number } from "../format";
 import { Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
 import type { Session } from "../session";
-import { useLook, useMedia } from "../ui";
+import { useClock, useLook, useMedia } from "../ui";
 import type { Ui } from "../ui";
 import type { Activity, Layout, Proposal, Vote } from "../wire";
 import { Key, t } from "../words";
 import { findings_of } from "../health";
+import { AreasPart } from "./areas";
 import { Answer, Decide } from "./deciding";
 import { HealthPart } from "./health";
 import { JoinPart, KeysPart, join_address } from "./invitations";
 import { MinutesPart } from "./minutes";
-import { People } from "./people";
+import { People, at_door } from "./people";
 import { ScenariosPart } from "./scenarios";
 import { ResultOf, Turnout } from "./votes";
 
@@ -131,9 +132,9 @@ function PhasePart({ s }: { s: Session }): JSX.Element {
 }
 
 function Rewind({ s }: { s: Session }): JSX.Element {
-  const to = s.seqBefore(kRewind),
-    isPossible = to !== null && to < s.connection.seq;
-  if (!isPossible)
+  useClock(1000); // half a minute later nothing may be left to take back
+  const to = s.rewindTo(kRewind);
+  if (to === null)
     return (
       <button class="quiet" disabled>
         <Icon name="undo" />
@@ -144,7 +145,7 @@ function Rewind({ s }: { s: Session }): JSX.Element {
     <Sure
       text={t("lead_rewind_sure")}
       yes={t("lead_rewind_yes")}
-      onYes={() => s.submit({ t: "rewind", to: s.seqBefore(kRewind) ?? to }, { mark: "lead/pace" })}
+      onYes={() => s.submit({ t: "rewind", to: s.rewindTo(kRewind) ?? to }, { mark: "lead/pace" })}
     >
       {t("lead_rewind")}
     </Sure>
@@ -256,16 +257,21 @@ function EndPart({ s }: { s: Session }): JSX.Element {
 }
 
 /// What waits for the facilitator, wherever the page is scrolled to.
-function Waiting({ proposals, comments, warnings }: { proposals: number; comments: number; warnings: number }): JSX.Element | null {
+function Waiting({ door, proposals, comments, warnings }: Record<"door" | "proposals" | "comments" | "warnings", number>): JSX.Element | null {
   const go = (id: string): void => {
     const part = document.getElementById(id);
     part?.scrollIntoView({ block: "start" });
     part?.focus({ preventScroll: true });
   };
-  if (proposals + comments + warnings === 0) return null;
+  if (door + proposals + comments + warnings === 0) return null;
   return (
     <div class="row waiting">
       <span>{t("lead_waiting")}</span>
+      {door > 0 ? (
+        <button class="quiet" onClick={() => go("lead-people")}>
+          {t("lead_waiting_door", { n: door })}
+        </button>
+      ) : null}
       {proposals > 0 ? (
         <button class="quiet" onClick={() => go("lead-proposals")}>
           {t("lead_waiting_proposals", { n: proposals })}
@@ -293,6 +299,10 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     proposals = proposals_waiting(s),
     isTwo = useMedia("(min-width: 1200px)");
   const [isLong, setLong] = useState(false);
+  useEffect(() => {
+    s.want("lead");
+    return () => s.release("lead");
+  }, []);
   // Those that most agree with come first; of the others, those that wait longest.
   const comments = Object.entries(s.views.comments)
     .filter(([, comment]) => comment.state === "open" && !comment.answer && !comment.parent)
@@ -358,6 +368,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <DecisionPart s={s} />
       <ScenariosPart s={s} />
       <People s={s} />
+      <AreasPart s={s} ui={ui} />
       <KeysPart s={s} />
       <HealthPart s={s} />
       <EndPart s={s} />
@@ -368,7 +379,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   return (
     <>
       <Title>{t("tab_lead")}</Title>
-      <Waiting proposals={proposals.length} comments={comments.length} warnings={warnings} />
+      <Waiting door={at_door(s).length} proposals={proposals.length} comments={comments.length} warnings={warnings} />
       {isTwo ? (
         <div class="boards">
           <div>{now}</div>

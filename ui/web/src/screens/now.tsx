@@ -29,6 +29,8 @@ export function task_of(s: Session, ui: Ui): Task {
   const hasResult = Object.values(s.views.votes).some((vote) => vote.result !== null && vote.count > 0 && !vote.open);
   if (isOver && hasResult) return { kind: "votes", title: t("now_result"), text: "", action: t("see_result"), go: "votes" };
   if (isOver) return { kind: "look", title: t("now_look"), text: t("now_look_text"), action: t("open_plan"), go: "plan" };
+  if (s.views.room.seats?.[s.you?.seat ?? 0]?.waits)
+    return { kind: "look", title: t("door_title"), text: t("now_door"), action: t("open_plan"), go: "plan" };
   if (isMuted) return { kind: "look", title: t("now_look"), text: t("now_muted"), action: t("open_plan"), go: "plan" };
   const canSpeak = s.you?.role !== "viewer";
   if (due && canSpeak) return { kind: "vote", title: t("now_vote"), text: due[1].question, action: t("vote_now"), go: "votes" };

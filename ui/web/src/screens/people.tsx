@@ -1,4 +1,4 @@
-// The people of a room, for the facilitator: roles, cards, mute, remove.
+// The people of a room, for the facilitator: who waits at the door, roles, cards, areas, mute, remove.
 import type { JSX } from "preact";
 import { Avatar, MarkState, Sure } from "../parts";
 import type { Session } from "../session";
@@ -16,11 +16,79 @@ function presence_words(s: Session, number: string, seat: Seat): string {
   return node ? t("lead_looks_at", { what: s.nameOf(node) }) : t("lead_active");
 }
 
-/// Gives a role, and keeps the card and the areas that somebody has.
-function set_role(s: Session, n: number, seat: Seat, change: { role?: string; card?: string }): void {
-  // A card makes a participant a stakeholder: others may not use its values.
-  const role = change.role ?? (change.card && seat.role === "participant" ? "stakeholder" : seat.role);
-  s.event("set_role", { seat: n, role, areas: seat.areas ?? [], card: change.card ?? seat.card ?? "" }, { mark: `lead/seat${n}` });
+/// Those who stand at the door now.
+export const at_door = (s: Session): [string, Seat][] =>
+  Object.entries(s.views.room.seats ?? {}).filter(([, seat]) => seat.waits === true && seat.here);
+
+// A card makes a participant a stakeholder, and an area a designer: others may not use it.
+function role_with(seat: Seat, change: { card?: string; areas?: string[] }): string {
+  if (seat.role !== "participant" && !seat.waits) return seat.role;
+  return change.card ? "stakeholder" : (change.areas ?? []).length > 0 ? "designer" : seat.role;
+}
+
+/// Gives a role, a card or areas, and keeps the rest of what somebody has.
+function set_role(s: Session, n: number, seat: Seat, change: { role?: string; card?: string; areas?: string[] }): void {
+  const areas = change.areas ?? areas_of(s, n, seat);
+  s.event(
+    "set_role",
+    { seat: n, role: change.role ?? role_with(seat, change), areas, card: change.card ?? seat.card ?? "" },
+    { mark: `lead/seat${n}`, shown: areas },
+  );
+}
+
+// What was ticked last stays ticked until the room has taken it.
+const areas_of = (s: Session, n: number, seat: Seat): string[] =>
+  (s.shown(`lead/seat${n}`, "room") as string[] | undefined) ?? seat.areas ?? [];
+
+/// Which areas somebody may change.
+function AreasOf({ s, n, seat }: { s: Session; n: number; seat: Seat }): JSX.Element | null {
+  const all = Object.keys(s.views.room.areas ?? {}),
+    own = areas_of(s, n, seat);
+  if (all.length === 0) return null;
+  const turn = (area: string): void =>
+    set_role(s, n, seat, { areas: own.includes(area) ? own.filter((one) => one !== area) : [...own, area] });
+  return (
+    <fieldset class="field">
+      <legend>{t("areas_of", { name: seat.name })}</legend>
+      <div class="row">
+        {all.map((area) => (
+          <label key={area} class="tick">
+            <input type="checkbox" checked={own.includes(area)} onChange={() => turn(area)} />
+            <span>{area}</span>
+          </label>
+        ))}
+      </div>
+      {own.length > 0 && seat.role !== "designer" ? <p class="missing">{t("areas_hint")}</p> : null}
+    </fieldset>
+  );
+}
+
+// Who waits is let in by one press, without a look for their role.
+function Door({ s }: { s: Session }): JSX.Element | null {
+  const all = at_door(s);
+  if (all.length === 0) return null;
+  return (
+    <ul class="rows door">
+      {all.map(([number, seat]) => (
+        <li key={number}>
+          <div class="row spread">
+            <Avatar name={seat.name} colour={seat.colour} />
+            <span class="grow">
+              <b>{seat.name}</b> <span class="faint">{t("lead_at_door")}</span>
+            </span>
+            <MarkState s={s} mark={`lead/seat${number}`} />
+            <button
+              class="quiet"
+              aria-label={t("lead_let_in_name", { name: seat.name })}
+              onClick={() => set_role(s, Number(number), seat, { role: "participant" })}
+            >
+              {t("lead_let_in")}
+            </button>
+          </div>
+        </li>
+      ))}
+    </ul>
+  );
 }
 
 export function People({ s }: { s: Session }): JSX.Element {
@@ -28,8 +96,9 @@ export function People({ s }: { s: Session }): JSX.Element {
   const cards = s.views.room.cards ?? {};
   const here = seats.filter(([, seat]) => seat.here).length;
   return (
-    <section class="panel">
+    <section class="panel" id="lead-people" tabIndex={-1}>
       <h2>{t("lead_people")}</h2>
+      <Door s={s} />
       <p>{t("lead_people_n", { n: here })}</p>
       <ul class="people">
         {seats.map(([number, seat]) => {
@@ -43,7 +112,8 @@ export function People({ s }: { s: Session }): JSX.Element {
                   <span class="grow">
                     <b>{seat.name}</b>
                     <span class="faint">
-                      {t(`role_${seat.role}` as Key)}
+                      {seat.waits ? t("lead_at_door") : t(`role_${seat.role}` as Key)}
+                      {(seat.areas ?? []).length > 0 ? ` (${(seat.areas ?? []).join(", ")})` : ""}
                       {seat.card ? ` · ${cards[seat.card]?.name ?? seat.card}` : ""} · {presence_words(s, number, seat)}
                     </span>
                   </span>
@@ -73,6 +143,7 @@ export function People({ s }: { s: Session }): JSX.Element {
                       </select>
                     </label>
                   ) : null}
+                  <AreasOf s={s} n={n} seat={seat} />
                   <button class="quiet" onClick={() => s.event("mute", { seat: n, is_muted: !seat.muted }, { mark })}>
                     {t(seat.muted ? "lead_unmute" : "lead_mute")}
                   </button>

@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { number } from "../format";
 import { Icon, MarkState, Sure } from "../parts";
 import type { Session } from "../session";
+import { conflict_place, steps_words } from "../steps";
 import { useLook } from "../ui";
 import type { Ui } from "../ui";
 import type { Conflict, Draft, Json, Proposal } from "../wire";
@@ -27,7 +28,7 @@ const conflicts_of = (proposal: Proposal): Conflict[] =>
 export function conflict_words(one: Conflict): string {
   const live = value_word(one.live),
     draft = value_word(one.draft),
-    place = one.label || one.place;
+    place = conflict_place(one);
   return live !== null && draft !== null
     ? t("conflict_values", { place, by: one.by, live, draft })
     : t("conflict_at", { place, by: one.by });
@@ -44,7 +45,7 @@ function DraftEntry({ s, ui, id, draft }: { s: Session; ui: Ui; id: string; draf
       <h3>{draft.title || id}</h3>
       {draft.steps.length > 0 ? (
         <ol class="steps">
-          {draft.steps.map((step, i) => (
+          {steps_words(draft.steps, draft.said).map((step, i) => (
             <li key={i}>{step}</li>
           ))}
         </ol>
@@ -135,7 +136,7 @@ export function ProposalEntry({ s, proposal, children }: { s: Session; proposal:
         <details>
           <summary>{t("proposal_steps")}</summary>
           <ol class="steps">
-            {proposal.words.filter(Boolean).map((word, i) => (
+            {steps_words(proposal.words, proposal.said).filter(Boolean).map((word, i) => (
               <li key={i}>{word}</li>
             ))}
           </ol>
@@ -212,7 +213,7 @@ function CompareTable({ s, left, right }: { s: Session; left: Proposal; right: P
         <tr>
           <th scope="row">{t("proposal_steps")}</th>
           {both.map((one, i) => (
-            <td key={i}>{list(one.words.filter(Boolean))}</td>
+            <td key={i}>{list(steps_words(one.words, one.said).filter(Boolean))}</td>
           ))}
         </tr>
         {figures_of_both(both).map((figure) => (

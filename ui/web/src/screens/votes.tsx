@@ -72,6 +72,8 @@ export function ResultOf({ vote }: { vote: Vote }): JSX.Element | null {
 }
 
 export function Turnout({ vote }: { vote: Vote }): JSX.Element {
+  // Nobody could vote yet: a share of nobody would read as if people had not cared.
+  if (!vote.open && vote.opened === false) return <p class="small">{t("vote_unopened")}</p>;
   return (
     <p class="small">
       {vote.turnout !== null && vote.electorate > 0 && vote.count <= vote.electorate

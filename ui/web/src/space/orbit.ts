@@ -7,9 +7,11 @@ export interface Orbit {
   tilt: number; ///< how far one looks down [rad]
   distance: number; ///< [m]
 }
+/// What the picture is of. `corners`: of the things in it, which need less room than the whole box where a few are high.
 export interface Box {
   low: Point3;
   high: Point3;
+  corners?: Point3[];
 }
 
 export const kFieldOfView = (32 * Math.PI) / 180; // from top to bottom
@@ -17,27 +19,53 @@ const kLeastTilt = 0.06,
   kMostTilt = Math.PI / 2 - 0.02,
   kNear = 0.12,
   kFar = 3, // times the distance from which all is seen
-  kRoom = 1.05;
+  kRoom = 1.05,
+  kRounds = 8; // each of which halves at least what is left
 
 const clamp = (value: number, low: number, high: number): number => Math.min(high, Math.max(low, value));
 
-// The least distance from which all corners of the box are in a picture of this shape, with a little room around them.
-function fitting(box: Box, aspect: number, { target, azimuth, tilt }: Orbit): number {
+const corners_of = ({ low, high, corners }: Box): Point3[] =>
+  corners && corners.length > 0
+    ? corners
+    : Array.from({ length: 8 }, (_, corner) => [0, 1, 2].map((k) => ((corner >> k) & 1 ? high : low)[k as 0 | 1 | 2]) as Point3);
+
+/// A place as it is seen: to the right of the middle, above it, and nearer than the target [m].
+export function seen({ target, azimuth, tilt }: Orbit, at: Point3): Point3 {
+  const [x, y, z] = [0, 1, 2].map((k) => (at[k] as number) - (target[k] as number)) as Point3;
+  const away = x * Math.sin(azimuth) + y * Math.cos(azimuth);
+  return [x * Math.cos(azimuth) - y * Math.sin(azimuth), away * Math.sin(tilt) + z * Math.cos(tilt), z * Math.sin(tilt) - away * Math.cos(tilt)];
+}
+
+// The least distance from which all is in a picture of this shape, with a little room around it.
+function fitting(corners: Point3[], aspect: number, orbit: Orbit): number {
   const tall = Math.tan(kFieldOfView / 2),
     wide = tall * aspect;
   let least = 1;
-  for (let corner = 0; corner < 8; ++corner) {
-    const [x, y, z] = [0, 1, 2].map((k) => ((corner >> k) & 1 ? box.high : box.low)[k as 0 | 1 | 2] - (target[k] as number)) as Point3;
-    const right = x * Math.cos(azimuth) - y * Math.sin(azimuth),
-      away = x * Math.sin(azimuth) + y * Math.cos(azimuth),
-      up = away * Math.sin(tilt) + z * Math.cos(tilt),
-      nearer = z * Math.sin(tilt) - away * Math.cos(tilt);
+  for (const corner of corners) {
+    const [right, up, nearer] = seen(orbit, corner);
     least = Math.max(least, nearer + kRoom * Math.max(Math.abs(right) / wide, Math.abs(up) / tall));
   }
   return least;
 }
 
-/// All of it, from the south-west and above, as the reports draw it.
+// What is near looks larger, so the middle of what stands there is not the middle of the picture: the target is moved over the ground
+// until as much room is left on one side as on the other.
+function centred(corners: Point3[], aspect: number, orbit: Orbit): Orbit {
+  let now = { ...orbit, distance: fitting(corners, aspect, orbit) };
+  for (let round = 0; round < kRounds; ++round) {
+    const places = corners.map((corner) => seen(now, corner)),
+      middle = (k: 0 | 1): number => {
+        const shares = places.map((place) => place[k] / (now.distance - place[2]));
+        return (Math.min(...shares) + Math.max(...shares)) / 2;
+      };
+    const height = 2 * Math.tan(kFieldOfView / 2);
+    const next = moved(now, middle(0) / height, middle(1) / height);
+    now = { ...next, distance: fitting(corners, aspect, next) };
+  }
+  return now;
+}
+
+/// All of it, from the south-west and above, as the reports draw it, and as large as the picture lets it be.
 export function home(box: Box, aspect: number): Orbit {
   const { low, high } = box;
   const orbit: Orbit = {
@@ -46,7 +74,7 @@ export function home(box: Box, aspect: number): Orbit {
     tilt: 0.56,
     distance: 1,
   };
-  return { ...orbit, distance: fitting(box, aspect, orbit) };
+  return centred(corners_of(box), aspect, orbit);
 }
 
 /// Inside what makes sense: not below the ground, not lost in the distance.

@@ -22,8 +22,10 @@ import {
   sRGBEncoding,
 } from "three";
 import type { ShapeContent, SpaceContent } from "./contents";
+import { lines_of } from "../plan_names";
 import { Body, Point3, cell_body, lines_body, prism_body, surface_body, terrain_body } from "./decode";
 import { follow_fingers } from "./fingers";
+import { Label, Rectangle, placed } from "./names";
 import { Box, Orbit, between, bounded, eye, home, kFieldOfView, moved } from "./orbit";
 
 /// What the plan says of a thing, as far as it is seen here.
@@ -64,9 +66,14 @@ interface Thing {
   size: number;
 }
 
+// Of names, as the style sheet has them, in parts of the letters' height.
+const kNameWeight = 650,
+  kNamePadding = 0.8,
+  kNameLine = 1.3;
 const kFine = 40, // so many volumes are divided finely
   kGlide = 260, // [ms]
-  kMostNames = 40;
+  kMostNames = 40,
+  kLongLine = 12; // letters of a name, before it stands in two lines
 
 export class Picture {
   isMoving = false; ///< one finger moves
@@ -87,7 +94,9 @@ export class Picture {
   private glide: { from: Orbit; to: Orbit; begun: number } | null = null;
   private selected: string | null = null;
   private due = 0;
+  private readonly pen = document.createElement("canvas").getContext("2d") as CanvasRenderingContext2D; // measures names
   private hasHome = false;
+  private isAtHome = true; // nobody has turned or moved it
 
   /// Throws where there is no WebGL.
   constructor(private readonly options: Options) {
@@ -224,7 +233,8 @@ export class Picture {
   // The ground and the sun fit what there is; the first time, so does the place of the eye.
   private measure(space: SpaceContent): void {
     const low = new Vector3(Infinity, Infinity, Infinity),
-      high = new Vector3(-Infinity, -Infinity, -Infinity);
+      high = new Vector3(-Infinity, -Infinity, -Infinity),
+      corners: Point3[] = [];
     for (const one of this.core())
       for (const part of [one.mesh, one.lines]) {
         if (!part) continue;
@@ -232,9 +242,11 @@ export class Picture {
         if (!part.geometry.boundingBox) continue;
         low.min(part.geometry.boundingBox.min);
         high.max(part.geometry.boundingBox.max);
+        const { min, max } = part.geometry.boundingBox;
+        for (const x of [min.x, max.x]) for (const y of [min.y, max.y]) for (const z of [min.z, max.z]) corners.push([x, y, z]);
       }
     if (!(high.x > low.x) || !(high.y > low.y)) return;
-    this.box = { low: [low.x, low.y, low.z], high: [high.x, high.y, Math.max(high.z, low.z + 1)] };
+    this.box = { low: [low.x, low.y, low.z], high: [high.x, high.y, Math.max(high.z, low.z + 1)], corners };
     const size = Math.hypot(high.x - low.x, high.y - low.y),
       middle = new Vector3((low.x + high.x) / 2, (low.y + high.y) / 2, low.z);
     const hasTerrain = [...this.things.values()].some((one) => one.content.t === "terrain");
@@ -291,6 +303,7 @@ export class Picture {
 
   private set(next: Orbit): void {
     this.glide = null;
+    this.isAtHome = false;
     this.orbit = bounded(next, this.box, this.aspect());
     this.invalidate(false);
   }
@@ -317,7 +330,9 @@ export class Picture {
       home: home(this.box, this.aspect()),
     };
     const to = bounded(next[step], this.box, this.aspect());
-    if (this.options.isCalm || !this.orbit) return this.set(to);
+    if (this.options.isCalm || !this.orbit) this.set(to);
+    this.isAtHome = step === "home";
+    if (this.options.isCalm || !this.orbit) return;
     this.glide = { from: this.orbit, to, begun: performance.now() };
     this.invalidate(false);
   }
@@ -330,6 +345,8 @@ export class Picture {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
+    // Another shape of the picture has room for more or less.
+    if (this.hasHome && this.isAtHome && !this.glide) this.orbit = home(this.box, this.aspect());
     this.invalidate(false);
   }
 
@@ -377,23 +394,23 @@ export class Picture {
     this.options.onLook(this.orbit.azimuth);
   }
 
+  // Where a place of the model is in the picture; nothing where it is outside.
+  private point(at: Point3): { x: number; y: number } | null {
+    const { clientWidth, clientHeight } = this.options.canvas,
+      point = new Vector3(at[0], at[1], at[2]).project(this.camera);
+    if (point.z > 1 || Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return null;
+    return { x: ((point.x + 1) / 2) * clientWidth, y: ((1 - point.y) / 2) * clientHeight };
+  }
+
   // Names stand above what they name, the nearest first; one that would lie on another is left out.
   private label(): void {
     const { overlay, canvas } = this.options,
-      { clientWidth, clientHeight } = canvas,
-      font = parseFloat(getComputedStyle(overlay).fontSize) || 12;
-    const taken: [number, number, number, number][] = [],
-      out: HTMLElement[] = [];
-    const place = (at: Point3, text: string, kind: string, isWanted: boolean): void => {
-      const point = new Vector3(at[0], at[1], at[2]).project(this.camera);
-      if (point.z > 1 || Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return;
-      const x = ((point.x + 1) / 2) * clientWidth,
-        y = ((1 - point.y) / 2) * clientHeight,
-        half = kind === "name" ? 0.31 * font * text.length + 6 : font;
-      const box: [number, number, number, number] = [x - half, y - 1.5 * font, x + half, y];
-      const isFree = box[0] > 0 && box[2] < clientWidth && taken.every((one) => box[2] < one[0] || one[2] < box[0] || box[3] < one[1] || one[3] < box[1]);
-      if (!isWanted && !isFree) return;
-      taken.push(box);
+      style = getComputedStyle(overlay),
+      font = parseFloat(style.fontSize) || 12,
+      pen = this.pen;
+    pen.font = `${kNameWeight} ${font}px ${style.fontFamily}`;
+    const out: HTMLElement[] = [];
+    const write = (text: string, kind: string, x: number, y: number): void => {
       const span = document.createElement("span");
       span.className = kind;
       span.textContent = text;
@@ -401,16 +418,41 @@ export class Picture {
       span.style.top = `${y}px`;
       out.push(span);
     };
-    for (const mark of this.marks)
-      place(mark.place.map((value, k) => value - (this.origin[k] as number)) as Point3, mark.letter, `mark ${mark.tone}`, true);
+    const taken = this.others();
+    for (const { place, letter, tone } of this.marks) {
+      const at = this.point(place.map((value, k) => value - (this.origin[k] as number)) as Point3);
+      if (!at) continue;
+      taken.push({ left: at.x - font, top: at.y - 1.6 * font, width: 2 * font, height: 1.6 * font });
+      write(letter, `mark ${tone}`, at.x, at.y);
+    }
     const eyes = this.camera.position;
     const named = [...this.things]
       .filter(([id, one]) => (one.content.t === "cell" || one.content.t === "prism") && this.names.get(id.slice(2))?.name)
       .map(([id, one]) => ({ id, one, far: eyes.distanceTo(new Vector3(...one.top)) / Math.max(1, one.size) }))
       .sort((a, b) => (a.id === `n/${this.selected}` ? -1 : b.id === `n/${this.selected}` ? 1 : a.far - b.far))
       .slice(0, kMostNames);
-    for (const { id, one } of named) place(one.top, this.names.get(id.slice(2))?.name ?? "", "name", false);
+    const labels: (Label & { lines: string[] })[] = [];
+    for (const { id, one } of named) {
+      const at = this.point(one.top),
+        lines = lines_of(this.names.get(id.slice(2))?.name ?? "", kLongLine);
+      const width = Math.max(...lines.map((line) => pen.measureText(line).width)) + kNamePadding * font;
+      if (at) labels.push({ ...at, lines, width, height: lines.length * kNameLine * font });
+    }
+    placed(labels, taken, { width: canvas.clientWidth, height: canvas.clientHeight }).forEach((at, i) => {
+      if (at) write((labels[i] as { lines: string[] }).lines.join("\n"), "name", at.left + at.width / 2, at.top + at.height);
+    });
     overlay.replaceChildren(...out);
+  }
+
+  // What else stands on the picture: north, buttons, a remark.
+  private others(): Rectangle[] {
+    const { overlay, canvas } = this.options,
+      own = canvas.getBoundingClientRect();
+    const beside = overlay.closest(".seen")?.querySelectorAll(".north, .remark, .zoom, .pad, .switch") ?? [];
+    return [...beside].map((one) => {
+      const { left, top, width, height } = one.getBoundingClientRect();
+      return { left: left - own.left, top: top - own.top, width, height };
+    });
   }
 }
 
