@@ -61,15 +61,16 @@ class Server:
 
 class Pace:
     """How a careful client sends: below the limits of the server (core/serve), and not much at once, because of what comes behind a
-    lost operation the server takes nothing. The window halves when something was lost, and grows with each answer."""
+    lost operation the server takes nothing. The window halves when something was lost, and grows with each answer; what the network
+    was like is known after an outage as well."""
     LEAST, MOST = 4, 16  # operations without an answer
 
     def __init__(self, burst, per_second):
-        self.burst, self.per_second = burst, per_second
+        self.burst, self.per_second, self.window = burst, per_second, self.MOST
         self.begin()
 
     def begin(self):
-        self.tokens, self.filled, self.window = self.burst, time.monotonic(), self.MOST
+        self.tokens, self.filled = self.burst, time.monotonic()
 
     def may_send(self):
         now = time.monotonic()
@@ -82,7 +83,7 @@ class Pace:
 
 class Page:
     """A page: one run, operations 1, 2, 3, …, each sent again until it is answered. Without a pace it sends all at once."""
-    PATIENCE = 0.3  # an operation without an answer is sent again [s]
+    PATIENCE = 0.4  # an operation without an answer is sent again [s]
 
     def __init__(self, server, invite=None, views=("room",), kind="page", seed=0, loss=0.0, doubled=0.0):
         self.server, self.invite, self.views, self.kind = server, invite, list(views), kind
