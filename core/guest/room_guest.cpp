@@ -227,11 +227,12 @@ void RoomGuest::set_rate(double ticks_per_second) {
   if (may_wish_pace()) wished_pace_.rate = std::clamp(ticks_per_second, kSlowestRoom, kFastestRoom);
 }
 
-// Of a part that nobody wishes to change the room's own value is said, once it is known on this connection.
+// Of a part that nobody wishes to change the room's own value is said. The welcome tells the rate, and the view whether it
+// stands.
 void RoomGuest::say_pace(double now) {
   const PaceWish wish = wished_pace_;
   if (wish.is_nothing() || now - pace_at_ < kBetweenPaces) return;
-  if (!(wish.is_paused && wish.rate) && !views_.contains("room")) return;
+  if (!wish.is_paused && !views_.contains("room")) return;
   say_event("set_pace", JsonValue::of({{"rate", wish.rate.value_or(people_.rate)},
                                        {"is_paused", wish.is_paused.value_or(people_.is_paused)}}));
   wished_pace_ = {};

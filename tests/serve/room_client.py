@@ -61,12 +61,12 @@ class Server:
 
 class Pace:
     """How a careful client sends: below the limits of the server (core/serve), and not much at once, because of what comes behind a
-    lost operation the server takes nothing. The window halves when something was lost, and grows with each answer; what the network
-    was like is known after an outage as well."""
-    LEAST, MOST = 4, 16  # operations without an answer
+    lost operation the server takes nothing. `window`: how many operations are under way that the server is not known to have decided.
+    It halves when something was lost, and grows with each answer; what the network was like is known after an outage as well."""
+    MOST = 16
 
-    def __init__(self, burst, per_second):
-        self.burst, self.per_second, self.window = burst, per_second, self.MOST
+    def __init__(self, burst, per_second, least):
+        self.burst, self.per_second, self.least, self.window = burst, per_second, least, self.MOST
         self.begin()
 
     def begin(self):
@@ -83,7 +83,7 @@ class Pace:
 
 class Page:
     """A page: one run, operations 1, 2, 3, …, each sent again until it is answered. Without a pace it sends all at once."""
-    PATIENCE = 0.4  # an operation without an answer is sent again [s]
+    PATIENCE = 0.3  # an operation without an answer is sent again [s]
 
     def __init__(self, server, invite=None, views=("room",), kind="page", seed=0, loss=0.0, doubled=0.0):
         self.server, self.invite, self.views, self.kind = server, invite, list(views), kind
@@ -96,7 +96,7 @@ class Page:
         self.view, self.entries, self.scene, self.says, self.closed = {}, {}, None, [], None
         self.reader, self.missing, self.pushed_at, self.fault = None, None, {}, None
         self.pace, self.away, self.closes, self.merged = None, False, collections.Counter(), {}
-        self.gap_before, self.gap_at = None, 0
+        self.gap_before, self.gap_at, self.decided = None, 0, 0
         self.changed = asyncio.Event()
 
     async def connect(self):
@@ -147,15 +147,18 @@ class Page:
         kind = message["t"]
         if kind == "welcome":
             self.welcome, self.you = message, message["you"]
+            self.decided = max(self.decided, message["done"])
             self.token = message.get("token") or self.token
             self.view = {}
         elif kind in ("ack", "nack"):
             number = message["id"]
             if kind == "nack" and message["why"] == "gap":
+                self.decided = max(self.decided, message["args"]["next"] - 1)
                 self.hear_gap(message["args"]["next"])
                 return
             if kind == "nack" and message["why"] == "storage":
                 return
+            self.decided = max(self.decided, number)  # all before it are decided too, but not known how
             if number in self.answers:
                 assert self.answers[number]["t"] == kind, (self.answers[number], message)
             else:
@@ -182,7 +185,7 @@ class Page:
         if self.pace:
             if missing == self.gap_before and now - self.gap_at < self.PATIENCE:
                 return
-            self.pace.window = max(Pace.LEAST, self.pace.window // 2)
+            self.pace.window = max(self.pace.least, self.pace.window // 2)
         self.missing, self.gap_before, self.gap_at = missing, missing, now
 
     async def until(self, condition, seconds=60):
@@ -230,7 +233,7 @@ class Page:
         return number
 
     async def push_again(self):
-        """What the server misses, and whatever has had no answer for a while; with a pace, of the first ones that wait."""
+        """What the server misses, and whatever has had no answer for a while; with a pace, only so many at once."""
         if not self.is_open():
             return
         missing, self.missing = self.missing, None
@@ -239,7 +242,12 @@ class Page:
             for number in self.pushed_at.keys() & self.waiting.keys():
                 if number >= missing:
                     self.pushed_at[number] = 0
-        for number in sorted(self.waiting)[:int(self.pace.window) if self.pace else None]:
+        under_way = 0
+        for number in sorted(self.waiting):
+            if self.pace and number > self.decided:
+                under_way += 1
+                if under_way > self.pace.window:
+                    return
             if number in self.waiting and self.pushed_at.get(number, 0) < late:  # an answer may have come meanwhile
                 if self.pace and not self.pace.may_send():
                     return

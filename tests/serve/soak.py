@@ -101,7 +101,7 @@ async def run(options, server, seed):
         if is_designer:
             await lead.event("set_role", seat=page.you["seat"], role="designer", areas=["all"])
         page.loss, page.doubled = options.loss, 0.05
-        page.pace = Pace(100, 50) if is_designer else Pace(25, 9)
+        page.pace = Pace(150, 50, 4) if is_designer else Pace(28, 9, 2)
         pages.append(page)
         person = asyncio.ensure_future((designer if is_designer else phone)(page, end, nodes))
         tasks.append(person)
