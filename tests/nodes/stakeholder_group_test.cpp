@@ -108,8 +108,8 @@ TEST(StakeholderGroup, ARangeBeyondWhatTheValueAllowsIsTold) {
             row + "maximum: allows 3, but the strength of a link goes to 1 only: what is above is refused\n");
   EXPECT_EQ(problems(R"("node": "a", "port": "smart_volume.demand", "minimum": -5, "maximum": 900)"),
             row + "minimum: allows -5 m³, but `smart_volume.demand` begins at 0 m³: what is below is refused\n");
-  EXPECT_EQ(problems(R"("node": "apart", "port": "distance", "minimum": -1, "maximum": 9)"),
-            row + "minimum: allows -1 m, but `distance` begins at 0 m: what is below is refused\n");
+  EXPECT_EQ(problems(R"("node": "apart", "port": "maximum", "minimum": -1, "maximum": 9)"),
+            row + "minimum: allows -1 m, but `maximum` begins at 0 m: what is below is refused\n");
 }
 
 TEST(StakeholderGroup, SceneIsWhatItSays) {
