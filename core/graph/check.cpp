@@ -50,19 +50,63 @@ std::string why_not_there(const Scene& scene, const ColumnDefinition& column, co
   return "the node `" + node + "` is not a `" + path->typification + "`, and has no such port";
 }
 
+// How far a number of a scene can be set at all.
+struct Reach {
+  double least = 0, most = 1;
+  Unit unit = Unit::none;
+  std::string what;
+};
+
+// Of a port of a node, or of a link its strength or a parameter. Nothing where it is not there, or holds no number.
+std::optional<Reach> reach_of(const Scene& scene, const std::string& node, const std::string& name, const Registry& registry) {
+  const PortDefinition* port = nullptr;
+  if (const auto link = scene.links.find(node); link != scene.links.end() && !scene.nodes.contains(node)) {
+    if (name == "strength") return Reach{.what = "the strength of a link"};
+    const LinkDefinition* kind = scene.scripts.types(registry).link(link->second.kind);
+    if (kind != nullptr) port = kind->find_port(name);
+  } else if (const auto path = parse_port_path(name)) {
+    if (const auto found = registry.port(*path)) port = *found;
+  }
+  if (port == nullptr || (port->kind != ValueKind::number && port->kind != ValueKind::integer)) return std::nullopt;
+  return Reach{port->hard_minimum, port->hard_maximum, port->unit, "`" + name + "`"};
+}
+
+// Of a table whose rows name ports, such as a role card: how far the port of the row may be set.
+bool is_bound(const ColumnDefinition& column) { return !column.is_text && (column.id == "minimum" || column.id == "maximum"); }
+
+// Whoever sets what a row allows and the port does not is refused, in the middle of a session.
+std::string why_beyond(const Reach& reach, double bound) {
+  const auto words = [&](double number) {
+    const std::string_view unit = info(reach.unit).pretty;
+    return shortest(number) + (unit.empty() ? "" : " " + std::string(unit));
+  };
+  if (bound > reach.most)
+    return "allows " + words(bound) + ", but " + reach.what + " goes to " + words(reach.most) + " only: what is above is refused";
+  if (bound < reach.least)
+    return "allows " + words(bound) + ", but " + reach.what + " begins at " + words(reach.least) + ": what is below is refused";
+  return "";
+}
+
 // Rows stay when what they name goes: a name of nothing is told and refuses no file.
 void check_table(const Scene& scene, const PortDefinition& port, const Table& table, const std::string& place,
                  const Registry& registry, std::vector<Problem>& problems) {
-  const auto names_node = [](const ColumnDefinition& column) { return column.names == NameOf::node; };
-  const auto node = std::find_if(port.columns.begin(), port.columns.end(), names_node);
+  const auto column_of = [&](NameOf names) {
+    return std::find_if(port.columns.begin(), port.columns.end(), [&](const auto& column) { return column.names == names; });
+  };
+  const auto node = column_of(NameOf::node), named = column_of(NameOf::port);
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     for (const ColumnDefinition& column : port.columns) {
+      const std::string field = place + "/" + std::to_string(row) + "/" + column.id;
+      const std::string of_row = node == port.columns.end() ? std::string() : table.text(row, node->id);
+      if (is_bound(column) && named != port.columns.end())
+        if (const auto reach = reach_of(scene, of_row, table.text(row, named->id), registry))
+          if (std::string why = why_beyond(*reach, table.number(row, column.id)); !why.empty())
+            problems.push_back({false, {ErrorCode::out_of_range, field, std::move(why)}});
       if (column.names == NameOf::nothing) continue;
       const std::string& name = table.text(row, column.id);
       if (name.empty()) continue;
-      const std::string of_row = node == port.columns.end() ? std::string() : table.text(row, node->id);
       if (std::string why = why_not_there(scene, column, name, of_row, registry); !why.empty())
-        problems.push_back({false, {ErrorCode::not_found, place + "/" + std::to_string(row) + "/" + column.id, std::move(why)}});
+        problems.push_back({false, {ErrorCode::not_found, field, std::move(why)}});
     }
 }
 

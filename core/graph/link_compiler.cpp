@@ -117,7 +117,9 @@ Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link,
   enum class Fit : std::uint8_t { unknown, fits, fits_by_unit, lacks };
   std::vector<Fit> fits(plan_.forms->types.size());
   std::vector<std::uint32_t> nodes = selected_nodes(plan_, registry_, selection);
+  const std::size_t chosen = nodes.size();
   std::size_t kept = 0;
+  const PortPath* lacking = nullptr;  // of the first node that is left out
   for (const std::uint32_t node : nodes) {
     Fit& fit = fits[plan_.forms->of[node]];
     if (fit == Fit::unknown || fit == Fit::fits_by_unit) {
@@ -130,14 +132,25 @@ Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link,
       } else {
         if (!selection.is_query()) return lack_of(*link.definition, node, missing->path, end);
         fit = Fit::lacks;
+        if (lacking == nullptr) lacking = &missing->path;
       }
     }
     if (fit != Fit::lacks) nodes[kept++] = node;
   }
   nodes.resize(kept);
-  if (nodes.empty())
-    return Error{ErrorCode::not_found, std::string(name_of(end)), "no node fits this end; the link does nothing"};
+  if (nodes.empty()) return nothing_fits(*link.definition, chosen, lacking, end);
   return nodes;
+}
+
+// A query that chooses nodes none of which has the port is mostly a misspelt port; one that chooses none is not.
+Error LinkCompiler::nothing_fits(const LinkDefinition& definition, std::size_t chosen, const PortPath* lacking, End end) const {
+  std::string why = "; the link does nothing";
+  if (lacking != nullptr && lacking->typification.empty()) why += ": choose the port that `" + definition.id + "` works on";
+  else if (lacking != nullptr)
+    why += ": " + (chosen == 1 ? std::string("the node") : "none of the " + std::to_string(chosen) + " nodes") +
+           " that it chooses has" + (chosen == 1 ? " no" : "") + " `" + lacking->typification + "." + lacking->port +
+           "`, which `" + definition.id + "` needs" + nearest_port(*lacking);
+  return {ErrorCode::not_found, std::string(name_of(end)), "no node fits this end" + why};
 }
 
 Error LinkCompiler::lack_of(const LinkDefinition& definition, std::uint32_t node, const PortPath& path, End end) const {

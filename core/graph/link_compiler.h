@@ -34,6 +34,7 @@ class LinkCompiler {
   Result<std::vector<std::uint32_t>> end_nodes(const LinkPlan& link, const Selection& selection, End end,
                                                std::span<const Value> values) const;
   Error lack_of(const LinkDefinition& definition, std::uint32_t node, const PortPath& path, End end) const;
+  Error nothing_fits(const LinkDefinition& definition, std::size_t chosen, const PortPath* lacking, End end) const;
   std::string nearest_port(const PortPath& path) const;
   // Whether other nodes of the same form have to be looked at as well: each of them chooses a unit.
   Result<bool> check_units(std::uint32_t node, std::span<const Wanted> wanted) const;

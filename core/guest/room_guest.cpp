@@ -61,10 +61,32 @@ template <class Message>
 Result<void> RoomGuest::send_operation(Message message, const std::string& what, std::int64_t gesture) {
   message.id = outbox_.next_id();
   if (auto kept = outbox_.keep({message.id, wire::write_message(message), what}, gesture); !kept) return kept;
-  if (!is_welcome_) return {};
-  if (outbox_.waiting().size() == 1) answer_at_ = options_.clock->now();
-  send(outbox_.waiting().back().frame);
+  send_waiting();
   return {};
+}
+
+// The server leaves in the network what comes faster than sixty a second, with the pings behind it, and sends away whoever goes
+// on like that for half a minute (core/serve). So what has waited through an outage goes out in small parts, a little slower.
+void RoomGuest::send_waiting() {
+  if (!is_welcome_) return;
+  const double now = options_.clock->now();
+  may_send_ = std::min<double>(kMostAtOnce, may_send_ + (now - sent_at_) * kSentInASecond);
+  sent_at_ = now;
+  std::size_t unanswered = 0;
+  for (const Sent& sent : outbox_.waiting()) {
+    if (sent.id > sent_to_) {
+      if (unanswered >= kMostUnanswered || may_send_ < 1) break;
+      if (unanswered == 0) answer_at_ = now;
+      may_send_ -= 1;
+      sent_to_ = sent.id;
+      send(sent.frame);
+    }
+    ++unanswered;
+  }
+}
+
+bool RoomGuest::has_sent_all() const {
+  return is_welcome_ && (outbox_.waiting().empty() || outbox_.waiting().back().id <= sent_to_);
 }
 
 template <class Message>
@@ -124,8 +146,10 @@ Result<void> RoomGuest::show(const std::vector<Command>& commands, std::int64_t 
   if (auto ended = end_gestures(gesture); !ended) return ended;
   if (auto shown = own().show(gesture, as_one(commands)); !shown) return shown;
   is_stale_ = true;
-  // In a draft each value that is said is a step, so only the last ones are said.
-  auto said = work_ ? Result<void>() : say_values(gesture, fold_.take_due(gesture, options_.clock->now(), false));
+  // In a draft each value that is said is a step, so only the last ones are said. While others wait to be sent nobody would see
+  // it sooner, and the next value replaces it.
+  const bool is_due = !work_ && has_sent_all();
+  auto said = is_due ? say_values(gesture, fold_.take_due(gesture, options_.clock->now(), false)) : Result<void>();
   refresh();
   return said;
 }
@@ -170,8 +194,9 @@ Result<TakenBack> RoomGuest::undo() {
 Result<TakenBack> RoomGuest::redo() {
   if (auto ended = end_gestures(0); !ended) return ended.error();
   if (!end_.empty()) return Error{ErrorCode::conflict, "", end_};
-  if (work_) return Error{ErrorCode::conflict, "", "A step of a draft that was taken back is gone."};
-  if (auto said = send_operation(wire::RedoOp{}, "Redo"); !said) return said.error();
+  auto said =
+      work_ ? say_of_draft(wire::DraftOp::What::redo, work_->id(), "Redo in the draft") : send_operation(wire::RedoOp{}, "Redo");
+  if (!said) return said.error();
   return TakenBack{};
 }
 
@@ -191,15 +216,27 @@ std::string RoomGuest::why_no_clock() const {
   return role_ == "facilitator" ? std::string() : "Only the facilitator sets the clock of a room.";
 }
 
+// Without a connection the wish is kept. Before the first welcome nobody knows whose it is.
+bool RoomGuest::may_wish_pace() const { return end_.empty() && (role_.empty() || role_ == "facilitator"); }
+
 void RoomGuest::play(bool is_playing) {
-  if (!why_no_clock().empty()) return;
-  wished_pace_ = {!is_playing, wished_pace_ ? wished_pace_->second : people_.rate};
+  if (may_wish_pace()) wished_pace_.is_paused = !is_playing;
 }
 
 void RoomGuest::set_rate(double ticks_per_second) {
-  if (!why_no_clock().empty()) return;
-  const double rate = std::clamp(ticks_per_second, kSlowestRoom, kFastestRoom);
-  wished_pace_ = {wished_pace_ ? wished_pace_->first : people_.is_paused, rate};
+  if (may_wish_pace()) wished_pace_.rate = std::clamp(ticks_per_second, kSlowestRoom, kFastestRoom);
+}
+
+// Of a part that nobody wishes to change the room's own value is said. The welcome tells the rate, and the view whether it
+// stands.
+void RoomGuest::say_pace(double now) {
+  const PaceWish wish = wished_pace_;
+  if (wish.is_nothing() || now - pace_at_ < kBetweenPaces) return;
+  if (!wish.is_paused && !views_.contains("room")) return;
+  say_event("set_pace", JsonValue::of({{"rate", wish.rate.value_or(people_.rate)},
+                                       {"is_paused", wish.is_paused.value_or(people_.is_paused)}}));
+  wished_pace_ = {};
+  pace_at_ = now;
 }
 
 void RoomGuest::step(int ticks) {
@@ -265,15 +302,11 @@ void RoomGuest::set_whereabouts(Whereabouts where) {
 // --- Turns ----------------------------------------------------------------------------------------------------------
 
 void RoomGuest::say_due(double now) {
-  if (has_waiting_values())
+  if (has_waiting_values() && has_sent_all())
     for (const std::int64_t gesture : fold_.waiting())
       if (auto said = say_values(gesture, fold_.take_due(gesture, now, false)); !said) notices_.push_back(said.error().text());
   if (!is_welcome_) return;
-  if (wished_pace_ && now - pace_at_ >= kBetweenPaces) {
-    say_event("set_pace", JsonValue::of({{"rate", wished_pace_->second}, {"is_paused", wished_pace_->first}}));
-    wished_pace_.reset();
-    pace_at_ = now;
-  }
+  say_pace(now);
   if (!is_where_sent_ && now - where_at_ >= kBetweenPresences) {
     wire::PresenceIn message;
     message.n = ++where_number_;
@@ -304,8 +337,9 @@ Result<void> RoomGuest::keep_up() {
   // Whatever became of it, saying it again does no harm.
   if (is_welcome_ && !outbox_.waiting().empty() && now - answer_at_ > kAnswerWithin) {
     answer_at_ = now;
-    for (const Sent& sent : outbox_.waiting()) send(sent.frame);
+    sent_to_ = 0;
   }
+  send_waiting();
   if (is_welcome_ && !has_scene_ && !wants_resync_ && now - began_at_ > kWelcomeWithin)
     resync("entry", {.tick = 0, .why = "entry", .expected = {}, .found = {}, .text = {}});
   if (const auto difference = follower_.take_difference()) resync(difference->why, *difference);
@@ -320,8 +354,9 @@ double RoomGuest::next_turn() const {
   const double now = options_.clock->now();
   double next = now + kBetweenPings;
   if (!link_ && end_.empty()) next = std::min(next, retry_at_);
-  if (has_waiting_values()) next = std::min(next, now + Fold::kBetweenValues);
-  if (wished_pace_) next = std::min(next, pace_at_ + kBetweenPaces);
+  if (has_waiting_values() && has_sent_all()) next = std::min(next, now + Fold::kBetweenValues);
+  if (is_welcome_ && !wished_pace_.is_nothing()) next = std::min(next, pace_at_ + kBetweenPaces);
+  if (is_welcome_ && !has_sent_all()) next = std::min(next, now + 1 / kSentInASecond);
   if (!is_where_sent_ && is_welcome_) next = std::min(next, where_at_ + kBetweenPresences);
   if (wants_resync_) next = std::min(next, resync_at_ + kBetweenResyncs);
   if (work_) next = std::min(next, draft_turn_);

@@ -63,6 +63,9 @@ class RoomGuest final : public host::Running {
   static constexpr double kBetweenPings = 5, kPongWithin = 4;                                         // [s]
   static constexpr double kBetweenPresences = 0.25, kBetweenPaces = 0.2, kBetweenValues = 1;          // [s]
   static constexpr double kBetweenResyncs = 1, kBetweenGaps = 0.5;                                    // [s]
+  /// Of what waits for an answer so much is under way at once; a server takes 180 at once from a window, and sixty in a second.
+  static constexpr std::size_t kMostUnanswered = 16;
+  static constexpr double kMostAtOnce = 100, kSentInASecond = 50;  // operations, operations/s
   static inline const std::vector<std::string> kViews = {"room",      "votes",  "comments",
                                                          "proposals", "drafts", "draft_steps"};  // that are followed
   static constexpr double kWelcomeWithin = 10, kAnswerWithin = 4;                                // [s]
@@ -179,6 +182,11 @@ class RoomGuest final : public host::Running {
   void resync(const std::string& why, const Difference& difference);
   Result<void> say_values(std::int64_t gesture, std::vector<Command> commands);
   Result<void> end_gestures(std::int64_t but);
+  void send_waiting();
+  /// Nothing waits to be sent.
+  bool has_sent_all() const;
+  bool may_wish_pace() const;
+  void say_pace(double now);
   template <class Message>
   Result<void> send_operation(Message message, const std::string& what, std::int64_t gesture = 0);
   /// The same where nobody waits for the result: an error is told.
@@ -213,6 +221,8 @@ class RoomGuest final : public host::Running {
   // Of the present connection.
   bool is_open_ = false, is_welcome_ = false;
   double began_at_ = 0, ping_at_ = 0, answer_at_ = 0, waits_for_pong_since_ = -1;
+  std::int64_t sent_to_ = 0;           // the last operation that has gone out
+  double may_send_ = 0, sent_at_ = 0;  // how many more may, and when that was known
   // Of the room.
   std::string role_, mode_, end_;
   std::int64_t seat_ = 0, epoch_ = 0;
@@ -232,7 +242,12 @@ class RoomGuest final : public host::Running {
   std::int64_t gap_before_ = 0;                    // the operation that the room has missed last
   double gap_at_ = -1e9;
   std::vector<std::string> looked_at_;
-  std::optional<std::pair<bool, double>> wished_pace_;  // is it paused, and the rate
+  struct PaceWish {
+    std::optional<bool> is_paused;
+    std::optional<double> rate;
+    bool is_nothing() const { return !is_paused && !rate; }
+  };
+  PaceWish wished_pace_;
   double pace_at_ = -1e9;
   Whereabouts where_;
   std::string where_text_;

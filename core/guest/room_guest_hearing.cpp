@@ -161,7 +161,10 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   ping_at_ = answer_at_ = began_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
   outbox_.go_on_behind(welcome.done);
-  for (const Sent& sent : outbox_.waiting()) send(sent.frame);
+  sent_to_ = 0;
+  may_send_ = kMostAtOnce;
+  send_waiting();
+  if (!may_wish_pace() && !std::exchange(wished_pace_, {}).is_nothing()) notices_.push_back(why_no_clock());
   if (!looked_at_.empty()) say_wishes();
   follower_.nudge();
 }
@@ -262,6 +265,7 @@ void RoomGuest::hear_answer(std::int64_t id, bool is_stored) {
   const std::optional<Sent> sent = found == waiting.end() ? std::nullopt : std::optional(*found);
   if (!outbox_.answered(id)) return;
   answer_at_ = options_.clock->now();
+  send_waiting();
   if (sent) hear_answer_of_draft(*sent, is_stored);
   if (!fold_.answered(id)) return;
   fold_.show_again();
@@ -279,9 +283,8 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
     if (next == gap_before_ && now - gap_at_ < kBetweenGaps) return;
     gap_before_ = next;
     gap_at_ = now;
-    for (const Sent& sent : outbox_.waiting())
-      if (sent.id >= next) send(sent.frame);
-    return;
+    sent_to_ = std::min(sent_to_, next - 1);
+    return send_waiting();
   }
   const std::deque<Sent>& waiting = outbox_.waiting();
   const auto found = std::find_if(waiting.begin(), waiting.end(), [&](const Sent& sent) { return sent.id == nack.id; });

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/moment.h"
 #include "core/file/scene_file.h"
 #include "core/graph/simulation.h"
 #include "core/journal/export.h"
@@ -166,6 +167,12 @@ std::string Account::words(const std::string& text) const {
 std::string Account::pseudonym(std::int64_t seat) const {
   const auto found = state.seats.find(seat);
   return found == state.seats.end() ? "the room" : found->second.name;
+}
+
+std::string Account::time_of(const Moment& moment) const { return moment.at == 0 ? "" : moment_text(moment.at, zone); }
+
+std::string Account::when(const Moment& moment) const {
+  return "tick " + std::to_string(moment.tick) + (moment.at == 0 ? "" : ", " + time_of(moment));
 }
 
 std::string Account::who(std::int64_t seat) const {

@@ -85,6 +85,7 @@ struct Saved {
 struct Account {
   std::string code, title;
   std::int64_t created = 0;  ///< [ms since 1970]
+  int zone = 0;              ///< of the times in the minutes: so far ahead of UTC [min]
   room::RoomState state = {};
   std::map<std::int64_t, Moment> joined = {};  ///< by seat
   std::vector<PhaseSpan> phases = {};
@@ -105,6 +106,10 @@ struct Account {
   std::string words(const std::string& text) const;
   /// Of a title; logs of earlier programs hold some themselves.
   std::string title_words(const std::string& text) const { return texts.contains(text) ? words(text) : text; }
+  /// "2026-03-01 09:30 UTC"; empty where no time was kept.
+  std::string time_of(const Moment& moment) const;
+  /// "tick 120, 2026-03-01 09:30 UTC".
+  std::string when(const Moment& moment) const;
   /// "Heron (seat 1)"; seat 0 is the room itself.
   std::string who(std::int64_t seat) const;
   std::string pseudonym(std::int64_t seat) const;

@@ -39,8 +39,8 @@ void write_header(drawing::Markup& page, const Account& account) {
   page.element("p", "Minutes of the room " + account.code, {{"class", "about"}});
   page.open("dl", {{"class", "keys"}});
   const std::string dash = "\xE2\x80\x93";
-  key(page, "Began", account.first ? moment_text(account.first->at) : dash, "the first entry");
-  key(page, "Ended", account.last ? moment_text(account.last->at) : dash,
+  key(page, "Began", account.first ? account.time_of(*account.first) : dash, "the first entry");
+  key(page, "Ended", account.last ? account.time_of(*account.last) : dash,
       account.state.is_closed ? "the room was closed" : "the room is not closed; this is the last entry");
   key(page, "People", std::to_string(account.state.seats.size()), "seats that were taken");
   key(page, "Entries", std::to_string(account.entries), "of the log");
@@ -58,6 +58,8 @@ void write_footer(drawing::Markup& page, const Account& account) {
   row("Hash of the log",
       (account.chain.empty() ? "none" : account.chain) +
           ": whoever has another log of this session, or one in which anything was changed, gets another hash");
+  row("Times", account.zone == 0 ? "They are in UTC, which no summer time changes."
+                                 : "They are by clocks that show UTC" + zone_text(account.zone) + ".");
   row("Names", "People appear by their pseudonyms. Words that were erased appear as [erased].");
   row("Made by",
       "BehaviourLinks, behaviourlinks minutes; these minutes have other files as well: decisions.csv, comments.csv and votes.csv "
@@ -73,10 +75,6 @@ std::string page_beginning() {
 }
 
 std::string page_beginning(const Account& account) { return page_begun(session_of(account)).str(); }
-
-std::string when(const Moment& moment) {
-  return "tick " + std::to_string(moment.tick) + (moment.at == 0 ? "" : ", " + moment_text(moment.at));
-}
 
 void write_table(drawing::Markup& page, const std::vector<std::string>& columns,
                  const std::vector<std::vector<std::string>>& rows, const std::string& otherwise) {
@@ -111,12 +109,12 @@ std::string write_page(const Account& account) {
   page.open("body");
   write_header(page, account);
   page.open("main");
+  write_decisions(page, account);
+  write_votes(page, account);
+  write_proposals(page, account);
+  write_comments(page, account);
   write_people(page, account);
   write_phases(page, account);
-  write_decisions(page, account);
-  write_proposals(page, account);
-  write_votes(page, account);
-  write_comments(page, account);
   write_scenarios(page, account);
   write_refusals(page, account);
   page.close();

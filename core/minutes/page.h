@@ -14,19 +14,17 @@ std::string page_beginning(const Account& account);
 std::string page_beginning();
 
 /// Its parts, in the order of the page.
+void write_decisions(drawing::Markup& page, const Account& account);
+void write_votes(drawing::Markup& page, const Account& account);
+void write_proposals(drawing::Markup& page, const Account& account);
+void write_comments(drawing::Markup& page, const Account& account);
 void write_people(drawing::Markup& page, const Account& account);
 void write_phases(drawing::Markup& page, const Account& account);
-void write_decisions(drawing::Markup& page, const Account& account);
-void write_proposals(drawing::Markup& page, const Account& account);
-void write_votes(drawing::Markup& page, const Account& account);
-void write_comments(drawing::Markup& page, const Account& account);
 void write_scenarios(drawing::Markup& page, const Account& account);
 void write_refusals(drawing::Markup& page, const Account& account);
 
 /// A table in which a column with a `#` before its name holds numbers. Without rows the sentence `otherwise` stands there.
 void write_table(drawing::Markup& page, const std::vector<std::string>& columns,
                  const std::vector<std::vector<std::string>>& rows, const std::string& otherwise);
-/// "tick 120, 2026-03-01 09:30 UTC".
-std::string when(const Moment& moment);
 
 }  // namespace bl::minutes

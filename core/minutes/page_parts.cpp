@@ -1,5 +1,4 @@
 // The parts of the page: people, phases, decisions, proposals, comments, scenarios and refusals.
-#include "core/base/moment.h"
 #include "core/base/text.h"
 #include "core/minutes/page.h"
 
@@ -18,7 +17,7 @@ std::string sentence_of(room::Reason reason) {
     case Reason::right: return "The role of the person did not allow it.";
     case Reason::area: return "It was outside the person's own area, or somebody else had the pen of that area.";
     case Reason::phase: return "The phase of the session did not allow it.";
-    case Reason::range: return "The value was beyond the range of the role card.";
+    case Reason::range: return "The value was beyond the range of the role card, or beyond what it can be at all.";
     case Reason::budget: return "There was not that much left to give.";
     case Reason::stale: return "Somebody else had changed the same thing since.";
     case Reason::conflict: return "The scene did not allow it.";
@@ -64,7 +63,8 @@ Rows comment_rows(const Account& account, bool is_open) {
     if (one.answered_by != 0) answer += (answer.empty() ? "" : " \xE2\x80\x93 ") + account.who(one.answered_by);
     rows.push_back({std::to_string(k + 1), account.words(comment.text), account.who(comment.seat), subject_of(account, comment),
                     std::to_string(ratings_of(comment, 1)), std::to_string(ratings_of(comment, -1)),
-                    std::string(room::kCommentStateNames[static_cast<std::size_t>(comment.state)]), answer, when(one.moment)});
+                    std::string(room::kCommentStateNames[static_cast<std::size_t>(comment.state)]), answer,
+                    account.when(one.moment)});
   }
   return rows;
 }
@@ -77,7 +77,7 @@ void write_people(drawing::Markup& page, const Account& account) {
   for (const auto& [number, seat] : account.state.seats) {
     const auto joined = account.joined.find(number);
     rows.push_back({std::to_string(number), seat.name, std::string(kRoleNames[static_cast<std::size_t>(seat.role)]),
-                    joined == account.joined.end() ? "" : when(joined->second), seat.is_removed ? "was removed" : ""});
+                    joined == account.joined.end() ? "" : account.when(joined->second), seat.is_removed ? "was removed" : ""});
   }
   write_table(page, {"#Seat", "Pseudonym", "Role", "Joined", "Note"}, rows, "Nobody took part.");
 }
@@ -86,8 +86,8 @@ void write_phases(drawing::Markup& page, const Account& account) {
   page.element("h2", "Phases");
   Rows rows;
   for (const PhaseSpan& span : account.phases)
-    rows.push_back({span.phase.name.empty() ? "without a name" : account.title_words(span.phase.name), when(span.begin),
-                    span.end ? when(*span.end) : "the end of the session", activities_of(span.phase)});
+    rows.push_back({span.phase.name.empty() ? "without a name" : account.title_words(span.phase.name), account.when(span.begin),
+                    span.end ? account.when(*span.end) : "the end of the session", activities_of(span.phase)});
   write_table(page, {"Phase", "From", "To", "What people could do"}, rows, "The session was not divided into phases.");
 }
 
@@ -96,7 +96,8 @@ void write_decisions(drawing::Markup& page, const Account& account) {
   Rows rows;
   for (std::size_t k = 0; k < account.state.marks.size(); ++k) {
     const room::Mark& mark = account.state.marks[k];
-    rows.push_back({std::to_string(k + 1), mark.kind, account.words(mark.text), account.who(mark.seat), when(account.marks[k])});
+    rows.push_back(
+        {std::to_string(k + 1), mark.kind, account.words(mark.text), account.who(mark.seat), account.when(account.marks[k])});
   }
   write_table(page, {"#Number", "Kind", "Text", "Marked by", "When"}, rows, "Nothing was marked for the minutes.");
 }
@@ -108,10 +109,10 @@ void write_proposals(drawing::Markup& page, const Account& account) {
     const room::Proposal& proposal = one.proposal;
     const std::string steps = std::to_string(proposal.steps);
     rows.push_back({proposal.title.empty() ? one.draft : account.title_words(proposal.title), account.words(proposal.why),
-                    account.who(proposal.seat), when(one.moment),
+                    account.who(proposal.seat), account.when(one.moment),
                     std::string(room::kProposalStateNames[static_cast<std::size_t>(proposal.state)]),
                     one.decided ? account.who(proposal.by) : "", account.words(proposal.answer),
-                    one.decided ? when(*one.decided) : "",
+                    one.decided ? account.when(*one.decided) : "",
                     one.decided ? std::to_string(proposal.kept) + " of " + steps : steps + " proposed"});
   }
   write_table(page,
@@ -146,7 +147,7 @@ void write_scenarios(drawing::Markup& page, const Account& account) {
   for (const Saved& saved : account.scenarios) {
     const room::Scenario& scenario = account.state.scenarios.at(saved.id);
     rows.push_back({scenario.name.empty() ? saved.id : account.title_words(scenario.name), account.words(scenario.note),
-                    account.who(scenario.seat), std::to_string(scenario.seq), when(saved.moment), figures_in_words(saved),
+                    account.who(scenario.seat), std::to_string(scenario.seq), account.when(saved.moment), figures_in_words(saved),
                     saved.file()});
   }
   write_table(page, {"Scenario", "Note", "Saved by", "#Entry", "When", "Figures", "File"}, rows, "No scenario was saved.");

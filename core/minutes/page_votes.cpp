@@ -17,9 +17,9 @@ std::string turnout_of(const Round& round) {
   return text;
 }
 
-std::string state_of(const Round& round) {
-  std::string text = "Opened at " + when(round.opened);
-  text += round.closed ? "; closed at " + when(*round.closed) + "." : "; not closed.";
+std::string state_of(const Account& account, const Round& round) {
+  std::string text = "Opened at " + account.when(round.opened);
+  text += round.closed ? "; closed at " + account.when(*round.closed) + "." : "; not closed.";
   if (round.waiting > 0) text += " Secret ballots that wait to be counted: " + std::to_string(round.waiting) + ".";
   if (!round.is_shown) text += " The result is shown when the vote is closed.";
   return text;
@@ -29,7 +29,7 @@ void write_round(drawing::Markup& page, const Account& account, const Round& rou
   const std::string name = round.question.empty() ? round.vote : round.question;
   page.element("h3", round.number == 1 ? name : name + " (round " + std::to_string(round.number) + ")");
   page.element("p", std::string(round.is_secret ? "Secret" : "Not secret") + (round.kind.empty() ? "" : ", kind " + round.kind) +
-                        ". Node " + round.vote + ". " + state_of(round));
+                        ". Node " + round.vote + ". " + state_of(account, round));
   if (!round.problem.empty()) {
     page.element("p", "It could not be counted: " + round.problem);
     return;

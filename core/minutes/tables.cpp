@@ -1,7 +1,6 @@
 // One row for each mark, comment, vote, option and ballot.
 #include "core/minutes/tables.h"
 
-#include "core/base/moment.h"
 #include "core/csv/csv_table.h"
 
 namespace bl::minutes {
@@ -11,16 +10,14 @@ namespace {
 using csv::CsvCell;
 using Row = std::vector<CsvCell>;
 
-std::string time_of(const Moment& moment) { return moment.at == 0 ? std::string() : moment_text(moment.at); }
-
 // The cells that all rows of a round have.
 Row round_row(const Round& round, const char* what) { return {round.vote, round.number, what}; }
 
-Row vote_row(const Round& round) {
+Row vote_row(const Account& account, const Round& round) {
   Row row = round_row(round, "vote");
   row.insert(row.end(), {round.question, round.kind, round.is_secret ? "yes" : "no", round.closed ? "closed" : "open"});
-  row.insert(row.end(), {round.opened.seq, time_of(round.opened)});
-  if (round.closed) row.insert(row.end(), {round.closed->seq, time_of(*round.closed)});
+  row.insert(row.end(), {round.opened.seq, account.time_of(round.opened)});
+  if (round.closed) row.insert(row.end(), {round.closed->seq, account.time_of(*round.closed)});
   else row.resize(row.size() + 2);
   row.insert(row.end(), {round.outcome.counted, round.uncounted, round.seats});
   if (round.electorate == 0) row.resize(row.size() + 2);
@@ -37,7 +34,7 @@ std::string decisions_csv(const Account& account) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < account.state.marks.size(); ++k) {
     const room::Mark& mark = account.state.marks[k];
-    rows.push_back({k + 1, mark.seq, mark.tick, time_of(account.marks[k]), mark.kind, account.words(mark.text), mark.seat,
+    rows.push_back({k + 1, mark.seq, mark.tick, account.time_of(account.marks[k]), mark.kind, account.words(mark.text), mark.seat,
                     account.pseudonym(mark.seat)});
   }
   return csv::write_csv(header, rows);
@@ -56,7 +53,7 @@ std::string comments_csv(const Account& account) {
                one.id,
                one.moment.seq,
                one.moment.tick,
-               time_of(one.moment),
+               account.time_of(one.moment),
                comment.seat,
                account.pseudonym(comment.seat),
                account.words(comment.text),
@@ -81,7 +78,7 @@ std::string votes_csv(const Account& account) {
   constexpr std::size_t kOption = 17, kSeat = 21;  // columns
   std::vector<Row> rows;
   for (const Round& round : account.rounds) {
-    rows.push_back(vote_row(round));
+    rows.push_back(vote_row(account, round));
     for (const vote::Tally& tally : round.outcome.tallies) {
       Row row = round_row(round, "option");
       row.resize(kOption);

@@ -19,7 +19,7 @@ enum class Reason : std::uint8_t {
   right,     ///< the role may not do this
   area,      ///< it is outside the person's own area, or somebody else has the pen of that area
   phase,     ///< not in this phase of the session
-  range,     ///< beyond the range of the role card
+  range,     ///< beyond the range of the role card, or of the value itself
   budget,    ///< there is not that much left to give, such as coins of a vote
   stale,     ///< somebody has changed it since; nothing of an undo is left to be undone
   conflict,  ///< the scene does not allow it

@@ -51,6 +51,10 @@ class Draft {
   Result<void> add(const Command& command, const Scene& head, std::int64_t seq);
   /// Takes the last step back; its number, or -1 where there is none.
   std::int64_t take_back();
+  /// The step that was taken back last, with its number; null where there is none. A new step makes an end of them.
+  const std::pair<std::int64_t, Command>* last_taken_back() const { return taken_back_.empty() ? nullptr : &taken_back_.back(); }
+  /// Brings it back under its number; an error where it does not fit any more, and then nothing changes.
+  Result<void> bring_back(const Scene& head, std::int64_t seq);
   /// A stored step, in any order.
   void restore(std::int64_t number, Command command);
 
@@ -61,7 +65,10 @@ class Draft {
   std::string id_, title_;
   std::int64_t seat_ = 0, base_ = 0, follows_ = -1, revision_ = 0;
   DraftState state_ = DraftState::open;
+  Result<void> apply_to_scene(const Command& command, const Scene& head, std::int64_t seq);
+
   std::vector<Command> steps_;
+  std::vector<std::pair<std::int64_t, Command>> taken_back_;  // the last one first to come back
   Scene scene_;
   std::vector<Misfit> misfits_;
   std::set<std::pair<std::string, std::string>> placed_;

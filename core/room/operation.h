@@ -26,6 +26,7 @@ enum class OperationKind : std::uint8_t {
   rewind,       ///< {"to"}: takes back everything since that entry, whoever did it
   draft_begin,  ///< {"draft", "title"?}
   draft_undo,   ///< {"draft"}: the last step of a draft
+  draft_redo,   ///< {"draft"}: the step that was taken back last
   draft_drop    ///< {"draft"}
 };
 

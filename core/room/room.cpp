@@ -95,7 +95,7 @@ std::int64_t Room::gesture_of(const Said& said) {
 
 Answer Room::say_command(const Said& said) {
   const auto command = read_command(said.operation);
-  if (!command) return refusal_of(Reason::bad, command.error());
+  if (!command) return refusal_of(command.error().code == ErrorCode::out_of_range ? Reason::range : Reason::bad, command.error());
   if (!said.operation.draft.empty()) return add_to_draft(said, *command);
   if (auto refusal = why_not(asking(said.seat), *command, scene())) return *refusal;
   if (command->id == "cast_vote") {

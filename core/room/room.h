@@ -173,6 +173,7 @@ class Room {
   std::int64_t goes_back_to(const LogEntry& entry) const;
   Answer change_draft(const Said& said);
   Answer add_to_draft(const Said& said, const Command& command);
+  Answer bring_back(const Said& said, Draft& draft);
   Answer accept(const Said& said, const EventDefinition& kind, const std::map<std::string, Value>& arguments);
   Answer enter_event(const Said& said, const EventDefinition& kind, std::map<std::string, Value> arguments);
   Answer cast_secretly(const Said& said, const Command& command);

@@ -56,9 +56,22 @@ Answer Room::change_draft(const Said& said) {
     record_.drafts.push_back(draft->record());
     return done(said.now);
   }
+  if (said.operation.kind == OperationKind::draft_redo) return bring_back(said, *draft);
   const std::int64_t step = draft->take_back();
   if (step < 0) return refuse(Reason::gone, "draft", "the draft has no steps");
   record_.draft_steps.push_back({id, step, {}});
+  return done(said.now);
+}
+
+// It is said once more: what its author may not do any more is not done.
+Answer Room::bring_back(const Said& said, Draft& draft) {
+  const auto* last = draft.last_taken_back();
+  if (last == nullptr) return refuse(Reason::gone, "draft", "no step of the draft was taken back since the last one was added");
+  const auto [number, command] = *last;
+  const Scene& seen = draft.scene_on(scene(), ledger_->last_seq());
+  if (auto refusal = why_not(asking(said.seat, true), command, seen)) return *refusal;
+  if (auto done = draft.bring_back(scene(), ledger_->last_seq()); !done) return refusal_of_scene(done.error());
+  record_.draft_steps.push_back({draft.id(), number, command});
   return done(said.now);
 }
 

@@ -25,11 +25,15 @@ class MinutesMaker {
   MinutesMaker& operator=(const MinutesMaker&) = delete;
 
   /// One file of the minutes of all that is stored by now, such as `minutes.html`. `done` is told on the thread of the room, at
-  /// once where something is being made already.
-  void make(const std::string& file, Done done);
+  /// once where something is being made already. `zone`: of its times, so far ahead of UTC [min].
+  void make(const std::string& file, int zone, Done done);
 
  private:
-  void begin(const std::string& file, const Done& done, const std::shared_ptr<const Result<StoredSession>>& stored);
+  struct Wish {
+    std::string file;
+    int zone = 0;
+  };
+  void begin(const Wish& wish, const Done& done, const std::shared_ptr<const Result<StoredSession>>& stored);
   void end(const Done& done, const Result<std::string>& made);
 
   journal::Writer* writer_;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/moment.h"
 #include "core/define/json_text.h"
 #include "core/drawing/markup.h"
 #include "core/file/file_io.h"
@@ -148,7 +149,9 @@ void Pages::minutes(const Request& request, const Reply& reply) const {
   const auto room = rooms_->find(code_in(fields["room"]));
   if (room == rooms_->end() || !room->second->leads(room->second->seat_of_token(fields["token"])))
     return reply(sentence(403, "Only who leads a room gets its minutes."));
-  room->second->make_minutes(fields["file"], [reply, name = fields["file"]](const Result<std::string>& made) {
+  const auto zone = fields["zone"].empty() ? 0 : read_zone(fields["zone"]);
+  if (!zone) return reply(sentence(400, "The field `zone` is UTC, or hours and minutes such as +01:00."));
+  room->second->make_minutes(fields["file"], *zone, [reply, name = fields["file"]](const Result<std::string>& made) {
     if (made) {
       Response response{.type = type_of_file(name), .body = *made, .fields = {{"Cache-Control", "no-store"}}};
       if (name == "minutes.html") response.inline_sources = inline_sources_of(response.body);

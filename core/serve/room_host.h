@@ -84,7 +84,7 @@ class RoomHost {
 
   bool leads(std::int64_t seat) const;
   /// One file of the minutes; for those who lead. Once at a time: whoever comes meanwhile is told so at once.
-  void make_minutes(const std::string& file, MinutesMaker::Done done) { minutes_->make(file, std::move(done)); }
+  void make_minutes(const std::string& file, int zone, MinutesMaker::Done done) { minutes_->make(file, zone, std::move(done)); }
 
   struct Health {
     std::size_t seats = 0, guests = 0, followers = 0;
@@ -160,6 +160,7 @@ class RoomHost {
   std::shared_ptr<const std::string> step(const std::string& name, const std::shared_ptr<const wire::View>& before,
                                           const std::shared_ptr<const wire::View>& now);
   void store_hash();
+  void take_last_tick();
   void keep_records();
   void welcome(Visitor& visitor, const std::string& token, std::int64_t have, std::int64_t tick);
   // Windows.

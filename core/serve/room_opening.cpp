@@ -262,12 +262,24 @@ std::vector<std::string> RoomHost::addresses() const {
 
 RoomHost::~RoomHost() { close(); }
 
+// A room that goes on takes this tick in any case (state_after). With it the last hash is that of all that was said, so that a
+// replay compares the end as well, and tells it from a crash.
+void RoomHost::take_last_tick() {
+  if (session_->moment()->seq >= session_->last_seq()) return;
+  session_->make_ticks_wait(false);
+  session_->step(1);
+  session_->settle();
+}
+
 void RoomHost::close() {
   if (!is_alive_) return;
   for (auto& [key, visitor] : visitors_) visitor.guest->close(CloseCode::draining, "the room is being closed");
   visitors_.clear();
   if (followers_) followers_->close();
-  if (session_ && writer_ && problem_.empty()) store_hash();
+  if (session_ && writer_ && problem_.empty()) {
+    take_last_tick();
+    store_hash();
+  }
   is_alive_.reset();
   session_.reset();
   followers_.reset();

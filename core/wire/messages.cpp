@@ -65,11 +65,13 @@ void RewindOp::declare(MessageBuilder<RewindOp>& m) {
   m.field(&RewindOp::to, "to").required().min(0).doc("The last entry that stays.");
 }
 void DraftOp::declare(MessageBuilder<DraftOp>& m) {
-  m.from_page().id("draft").doc("Begins or drops a draft, or takes its last step back.");
+  m.from_page().id("draft").doc(
+      "Begins or drops a draft, takes its last step back, or brings the step back that was taken back last.");
   declare_id(m);
   m.field(&DraftOp::what, "do",
           {{What::begin, "begin", "Begins a draft."},
            {What::undo, "undo", "Takes its last step back."},
+           {What::redo, "redo", "Brings the step back that was taken back last."},
            {What::drop, "drop", "Gives it up."}})
       .doc("What happens to the draft.");
   m.field(&DraftOp::draft, "draft").required().doc("Name of the draft.");

@@ -42,7 +42,7 @@ struct RewindOp {
   static void declare(MessageBuilder<RewindOp>& m);
 };
 struct DraftOp {
-  enum class What : std::uint8_t { begin, undo, drop };
+  enum class What : std::uint8_t { begin, undo, redo, drop };
   std::int64_t id = 0;
   What what = What::begin;
   std::string draft, title;

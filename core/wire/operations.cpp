@@ -73,6 +73,7 @@ Result<room::Operation> operation_of(const Json& frame, const std::string& t) {
     using What = DraftOp::What;
     operation.kind = op->what == What::begin  ? room::OperationKind::draft_begin
                      : op->what == What::undo ? room::OperationKind::draft_undo
+                     : op->what == What::redo ? room::OperationKind::draft_redo
                                               : room::OperationKind::draft_drop;
     content = {{"draft", op->draft}, {"title", op->title}};
   }

@@ -56,6 +56,18 @@ TEST(MapValue, UnitsMustAgreeUnlessRescaled) {
   EXPECT_EQ(idle.number("b", "smart_volume.storey_height"), 3.2);
 }
 
+TEST(MapValue, AMisspeltPortIsNamedAlsoWhereTheNodesAreChosen) {
+  const SceneReading reading = read_scene(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "a", "types": {"smart_volume": {"demand": 3000}}}, {"id": "b", "types": {"smart_volume": {}}}],
+    "links": [{"id": "l", "kind": "map_value", "from": "a", "to": {"typification": "smart_volume"},
+    "parameters": {"source": "smart_volume.demand", "target": "smart_volume.demand_limt"}}]})",
+                                          full_registry());
+  ASSERT_EQ(reading.problems.size(), 1u);
+  EXPECT_EQ(reading.problems[0].error.text(),
+            "links/l/to: no node fits this end; the link does nothing: none of the 2 nodes that it chooses has "
+            "`smart_volume.demand_limt`, which `map_value` needs, did you mean `demand_limit`?");
+}
+
 TEST(MapValue, SceneFollowsTheSliders) {
   World world = World::from_file("scenes/links/map_value.json");
   ASSERT_TRUE(world.settle());

@@ -86,6 +86,32 @@ TEST(StakeholderGroup, ARoleCardNamesWhatIsThere) {
             place + "allowed/1/command: unknown command `add_nod`, did you mean `add_node`?\n");
 }
 
+// Whoever sets more in the middle of a session is refused, so it is told before.
+TEST(StakeholderGroup, ARangeBeyondWhatTheValueAllowsIsTold) {
+  const auto problems = [](const std::string& row) {
+    const SceneReading reading =
+        read_scene(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}},
+                       {"id": "b", "types": {"smart_volume": {}}}, {"id": "it", "types": {"stakeholder_group": {"controls": [{)" +
+                       row + R"(}]}}}], "links": [{"id": "apart", "kind": "keep_distance", "from": "a", "to": "b"}]})",
+                   full_registry());
+    EXPECT_TRUE(reading.is_usable());
+    std::string all;
+    for (const Problem& problem : check_scene(reading.scene, full_registry())) {
+      EXPECT_FALSE(problem.is_error) << "values that are possible can still be set";
+      all += problem.error.text() + "\n";
+    }
+    return all;
+  };
+  const std::string row = "nodes/it/stakeholder_group/controls/0/";
+  EXPECT_EQ(problems(R"("node": "apart", "port": "strength", "maximum": 1)"), "");
+  EXPECT_EQ(problems(R"("node": "apart", "port": "strength", "maximum": 3)"),
+            row + "maximum: allows 3, but the strength of a link goes to 1 only: what is above is refused\n");
+  EXPECT_EQ(problems(R"("node": "a", "port": "smart_volume.demand", "minimum": -5, "maximum": 900)"),
+            row + "minimum: allows -5 m³, but `smart_volume.demand` begins at 0 m³: what is below is refused\n");
+  EXPECT_EQ(problems(R"("node": "apart", "port": "maximum", "minimum": -1, "maximum": 9)"),
+            row + "minimum: allows -1 m, but `maximum` begins at 0 m: what is below is refused\n");
+}
+
 TEST(StakeholderGroup, SceneIsWhatItSays) {
   World world = World::from_file("scenes/nodes/stakeholder_group.json");
   EXPECT_TRUE(world.settle(20));

@@ -13,21 +13,26 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 
 import websockets
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from room_client import Page, Server  # noqa: E402
+from room_client import Pace, Page, Server  # noqa: E402
 
 
 def quantile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))] if values else float("nan")
 
 
+def in_milliseconds(values):
+    return "p50 %.0f ms, p95 %.0f ms, p99 %.0f ms" % tuple(1000 * quantile(values, share) for share in (0.5, 0.95, 0.99))
+
+
 async def keep_connected(page, person=None, end=0):
     """Comes back after each broken connection, and says again what has no answer, until the person has said all."""
     while time.monotonic() < end or page.waiting or (person is not None and not person.done()):
-        if page.is_open():
+        if page.away or page.is_open():
             await page.push_again()
             await asyncio.sleep(0.05)
             continue
@@ -38,16 +43,22 @@ async def keep_connected(page, person=None, end=0):
             await asyncio.sleep(0.2 + 0.3 * page.random.random())
 
 
-async def outages(page, end, seconds):
+async def outages(page, end, seconds, returns):
+    """Twice without a network for a while. Notes how many operations wait at each return, and how long until all of them are answered."""
     for _ in range(2):
         await asyncio.sleep(page.random.uniform(2, max(3, (end - time.monotonic()) / 3)))
         if time.monotonic() + seconds > end:
             return
         page.away = True
-        if page.is_open():
-            page.socket.transport.abort()
-        await asyncio.sleep(seconds)
+        for _ in range(int(seconds / 0.05)):
+            if page.is_open():  # also a connection that was just being made
+                page.socket.transport.abort()
+            await asyncio.sleep(0.05)
         page.away = False
+        queue, began = set(page.waiting), time.monotonic()
+        while queue & page.waiting.keys():
+            await asyncio.sleep(0.02)
+        returns.append((len(queue), time.monotonic() - began))
 
 
 async def phone(page, end, nodes):
@@ -66,7 +77,8 @@ async def designer(page, end, nodes):
         node = page.random.choice(nodes)
         for _ in range(10):
             await page.say({"t": "op", "gesture": gesture, "c": {"command": "set_port", "arguments": {
-                "node": node, "port": "smart_volume.demand", "value": page.random.randrange(500, 3000)}}})
+                "node": node, "port": "smart_volume.demand", "value": page.random.randrange(500, 3000)}}},
+                replaces=(gesture, node, "smart_volume.demand"))
             await asyncio.sleep(0.1)
         if page.random.random() < 0.3:
             await page.say({"t": "undo"})
@@ -79,7 +91,7 @@ async def run(options, server, seed):
     nodes = [node["id"] for node in lead.scene["scene"]["nodes"] if "smart_volume" in node.get("types", {})]
     await lead.event("define_area", area="all", nodes={"typification": "smart_volume"})
     screen = await Page(server, server.invites["viewer"], views=["plan", "figures", "votes"], seed=seed).connect()
-    pages, tasks = [], []
+    pages, tasks, returns = [], [], []
     end = time.monotonic() + options.seconds
     for k in range(options.phones + options.designers):
         is_designer = k >= options.phones
@@ -89,12 +101,13 @@ async def run(options, server, seed):
         if is_designer:
             await lead.event("set_role", seat=page.you["seat"], role="designer", areas=["all"])
         page.loss, page.doubled = options.loss, 0.05
+        page.pace = Pace(150, 50, 4) if is_designer else Pace(28, 9, 2)
         pages.append(page)
         person = asyncio.ensure_future((designer if is_designer else phone)(page, end, nodes))
         tasks.append(person)
         tasks.append(asyncio.ensure_future(keep_connected(page, person)))
         if options.outage:
-            tasks.append(asyncio.ensure_future(outages(page, end, options.outage)))
+            tasks.append(asyncio.ensure_future(outages(page, end, options.outage, returns)))
     heard = []
 
     async def probe():
@@ -143,7 +156,7 @@ async def run(options, server, seed):
     await lead.until(lambda: last in lead.entries, 30)
     for page in [lead, screen, *pages]:
         await page.close()
-    return lead, pages, heard, failed
+    return lead, pages, heard, failed, returns
 
 
 def main():
@@ -160,7 +173,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         server = Server(options.program, os.path.join(options.source, options.scene), folder).start()
         began = time.monotonic()
-        lead, pages, heard, failed = asyncio.run(run(options, server, options.seed))
+        lead, pages, heard, failed, returns = asyncio.run(run(options, server, options.seed))
         seconds = time.monotonic() - began
         used = sum(map(int, open(f"/proc/{server.process.pid}/stat").read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
         memory = next(int(line.split()[1]) for line in open(f"/proc/{server.process.pid}/status") if line.startswith("VmRSS")) / 1024
@@ -184,9 +197,14 @@ def main():
               (len(pages), seconds, 100 * options.loss, len(acks), refused, len(rows)))
         print("acknowledged and lost: %d; done twice: %d; gaps: %s; exit code %d; failed clients: %s" % (len(lost), doubled, gaps, code, failed))
         if heard:
-            print("calm links: answer p50 %.0f ms, p95 %.0f ms; effect on the screen p50 %.0f ms, p95 %.0f ms (%d probes)" % (
-                1000 * quantile([one[0] for one in heard], 0.5), 1000 * quantile([one[0] for one in heard], 0.95),
-                1000 * quantile([one[1] for one in heard], 0.5), 1000 * quantile([one[1] for one in heard], 0.95), len(heard)))
+            print("calm links: answer %s; effect on the screen %s (%d probes)" % (
+                in_milliseconds([one[0] for one in heard]), in_milliseconds([one[1] for one in heard]), len(heard)))
+        if returns:
+            times, queues = [one[1] for one in returns], [one[0] for one in returns]
+            print("returns from outages: %d, with %.0f operations waiting in the middle, %d at most; all answered after p50 %.2f s, p95 %.2f s, "
+                  "longest %.2f s; within 5 s: %d of %d" % (len(returns), quantile(queues, 0.5), max(queues), quantile(times, 0.5),
+                                                           quantile(times, 0.95), max(times), sum(time <= 5 for time in times), len(times)))
+        print("connections ended by:", ", ".join("%s %d times" % one for one in sorted(sum((page.closes for page in pages), Counter()).items())))
         print("server: %.0f %% of one core since its last start, %.0f MB, disk %.1f ms, file %.1f MB" %
               (100 * used / seconds, memory, health["disk_ms"], os.path.getsize(server.journal) / 1e6))
         if options.keep:

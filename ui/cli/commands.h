@@ -57,7 +57,7 @@ struct EraseOptions {
 int erase_command(const EraseOptions& options);
 
 struct MinutesOptions {
-  std::string session, out;
+  std::string session, out, zone = "UTC";
 };
 int minutes_command(const MinutesOptions& options);
 

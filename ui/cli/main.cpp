@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/moment.h"
 #include "core/minutes/minutes.h"
 #include "core/report/report.h"
 #include "core/session/types/plugins.h"
@@ -138,13 +139,19 @@ void declare_minutes(CLI::App& app, MinutesOptions& o) {
   CLI::App& c = *app.add_subcommand("minutes", "Writes the minutes of a session file: a page, tables, the log and the scenes.");
   c.add_option("session", o.session, "The session file (.blsession).")->type_name("FILE")->required();
   c.add_option("--out", o.out, "The folder for minutes.html and what lies beside it.")->type_name("DIR")->required();
+  c.add_option("--zone", o.zone, "The clocks of the times: UTC, or how far they are ahead of it, such as +01:00. Default: UTC.")
+      ->type_name("ZONE")
+      ->check([](const std::string& zone) -> std::string {
+        return read_zone(zone) ? "" : "expects UTC, or hours and minutes such as +01:00 or -03:30, found " + zone;
+      });
   files_of(c).reads({"session"}).fills("--out", {".html", ".csv", ".jsonl"}, minutes::may_fill_with_minutes);
   c.footer(
       "minutes.html says who took part, what was decided, proposed, voted and commented, and what was refused. People appear by\n"
       "their pseudonyms. decisions.csv, comments.csv and votes.csv hold the same for spreadsheets, log.jsonl can be replayed, "
       "and\n"
-      "scenes/ has each scenario and the end. The session file is not changed.\n\n"
-      "Example:\n  behaviourlinks minutes quarter.blsession --out minutes\n\n"
+      "scenes/ has each scenario and the end. The session file is not changed.\n"
+      "The same file and zone give the same minutes on every computer. A zone is no name of a place: what that means changes.\n\n"
+      "Example:\n  behaviourlinks minutes quarter.blsession --out minutes --zone +01:00\n\n"
       "Exit codes: 0 written; 2 bad input, or the file is in use.");
 }
 

@@ -1,4 +1,5 @@
 // `minutes`: writes the minutes of a session file into a folder.
+#include "core/base/moment.h"
 #include "core/base/plural.h"
 #include "core/journal/journal.h"
 #include "core/minutes/minutes.h"
@@ -24,11 +25,12 @@ Result<minutes::Account> account_of_file(const std::string& path) {
 }  // namespace
 
 int minutes_command(const MinutesOptions& options) {
-  const auto account = account_of_file(options.session);
+  auto account = account_of_file(options.session);
   if (!account) {
     print_error(options.session, account.error());
     return kBadInput;
   }
+  account->zone = read_zone(options.zone).value_or(0);  // the command line has been checked
   const auto written = minutes::write_minutes(options.out, *account);
   if (!written) {
     print_error(options.out, written.error());

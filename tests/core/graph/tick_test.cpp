@@ -382,6 +382,22 @@ TEST_F(TickTest, ALinkThatDoesNotFitSaysWhy) {
   EXPECT_EQ(simulation_.state()->links[0].error->text(), "links/l1/from: the node `a` has no `toy.blended`, which `want` needs");
 }
 
+// Of a query, too: it leaves out the nodes that lack the port, and where those are all it says which port that is.
+TEST_F(TickTest, AnEndThatFitsNothingNamesThePortThatIsMissing) {
+  scene_.nodes["a"].types = {{"node", {}}};
+  scene_.nodes["b"].types = {{"node", {}}};
+  const auto said = [&](const Selection& from) {
+    scene_.links["l1"].kind = "want";
+    scene_.links["l1"].from = from;
+    scene_.links["l1"].to = {{"b"}, "", ""};
+    start().step();
+    return simulation_.state()->links[0].error->text();
+  };
+  const std::string nothing = "links/l1/from: no node fits this end; the link does nothing";
+  EXPECT_EQ(said({{}, "toy", ""}), nothing);
+  EXPECT_EQ(said({{}, "node", ""}), nothing + ": none of the 2 nodes that it chooses has `toy.blended`, which `want` needs");
+}
+
 TEST_F(TickTest, SnapshotsStayAsTheyWere) {
   node("b");
   link("p", "push", "b", "b", {{"move", Vector3{1, 0, 0}}});

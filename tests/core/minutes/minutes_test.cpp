@@ -188,6 +188,30 @@ TEST_F(Minutes, ThePageSaysAllOfIt) {
   EXPECT_TRUE(page.starts_with(page_beginning()));
 }
 
+// Who reads minutes looks for what came of it; the list of people is long.
+TEST_F(Minutes, WhatWasDecidedComesBeforeWhoWasThere) {
+  const std::string page = write_page(account);
+  std::size_t last = 0;
+  for (const char* heading : {"Decisions and other marks", "Votes", "Proposals", "Who took part", "Phases"}) {
+    const std::size_t at = page.find("<h2>" + std::string(heading) + "</h2>");
+    ASSERT_NE(at, std::string::npos) << heading;
+    EXPECT_GT(at, last) << heading;
+    last = at;
+  }
+}
+
+TEST_F(Minutes, TimesAreThoseOfTheZone) {
+  const std::string in_utc = write_page(account);
+  account.zone = 60;
+  EXPECT_EQ(Rows(decisions_csv(account)).at(0, "time"), "2026-03-01 10:31 +01:00");
+  const std::string ahead = write_page(account);
+  EXPECT_NE(ahead.find("2026-03-01 10:30 +01:00"), std::string::npos);
+  EXPECT_EQ(ahead.find("2026-03-01 09:30 UTC"), std::string::npos) << "all of them";
+  EXPECT_TRUE(ahead.starts_with(page_beginning(account))) << "minutes in another zone replace these";
+  account.zone = 0;
+  EXPECT_EQ(write_page(account), in_utc);
+}
+
 TEST_F(Minutes, AnEmptySessionHasMinutesToo) {
   const auto created =
       journal::Journal::create(folder.path("e.blsession"), {.code = "EMTY", .scene = room::kTable}, full_registry(), {});

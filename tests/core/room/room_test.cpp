@@ -109,6 +109,10 @@ TEST(Room, ACardHasItsRanges) {
             "right nodes/north/types/smart_volume/demand: is not on your role card");
   EXPECT_EQ(sentence(world.command(seat, command<SetLinkStrength>({"apart", 0.4}))), "");
   EXPECT_EQ(why(world.command(seat, command<SetLinkStrength>({"apart", 0.6}))), "range");
+  // Also of a card that allows more than the value does: the page has a sentence for it.
+  EXPECT_EQ(sentence(world.say(seat, OperationKind::command,
+                               R"({"command": "set_link_strength", "arguments": {"id": "apart", "strength": 2.5}})")),
+            "range arguments/strength: must be between 0 and 1, found 2.5");
   EXPECT_EQ(world.demand("south"), 600);
 }
 

@@ -111,6 +111,7 @@ class Restarting : public ::testing::Test {
     ASSERT_TRUE(loaded.ok());
     const auto log = read_log(journal::log_text((*journal)->room(), *loaded, full_registry()), full_registry());
     ASSERT_TRUE(log.ok()) << log.error().text();
+    EXPECT_TRUE(log->has_end) << "an orderly end is told from a crash";
     const auto report = replay(*log, full_registry(), 1);
     ASSERT_TRUE(report.ok()) << report.error().text();
     EXPECT_GT(report->checks, 0u);
@@ -150,6 +151,21 @@ TEST_F(Restarting, GoesBackAndTellsEverybodyAndTheFileAgrees) {
   EXPECT_EQ((*told)["epoch"], 2);
   ASSERT_EQ(demand(5000)["t"], "ack");
   run_for(1500);
+  expect_replay();
+}
+
+// Its last words are read by no tick of its clock.
+TEST_F(Restarting, ARoomThatStandsStillIsComparedToItsEnd) {
+  ASSERT_EQ(event("set_pace", {{"rate", 20}})["t"], "ack");
+  run_for(300);
+  ASSERT_EQ(event("set_pace", {{"rate", 20}, {"is_paused", true}})["t"], "ack");
+  run_for(200);
+  ASSERT_EQ(demand(9000)["t"], "ack");
+  const std::int64_t tick = host_->health().tick;
+  expect_replay();
+  open();
+  run_for(200);
+  EXPECT_EQ(host_->health().tick, tick + 1) << "it goes on with the tick that has read them";
   expect_replay();
 }
 

@@ -65,6 +65,11 @@ void draw_present(const RoomDesk& desk, const std::string& why) {
     if (!undone) desk.editor.notify(NoticeKind::error, undone.error().text());
   }
   ImGui::SameLine();
+  if (desk.button("Bring it back", "roompanel/draft/redo", why)) {
+    const auto redone = desk.room.redo();
+    if (!redone) desk.editor.notify(NoticeKind::error, redone.error().text());
+  }
+  ImGui::SameLine();
   if (ImGui::SmallButton("Leave the draft")) {
     desk.room.leave_draft();
     note_place(desk.editor, "roompanel/draft/leave");

@@ -118,7 +118,7 @@ export class Connection {
       this.listener.answered(item, { kind: "refused", why: "size", place: "", text: "", args: {} });
       return item;
     }
-    const item = this.queue.add(deed, this.seq, now, more);
+    const item = this.queue.changeLast(deed, more) ?? this.queue.add(deed, this.seq, now, more);
     this.pump();
     this.listener.changed();
     return item;
@@ -489,6 +489,7 @@ export class Connection {
         break;
       }
       this.tokens -= 1;
+      this.queue.sends(item.id);
       this.sent.set(item.id, { at: now, order: ++this.order });
       this.send(this.messageOf(item, now));
     }

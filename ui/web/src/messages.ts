@@ -84,13 +84,13 @@ export interface FromPage {
     /** The last entry that stays. */
     to: number;
   };
-  /** Begins or drops a draft, or takes its last step back. */
+  /** Begins or drops a draft, takes its last step back, or brings the step back that was taken back last. */
   draft: {
     t: "draft";
     /** Number of the operation in its run: 1, 2, 3, … without gaps. */
     id: number;
     /** What happens to the draft. */
-    do?: "begin" | "undo" | "drop";
+    do?: "begin" | "undo" | "redo" | "drop";
     /** Name of the draft. */
     draft: string;
     /** What a new draft is called. */

@@ -14,8 +14,16 @@ export const kMinutes = {
 /// The name under which a file is saved: those of several rooms may lie in one folder.
 export const saved_as = (room: string, file: string): string => `${room}-${file.replace(/^.*\//, "")}`;
 
+/// How far the clocks of this device are ahead of UTC, as the server reads it; `behind`: what Date says [min].
+export function zone_text(behind: number): string {
+  if (behind === 0) return "UTC";
+  const minutes = Math.abs(behind),
+    two = (count: number): string => String(count).padStart(2, "0");
+  return `${behind > 0 ? "-" : "+"}${two(Math.floor(minutes / 60))}:${two(minutes % 60)}`;
+}
+
 /// The form that asks for a file. It is posted, so that the token stands in no address.
-export const minutes_form = (room: string, token: string, file: string): Record<string, string> => ({ room, token, file });
+export const minutes_form = (room: string, token: string, file: string, zone: string): Record<string, string> => ({ room, token, file, zone });
 
 /// The file, or why there is none: a sentence, and what the server says.
 export async function minutes_from_server(form: Record<string, string>, ask: typeof fetch): Promise<Blob | { why: Key; text: string }> {

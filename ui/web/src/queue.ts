@@ -53,6 +53,7 @@ export class Queue {
   isKept = true;
   private next = 1;
   private found = 0; // the last number that this page has found in the store
+  private gone = 0; // the last number that may have been sent, by this page or by the one that left it
   private isGreeted = false;
 
   private constructor(
@@ -81,7 +82,7 @@ export class Queue {
     const record = parsed<RunRecord>(this.store.get(`${this.prefix}run/${this.run}`));
     const last = this.items[this.items.length - 1];
     this.next = Math.max(record ? record.next : 1, last ? last.id + 1 : 1);
-    this.found = this.next - 1;
+    this.found = this.gone = this.next - 1;
     return this;
   }
 
@@ -175,6 +176,23 @@ export class Queue {
     this.live(at);
     this.items.push(item);
     return item;
+  }
+
+  /// The operation goes out: from now on it says what it says.
+  sends(id: number): void {
+    this.gone = Math.max(this.gone, id);
+  }
+
+  /// Of a control that is moved again before the last move could be sent only the last value counts: what waits at the end says that
+  /// instead, with the value that the person saw before the first move. Nothing where the last operation is another one, or was sent.
+  changeLast(deed: Deed, more: { mark?: string; shown?: Json }): Item | null {
+    const last = this.items[this.items.length - 1];
+    if (!last || last.id <= this.gone || !more.mark?.startsWith("control/") || last.mark !== more.mark) return null;
+    if (deed.t !== "op" || last.deed.t !== "op" || deed.draft !== last.deed.draft || deed.c.command !== last.deed.c.command) return null;
+    last.deed = deed;
+    last.shown = more.shown;
+    this.keep(`${this.prefix}op/${this.run}/${last.id}`, JSON.stringify(last));
+    return last;
   }
 
   /// The first welcome of this page: the room has answered all up to `done`. A browser that ends badly may lose the last seconds of

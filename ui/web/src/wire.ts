@@ -33,7 +33,7 @@ export type Deed =
   | { t: "undo"; gesture?: number }
   | { t: "redo"; gesture?: number }
   | { t: "rewind"; to: number }
-  | { t: "draft"; do: "begin" | "undo" | "drop"; draft: string; title?: string };
+  | { t: "draft"; do: "begin" | "undo" | "redo" | "drop"; draft: string; title?: string };
 
 /// A value that the person saw when they acted: the key of a place, and what stood there.
 export interface Seen {

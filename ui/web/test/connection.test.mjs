@@ -150,6 +150,40 @@ test("a thousand operations wait through an outage and a reload", () => {
   assert.ok(next.connection.queue.isKept);
 });
 
+test("a control that is moved again and again during an outage is one operation, with what was seen before", () => {
+  const { clock, room, network, store } = setting();
+  const page = new Page(network, store);
+  const move = (port, value) =>
+    page.connection.submit(
+      { t: "op", c: { command: "set_port", arguments: { node: "a", port, value } } },
+      { mark: `control/a/${port}`, shown: value, seen: [{ key: `nodes/a/${port}`, was: `before ${value}` }] },
+    );
+  clock.run(200);
+  network.isDown = true;
+  clock.run(15000);
+  assert.ok(!page.connection.isOpen);
+  for (let k = 0; k < 600; ++k) {
+    move("p", `p${k}`);
+    clock.run(100);
+  }
+  for (let k = 0; k < 5; ++k) move("q", `q${k}`);
+  assert.equal(page.connection.waiting, 2, "each control is one");
+  move("p", "p600");
+  assert.equal(page.connection.waiting, 3, "in the order in which they were moved");
+  assert.deepEqual(page.connection.queue.items[0].seen, [{ key: "nodes/a/p", was: "before p0" }]);
+  // A reload keeps the last values, and does not change what the page before may have sent.
+  const next = new Page(network, store, { run: page.end() });
+  next.connection.submit({ t: "op", c: { command: "set_port", arguments: { node: "a", port: "p", value: "p601" } } }, { mark: "control/a/p" });
+  assert.equal(next.connection.waiting, 4);
+  network.isDown = false;
+  clock.run(10000);
+  assert.deepEqual(
+    room.applied.map((one) => one.value),
+    ["p599", "q4", "p600", "p601"],
+  );
+  assert.equal(next.connection.waiting, 0);
+});
+
 test("one answer for many operations is enough", () => {
   const { clock, room, network, store } = setting();
   const page = new Page(network, store),

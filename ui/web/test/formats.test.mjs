@@ -33,6 +33,7 @@ import {
   wifi_text,
   wifi_to_address,
   written,
+  zone_text,
 } from "../../../build/web_test/modules.mjs";
 import { seeded } from "./fakes.mjs";
 
@@ -234,19 +235,23 @@ function read_wifi(text) {
 
 test("minutes are asked for by a form, and each way to get none has a sentence", async () => {
   const asked = [],
-    form = minutes_form("BKRT", "secret", "votes.csv"),
+    form = minutes_form("BKRT", "secret", "votes.csv", zone_text(-60)),
     answering = (status, text) => async (address, how) => {
       asked.push({ address, method: how.method, body: how.body.toString() });
       return new Response(text, { status });
     };
   const got = await minutes_from_server(form, answering(200, "vote,round"));
   assert.equal(await got.text(), "vote,round");
-  assert.deepEqual(asked, [{ address: "/minutes", method: "POST", body: "room=BKRT&token=secret&file=votes.csv" }]);
+  assert.deepEqual(asked, [{ address: "/minutes", method: "POST", body: "room=BKRT&token=secret&file=votes.csv&zone=%2B01%3A00" }]);
   const why = async (ask) => (await minutes_from_server(form, ask)).why;
   assert.equal(await why(answering(409, "busy")), "minutes_busy");
   assert.equal(await why(answering(403, "no")), "minutes_right");
   assert.deepEqual(await minutes_from_server(form, answering(500, "The disk is full.\n")), { why: "minutes_failed", text: "The disk is full." });
   assert.equal(await why(() => Promise.reject(new TypeError("no network"))), "minutes_offline");
+});
+
+test("the zone of a device is written as the server reads it", () => {
+  assert.deepEqual([0, -60, -330, 150, 720].map(zone_text), ["UTC", "+01:00", "+05:30", "-02:30", "-12:00"]);
 });
 
 test("the command of the minutes takes any name of a file as one word", () => {

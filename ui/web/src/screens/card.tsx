@@ -85,6 +85,10 @@ export function DraftBanner({ s, ui }: { s: Session; ui: Ui }): JSX.Element | nu
           <Icon name="undo" />
           {t("draft_undo")}
         </button>
+        <button class="quiet" onClick={() => s.submit({ t: "draft", do: "redo", draft: id }, { mark: "draft/redo" })}>
+          <Icon name="redo" />
+          {t("draft_redo")}
+        </button>
         <button
           class="quiet"
           onClick={() => {
@@ -98,6 +102,7 @@ export function DraftBanner({ s, ui }: { s: Session; ui: Ui }): JSX.Element | nu
           {t("draft_leave")}
         </button>
         <MarkState s={s} mark="draft/undo" />
+        <MarkState s={s} mark="draft/redo" />
       </div>
     </section>
   );

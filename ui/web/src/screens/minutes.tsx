@@ -1,11 +1,13 @@
 // After the session: its minutes, to open and to save.
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
-import { kMinutes, minutes_form, minutes_from_server, minutes_of, saved_as } from "../minutes";
+import { kMinutes, minutes_form, minutes_from_server, minutes_of, saved_as, zone_text } from "../minutes";
 import { Icon } from "../parts";
 import type { Session } from "../session";
 import { Key, t } from "../words";
 import { AddressRow } from "./invitations";
+
+const zone_here = (): string => zone_text(new Date().getTimezoneOffset());
 
 function save(blob: Blob, name: string): void {
   const link = document.createElement("a");
@@ -21,7 +23,7 @@ function save(blob: Blob, name: string): void {
 function OpenMinutes({ room, token }: { room: string; token: string }): JSX.Element {
   return (
     <form method="post" action="/minutes" target="_blank">
-      {Object.entries(minutes_form(room, token, kMinutes.page)).map(([name, value]) => (
+      {Object.entries(minutes_form(room, token, kMinutes.page, zone_here())).map(([name, value]) => (
         <input key={name} type="hidden" name={name} value={value} />
       ))}
       <button class="main">
@@ -37,7 +39,7 @@ function SaveMinutes({ room, token }: { room: string; token: string }): JSX.Elem
   const get = async (file: string): Promise<void> => {
     if (said?.state === "making") return;
     say({ state: "making", text: t("minutes_making") });
-    const got = await minutes_from_server(minutes_form(room, token, file), window.fetch.bind(window));
+    const got = await minutes_from_server(minutes_form(room, token, file, zone_here()), window.fetch.bind(window));
     if (!(got instanceof Blob)) return say({ state: "failed", text: t(got.why, { why: got.text }) });
     save(got, saved_as(room, file));
     say({ state: "saved", text: t("minutes_saved", { file: saved_as(room, file) }) });

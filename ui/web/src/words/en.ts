@@ -168,6 +168,7 @@ export const en = {
   not_now: "You cannot change this in the present phase.",
   draft_banner: "You are trying “{title}”. Only you see these changes.",
   draft_undo: "Undo the last step",
+  draft_redo: "Redo the step",
   draft_propose: "Propose it",
   draft_leave: "Back to the shared model",
   // Votes
@@ -565,7 +566,7 @@ export const en = {
   why_area: "It lies outside your own area.",
   why_area_pen: "{holder} is working on the area {area} at the moment.",
   why_phase: "This is not possible in the present phase.",
-  why_range: "It is beyond what your role card allows.",
+  why_range: "The value cannot go that far.",
   why_range_from: "Your role card allows {minimum} to {maximum}.",
   why_budget: "There is not that much left to give.",
   why_stale: "Somebody has changed it since.",
