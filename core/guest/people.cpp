@@ -25,6 +25,10 @@ std::string text_in(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
 }
 
+std::int64_t number_in(const Json& json, const char* key, std::int64_t otherwise) {
+  return json.is_object() && json.contains(key) && json[key].is_number_integer() ? json[key].get<std::int64_t>() : otherwise;
+}
+
 void People::take_view(const Json& set) {
   if (!set.is_object()) return;
   if (set.contains("title")) title = text_in(set, "title");

@@ -34,6 +34,8 @@ struct PenArea {
 
 /// The text of that key; empty where there is none.
 std::string text_in(const Json& json, const char* key);
+/// The whole number under that key; `otherwise` where there is none.
+std::int64_t number_in(const Json& json, const char* key, std::int64_t otherwise);
 
 struct People {
   std::map<std::int64_t, Person> seats = {};

@@ -135,7 +135,7 @@ void RoomGuest::hear_frame(const std::string& text) {
 void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   const auto you = welcome.you.read();
   if (!you || !(*you)->is_object()) return;
-  seat_ = (**you).value("seat", std::int64_t{0});
+  seat_ = number_in(**you, "seat", 0);
   role_ = text_in(**you, "role");
   history_.set_author({room::RoomState::author_of_seat(seat_), AuthorKind::person});
   if (const auto room = welcome.room.read(); room && people_.title.empty()) people_.title = text_in(**room, "title");
@@ -203,7 +203,7 @@ void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
 void RoomGuest::show_kept() {
   for (const Sent& sent : outbox_.waiting()) {
     const auto json = wire::read_frame(sent.frame);
-    if (!json || json->value("t", "") != "op" || json->contains("draft")) continue;
+    if (!json || text_in(*json, "t") != "op" || json->contains("draft")) continue;
     const auto command = command_from_json(*registry_, (*json)["c"], "c");
     if (command) (void)fold_.add(sent.id, *command);
   }
@@ -277,7 +277,7 @@ void RoomGuest::hear_refusal(const wire::Nack& nack) {
   if (nack.why == "storage" || nack.why == "draining") return;
   if (nack.why == "gap") {
     const auto args = nack.args.read();
-    const std::int64_t next = args && (*args)->is_object() ? (**args).value("next", nack.id) : nack.id;
+    const std::int64_t next = args ? number_in(**args, "next", nack.id) : nack.id;
     // All that came behind the missing one are refused as well, and what is sent again for the first of them answers all.
     const double now = options_.clock->now();
     if (next == gap_before_ && now - gap_at_ < kBetweenGaps) return;

@@ -47,6 +47,7 @@ std::optional<Refusal> why_bad_words(const EventDefinition& kind, const std::map
 Answer Room::say_event(const Said& said) {
   const auto content = said.operation.content.read();
   if (!content) return refusal_of(Reason::bad, content.error());
+  if (!(**content).is_object()) return refuse(Reason::bad, "e", "expects an object with `event` and `arguments`");
   if (auto keys = check_keys(**content, {"event", "arguments"}, ""); !keys) return refusal_of(Reason::bad, keys.error());
   const Json name = (**content).value("event", Json());
   const auto kind = name.is_string() ? event_kinds().find(name.get_ref<const std::string&>()) : event_kinds().end();

@@ -246,6 +246,12 @@ class Operations(RoomCase):
             self.assertEqual(lead.entries[done["s"]]["c"]["arguments"]["name"], "One")
             # The same again, in another form even: the same answer, and nothing happens.
             await lead.socket.send(json.dumps({"t": "op", "id": done["id"], "c": {"command": "rename_node", "arguments": {"id": node, "name": "Two"}}}))
+            for what in (1, "x", [], None, {"event": 1}, {"event": "mark", "arguments": 1}, {}):
+                odd = await lead.answer({"t": "room", "e": what})
+                self.assertEqual((odd["t"], odd["why"]), ("nack", "bad"), what)
+            for what in (1, "x", [], None, {"command": 1}, {"command": "rename_node", "arguments": 1}, {}):
+                odd = await lead.answer({"t": "op", "c": what})
+                self.assertEqual((odd["t"], odd["why"]), ("nack", "bad"), what)
             bad = await lead.answer({"t": "op", "c": {"command": "rename_node"}})
             self.assertEqual((bad["why"], bad["place"]), ("bad", "arguments"))
             odd = await lead.answer({"t": "op", "c": {"command": "rename_node"}, "colour": "red"})

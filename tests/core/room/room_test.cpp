@@ -57,6 +57,17 @@ TEST(Room, BadContentGetsAReasonWithItsPlace) {
   EXPECT_EQ(world.ledger().log().size(), 1u) << "nothing but the seat";
 }
 
+TEST(Room, WhatIsNoObjectIsRefusedWhateverItIsSaidAs) {
+  RoomWorld world;
+  const std::int64_t lead = world.seat(Role::facilitator);
+  for (const OperationKind kind : {OperationKind::command, OperationKind::event, OperationKind::draft_begin})
+    for (const char* content : {"1", "\"x\"", "[]", "null", "true", "[{}]"}) {
+      const Answer answer = world.say(lead, kind, content);
+      ASSERT_TRUE(std::holds_alternative<Refusal>(answer)) << content;
+      EXPECT_EQ(std::get<Refusal>(answer).why, Reason::bad) << content;
+    }
+}
+
 TEST(Room, WordsStandBesideTheLog) {
   RoomWorld world;
   const auto seat = world.seat(Role::participant);
