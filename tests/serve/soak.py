@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """A session of many people with faults: what is lost, what is done twice, and how long answers and effects take.
 
-usage: soak.py PROGRAM SOURCE_FOLDER [--seconds N] [--phones N] [--designers N] [--loss SHARE] [--outage SECONDS] [--kills N] [--scene FILE]"""
+usage: soak.py PROGRAM SOURCE_FOLDER [--seconds N] [--phones N] [--designers N] [--loss SHARE] [--outage SECONDS] [--kills N] [--pace SECONDS]
+               [--scene FILE]
+
+--pace: how often each phone says something, on average."""
 import argparse
 import asyncio
 import json
@@ -61,10 +64,10 @@ async def outages(page, end, seconds, returns):
         returns.append((len(queue), time.monotonic() - began))
 
 
-async def phone(page, end, nodes):
+async def phone(page, end, nodes, pace):
     number = 0
     while time.monotonic() < end:
-        await asyncio.sleep(page.random.uniform(1, 5))
+        await asyncio.sleep(pace * page.random.uniform(0.4, 1.6))
         number += 1
         await page.say({"t": "room", "e": {"event": "comment", "arguments": {
             "id": "c%d-%d" % (page.you["seat"], number), "text": "Words %d" % number, "node": page.random.choice(nodes)}}})
@@ -103,7 +106,8 @@ async def run(options, server, seed):
         page.loss, page.doubled = options.loss, 0.05
         page.pace = Pace(150, 50, 4) if is_designer else Pace(28, 9, 2)
         pages.append(page)
-        person = asyncio.ensure_future((designer if is_designer else phone)(page, end, nodes))
+        acts = designer(page, end, nodes) if is_designer else phone(page, end, nodes, options.pace)
+        person = asyncio.ensure_future(acts)
         tasks.append(person)
         tasks.append(asyncio.ensure_future(keep_connected(page, person)))
         if options.outage:
@@ -164,7 +168,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("source")
     for name, kind, usual in (("seconds", float, 60), ("phones", int, 50), ("designers", int, 5), ("loss", float, 0.3), ("outage", float, 0),
-                              ("kills", int, 0), ("seed", int, 1)):
+                              ("kills", int, 0), ("pace", float, 6), ("seed", int, 1)):
         parser.add_argument("--" + name, type=kind, default=usual)
     parser.add_argument("--scene", default="scenes/studies/sixty_volumes.json")
     parser.add_argument("--keep", help="where the session file is copied to")
