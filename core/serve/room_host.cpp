@@ -14,7 +14,9 @@ namespace bl::serve {
 
 namespace {
 
-constexpr double kBetweenViews = 0.2;         // [s]
+// Views follow ticks, not less than so long after the last ones: at ten ticks a second every other one, which comes a little
+// early or late. Where no tick comes they go out a turn later, so that a tick that is due comes first [s].
+constexpr double kBetweenViews = 0.18, kWithoutTick = 0.25;
 constexpr std::size_t kCloseAbove = 1 << 20;  // what a guest has not taken yet [bytes]
 
 std::set<std::string> known_views(const std::vector<std::string>& names) {
@@ -367,8 +369,17 @@ void RoomHost::turn() {
   send_snapshots();
   tell_presences();
   for (auto& [key, visitor] : visitors_) show(visitor);  // who was too slow for the last views gets them now
+  publish_after(kWithoutTick);
+}
+
+void RoomHost::show_tick() {
+  tell_ticks();
+  if (problem_.empty()) publish_after(kBetweenViews);
+}
+
+void RoomHost::publish_after(double seconds) {
   const double now = options_.clock->now();
-  if (now - last_views_ < kBetweenViews) return;
+  if (now - last_views_ < seconds) return;
   last_views_ = now;
   keep_records();
   try_drafts();

@@ -150,6 +150,9 @@ class RoomHost {
   void follow_devices();
   void serve_devices();
   void bring_readings();
+  /// Tells windows of a new tick, and shows it to everybody else where the last views are old enough.
+  void show_tick();
+  void publish_after(double seconds);
   void publish();
   void hold_shapes(Published& made);
   void show();

@@ -188,7 +188,7 @@ void RoomHost::watch_ticks() {
     last = moment->ticked->tick;
     rested = moment->is_resting;
     options_.on_own_thread([this, is_alive] {
-      if (!is_alive.expired()) tell_ticks();
+      if (!is_alive.expired()) show_tick();
     });
   });
 }
