@@ -1,5 +1,9 @@
 // A window without a connection: what is said meanwhile, and how it goes out afterwards.
 #include "core/guest/room_guest.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
 #include "tests/core/guest/memory_room.h"
 #include "tests/support/sanitized.h"
 
