@@ -38,7 +38,17 @@ double used_by(pid_t process) {
   return (user + kernel) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-// `after` so many seconds of processors, however slow the machine is or what else runs on it.
+// Whether a process handles Ctrl-C itself, by what Linux says of it; before it does, the signal ends it without a word.
+bool catches_interrupts(pid_t process) {
+  std::istringstream lines(read_text("/proc/" + std::to_string(process) + "/status"));
+  std::string line;
+  while (std::getline(lines, line))
+    if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  return false;
+}
+
+// After so many seconds of processors at its work, however slow the machine is or what else runs on it. The work begins where
+// the program has read its files and handles Ctrl-C.
 Interrupted interrupt(const Workplace& place, const std::string& task, double after = 1.5) {
   const std::string line =
       "cd '" + place.path("").string() + "' && exec '" + program_path().string() + "' " + task + " >.out 2>.err </dev/null";
@@ -51,7 +61,13 @@ Interrupted interrupt(const Workplace& place, const std::string& task, double af
     for (; tries > 0 && goes_on(); --tries) ::usleep(20'000);
     return tries > 0;
   };
-  (void)wait_while(6000, [&] { return used_by(child) < after; });
+  siginfo_t state{};
+  const auto is_running = [&] {
+    return ::waitid(P_PID, static_cast<id_t>(child), &state, WEXITED | WNOHANG | WNOWAIT) == 0 && state.si_pid == 0;
+  };
+  (void)wait_while(6000, [&] { return is_running() && !catches_interrupts(child); });
+  const double began = used_by(child);
+  (void)wait_while(6000, [&] { return is_running() && used_by(child) < began + after; });
   const double before = used_by(child);
   ::kill(child, SIGINT);
   int status = 0;
@@ -99,7 +115,6 @@ TEST(Interrupt, EndsARunAndWritesAllThatWasAskedFor) {
   EXPECT_EQ(place.run({"check", "saved.json"}).code, 0);
 }
 
-// A tick of a script that has minutes of work in it is dropped: what is saved is the tick before.
 // A run of so many ticks that has settled long before its end was still stopped, and says so.
 TEST(Interrupt, ASettledRunSaysThatItWasStopped) {
   const Workplace place;
@@ -163,6 +178,7 @@ TEST(Interrupt, EndsAQuestion) {
   EXPECT_FALSE(std::filesystem::exists(place.path("all.json")));
 }
 
+// A tick of a script that has minutes of work in it is dropped: what is saved is the tick before.
 TEST(Interrupt, EndsAScriptInTheMiddleOfATick) {
   const Workplace place;
   std::string links;
@@ -255,7 +271,7 @@ TEST(Interrupt, EndsTheLoadingOfTheFirstTrips) {
                   "\n<FIRST THRU NODE> 1\n<NUMBER OF LINKS> " + std::to_string(count) +
                   "\n<END OF METADATA>\n~ init term capacity length free_flow_time b power speed toll link_type ;\n" + links);
   place.write("n_trips.tntp", "<NUMBER OF ZONES> " + std::to_string(kNodes) + "\n<TOTAL OD FLOW> 0\n<END OF METADATA>\n" + trips);
-  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json", 2.5);
+  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json", 0.5);
   expect_at_once(found);
   ASSERT_TRUE(std::filesystem::exists(place.path("out.json"))) << found.outcome.out << found.outcome.err;
   const auto figures = place.json("out.json")["equilibrium"];
