@@ -1,0 +1,134 @@
+// Keeps the footprints of sites from call to call and measures anew what a change can have touched.
+#include "core/geometry/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/geometry/inside/footprint_workshop.h"
+
+namespace bl::geometry {
+
+namespace {
+
+constexpr std::size_t kGrain = 64;  // sites that one thread measures at a time
+
+Result<void> check(std::span<const StandingSite> sites) {
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const StandingSite& s = sites[i];
+    const std::string place = "sites/" + std::to_string(i);
+    const auto wrong = [&place](const std::string& what) { return Error{ErrorCode::out_of_range, place, what}; };
+    if (!is_finite(s.site.position) || norm(s.site.position) > kLargestCoordinate)
+      return wrong("its position is not a place within 100 000 km");
+    if (!std::isfinite(s.site.weight) || std::abs(s.site.weight) > kLargestWeight)
+      return wrong("its weight is not a number of use");
+    if (!(s.aspect >= 1e-3 && s.aspect <= 1e3)) return wrong("the aspect of its block is not between 0.001 and 1000");
+    if (!std::isfinite(s.angle)) return wrong("the angle of its block is not a number");
+    if (!(s.storey_height > 0) || !std::isfinite(s.storey_height)) return wrong("its storey height is not above 0");
+    if (!(s.depth > 0)) return wrong("its depth is not above 0");
+    for (const StoreyRun& run : s.runs) {
+      if (run.storeys < 1 || run.storeys > kMostStoreys) return wrong("a run of its storeys is not between 1 and 10 000");
+      if (!(run.setback >= 0) || !std::isfinite(run.setback)) return wrong("a set-back is below 0 or no number");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+FootprintDiagram::FootprintDiagram() : workshop_(std::make_unique<Workshop>()) {}
+FootprintDiagram::~FootprintDiagram() = default;
+FootprintDiagram::FootprintDiagram(FootprintDiagram&&) noexcept = default;
+FootprintDiagram& FootprintDiagram::operator=(FootprintDiagram&&) noexcept = default;
+
+Result<void> FootprintDiagram::set_domain(const Domain& domain) {
+  if (workshop_->has_plot && workshop_->domain == domain) return {};
+  auto plot = PlanPlot::section(domain);
+  if (!plot) return plot.error();
+  *workshop_ = Workshop();
+  workshop_->domain = domain;
+  workshop_->plot = std::move(*plot);
+  workshop_->has_plot = true;
+  return {};
+}
+
+double FootprintDiagram::plot_area() const { return workshop_->plot.area(); }
+std::span<const FootprintMeasure> FootprintDiagram::footprints() const { return workshop_->measures; }
+std::span<const std::uint32_t> FootprintDiagram::made() const { return workshop_->made; }
+
+Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<const StandingSite> sites, ThreadPool* pool) {
+  Workshop& w = *workshop_;
+  if (auto sound = check(sites); !sound) return sound.error();
+  w.find_made(sites);
+  if (w.made.empty()) return std::span<const FootprintMeasure>(w.measures);
+  for (const std::uint32_t i : w.made)
+    for (const StoreyRun& run : sites[i].runs) {
+      w.plot.eroded(outer_offset(sites[i], run).own);
+      if (std::isfinite(sites[i].depth)) w.plot.eroded(courtyard_offset(sites[i], run).own);
+    }
+  w.sites.assign(sites.begin(), sites.end());
+  w.measures.resize(sites.size());
+  w.reaches.resize(sites.size());
+  w.grid.fill(w.sites);
+  w.find_coincident();
+  const auto measure = [&w](std::size_t begin, std::size_t end) {
+    FootprintMaker maker(w.plot, w.grid, w.sites);
+    for (std::size_t k = begin; k < end; ++k) w.measure(w.made[k], maker);
+  };
+  if (pool != nullptr) pool->for_each_chunk(w.made.size(), kGrain, measure);
+  else measure(0, w.made.size());
+  return std::span<const FootprintMeasure>(w.measures);
+}
+
+void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
+  made.clear();
+  if (now.size() != sites.size()) {
+    for (std::uint32_t i = 0; i < now.size(); ++i) made.push_back(i);
+    return;
+  }
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (!(now[i] == sites[i])) changed.push_back(i);
+  if (changed.empty()) return;
+  // Whoever had a part of a changed site within its reach, or has it now. Where many have changed, nearly all are touched.
+  const bool is_all = changed.size() * 8 > now.size();
+  for (std::uint32_t i = 0; i < now.size(); ++i) {
+    bool is_touched = is_all;
+    for (std::size_t k = 0; !is_touched && k < changed.size(); ++k)
+      is_touched = changed[k] == i || cuts(sites[changed[k]], i) || cuts(now[changed[k]], i);
+    if (is_touched) made.push_back(i);
+  }
+}
+
+bool FootprintDiagram::Workshop::cuts(const StandingSite& other, std::uint32_t i) const {
+  const double reach = reaches[i];
+  if (std::isinf(reach)) return true;
+  const double dx = other.site.position.x - sites[i].site.position.x, dy = other.site.position.y - sites[i].site.position.y;
+  const double squared = dx * dx + dy * dy;
+  return !(squared + sites[i].site.weight - other.site.weight >= 2 * reach * std::sqrt(squared)) || squared == 0;
+}
+
+void FootprintDiagram::Workshop::find_coincident() {
+  order.resize(sites.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto place = [this](std::uint32_t i) { return std::pair(sites[i].site.position.x, sites[i].site.position.y); };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (place(a) != place(b)) return place(a) < place(b);
+    return sites[a].site.weight != sites[b].site.weight ? sites[a].site.weight > sites[b].site.weight : a < b;
+  });
+  is_covered.assign(sites.size(), 0);
+  for (std::size_t k = 1; k < order.size(); ++k) is_covered[order[k]] = place(order[k]) == place(order[k - 1]) ? 1 : 0;
+}
+
+void FootprintDiagram::Workshop::measure(std::uint32_t i, FootprintMaker& maker) {
+  FootprintMeasure& measure = measures[i];
+  reaches[i] = maker.measure(i, measure);
+  if (is_covered[i] == 0) return;
+  const std::size_t runs = measure.plates.size();
+  measure = FootprintMeasure();
+  measure.state = SiteState::coincident;
+  measure.plates.assign(runs, 0);
+}
+
+}  // namespace bl::geometry

@@ -1,0 +1,219 @@
+// Joins the convex parts of plates to outlines, with arcs as arcs.
+#include "core/geometry/plates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/mathematics.h"
+#include "core/geometry/inside/footprint_workshop.h"
+#include "core/geometry/polygon_triangles.h"
+
+namespace bl::geometry {
+
+namespace {
+
+constexpr double kTwoPi = 6.28318530717958647692;
+constexpr double kSame = 1e-7;  // ends of curves nearer than this are one place [m]
+
+// A piece of an outline, relative to the site.
+struct Curve {
+  PlanPoint from, to;
+  std::int32_t beyond = 0;
+  bool is_arc = false;
+};
+
+bool is_same(const PlanPoint& a, const PlanPoint& b) { return std::abs(a.x - b.x) <= kSame && std::abs(a.y - b.y) <= kSame; }
+
+// The sides of a part inside a disc, and the arcs that join them, in order; sides towards other parts of the plot are left out.
+void add_curves(const PlanPolygon& part, double radius, std::vector<Curve>& curves) {
+  std::vector<Curve> sides;
+  const std::size_t count = part.corners.size();
+  double turned = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const PlanPoint& p = part.corners[k].at;
+    const PlanPoint& q = part.corners[(k + 1) % count].at;
+    const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
+    if (!(length > 0)) continue;
+    const PlanPoint e{dx / length, dy / length};
+    const double height = e.y * p.x - e.x * p.y, a = e.x * p.x + e.y * p.y, b = a + length;
+    turned += mathematics::arc_tangent(height * (b - a), height * height + a * b);
+    double low = a, high = b;
+    if (std::isfinite(radius)) {
+      const double rest = (radius - height) * (radius + height);
+      if (!(rest > 0)) continue;
+      const double half = std::sqrt(rest);
+      low = std::clamp(-half, a, b);
+      high = std::clamp(half, a, b);
+    }
+    if (!(low < high)) continue;
+    const auto at = [&](double t) { return PlanPoint{t * e.x + height * e.y, t * e.y - height * e.x}; };
+    sides.push_back({low == a ? p : at(low), high == b ? q : at(high), part.corners[k].beyond, false});
+  }
+  if (sides.empty()) {
+    // Either the whole disc lies inside the part, or none of it.
+    if (std::isfinite(radius) && radius > 0 && turned > 1) curves.push_back({{radius, 0}, {radius, 0}, PlateRing::kFree, true});
+    return;
+  }
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Curve& side = sides[k];
+    const Curve& next = sides[(k + 1) % sides.size()];
+    if (side.beyond != PlanSide::kInner) curves.push_back(side);
+    if (!is_same(side.to, next.from)) curves.push_back({side.to, next.from, PlateRing::kFree, true});
+  }
+}
+
+PlateRing::Corner corner_of(const Curve& curve, const Point3& centre) {
+  const std::int32_t beyond = curve.beyond >= 0 || curve.beyond == PlanSide::kPlot ? curve.beyond : PlateRing::kFree;
+  return {{centre.x + curve.from.x, centre.y + curve.from.y, 0}, beyond, curve.is_arc};
+}
+
+// Does the side go on in the direction of the one before it, with the same beyond?
+bool goes_on(const Curve& before, const Curve& after) {
+  if (before.is_arc || after.is_arc) return before.is_arc && after.is_arc;
+  const double ax = before.to.x - before.from.x, ay = before.to.y - before.from.y;
+  const double bx = after.to.x - after.from.x, by = after.to.y - after.from.y;
+  return before.beyond == after.beyond && ax * bx + ay * by > 0 &&
+         std::abs(ax * by - ay * bx) <= kSame * std::sqrt(std::max(ax * ax + ay * ay, bx * bx + by * by));
+}
+
+// Rings of curves that follow one another.
+std::vector<PlateRing> joined(std::vector<Curve> curves, const Point3& centre, double radius) {
+  std::vector<PlateRing> rings;
+  std::vector<std::uint8_t> is_used(curves.size(), 0);
+  for (std::size_t first = 0; first < curves.size(); ++first) {
+    if (is_used[first] != 0) continue;
+    std::vector<Curve> chain{curves[first]};
+    is_used[first] = 1;
+    while (!is_same(chain.back().to, chain.front().from)) {
+      std::size_t next = curves.size();
+      double nearest = 1e-4 * 1e-4;  // wider than what is one place: pieces meet by their own rounding
+      for (std::size_t k = 0; k < curves.size(); ++k) {
+        const double x = curves[k].from.x - chain.back().to.x, y = curves[k].from.y - chain.back().to.y;
+        if (is_used[k] != 0 || x * x + y * y > nearest) continue;
+        nearest = x * x + y * y;
+        next = k;
+      }
+      if (next == curves.size()) break;
+      is_used[next] = 1;
+      if (goes_on(chain.back(), curves[next])) chain.back().to = curves[next].to;
+      else chain.push_back(curves[next]);
+    }
+    if (chain.size() > 1 && goes_on(chain.back(), chain.front())) {
+      chain.front().from = chain.back().from;
+      chain.pop_back();
+    }
+    if (chain.size() < 2 && !chain.front().is_arc) continue;
+    PlateRing ring;
+    ring.radius = std::isfinite(radius) ? radius : 0;
+    for (const Curve& curve : chain) ring.corners.push_back(corner_of(curve, centre));
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+// The angle of an arc of a ring; a whole circle where it comes back to where it begins.
+double angle_of(const Point3& from, const Point3& to, const Point3& centre) {
+  const double ax = from.x - centre.x, ay = from.y - centre.y, bx = to.x - centre.x, by = to.y - centre.y;
+  double angle = mathematics::arc_tangent(ax * by - ay * bx, ax * bx + ay * by);
+  if (angle <= 0) angle += kTwoPi;
+  return angle;
+}
+
+}  // namespace
+
+StandingBody body_of(const FootprintDiagram& diagram, std::uint32_t site) {
+  const FootprintDiagram::Workshop& w = diagram.workshop();
+  const StandingSite& own = w.sites[site];
+  const FootprintMeasure& measure = w.measures[site];
+  StandingBody body;
+  body.centre = {own.site.position.x, own.site.position.y, 0};
+  FootprintMaker maker(w.plot, w.grid, w.sites);
+  const double root = std::sqrt(std::max(0.0, own.site.weight));
+  const auto rings = [&](const PlateOffset& offset) {
+    const double radius = own.form == FootprintForm::round ? root - offset.own : StandingSite::kAnyDepth;
+    std::vector<Curve> curves;
+    if (radius > 0)
+      for (const PlanPolygon& part : maker.parts(site, offset)) add_curves(part, radius, curves);
+    return joined(std::move(curves), body.centre, radius);
+  };
+  double bottom = own.site.position.z;
+  for (std::size_t r = 0; r < own.runs.size(); ++r) {
+    const StoreyRun& run = own.runs[r];
+    PlateStack stack{run.storeys, bottom, own.storey_height, measure.plates[r], {}, {}};
+    bottom = stack.top();
+    if (!(stack.area > 0)) continue;
+    stack.outlines = rings(outer_offset(own, run));
+    if (std::isfinite(own.depth)) stack.courtyards = rings(courtyard_offset(own, run));
+    body.stacks.push_back(std::move(stack));
+  }
+  return body;
+}
+
+Ring chords_of(const PlateRing& ring, const Point3& centre, double tolerance) {
+  Ring line;
+  const std::size_t count = ring.corners.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point3 &from = ring.corners[k].at, &to = ring.corners[(k + 1) % count].at;
+    line.push_back(from);
+    if (!ring.corners[k].is_arc) continue;
+    const double angle = angle_of(from, to, centre);
+    const double step = 2 * mathematics::arc_cosine(std::clamp(1 - tolerance / ring.radius, 0.0, 1.0));
+    const int parts = std::clamp(static_cast<int>(std::ceil(angle / std::max(step, 1e-3))), 1, 4096);
+    const double start = mathematics::arc_tangent(from.y - centre.y, from.x - centre.x);
+    for (int p = 1; p < parts; ++p) {
+      const double at = start + angle * p / parts;
+      line.push_back({centre.x + ring.radius * mathematics::cosine(at), centre.y + ring.radius * mathematics::sine(at), 0});
+    }
+  }
+  return line;
+}
+
+double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyond) {
+  double sum = 0;
+  const std::size_t count = ring.corners.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (ring.corners[k].beyond != beyond) continue;
+    const Point3 &from = ring.corners[k].at, &to = ring.corners[(k + 1) % count].at;
+    sum += ring.corners[k].is_arc ? ring.radius * angle_of(from, to, centre) : distance(from, to);
+  }
+  return sum;
+}
+
+std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance) {
+  std::vector<PlateFace> faces;
+  std::vector<Ring> holes;
+  const auto take = [&](const PlateRing& ring, bool is_courtyard) {
+    Ring line = chords_of(ring, centre, tolerance);
+    const double area = signed_area(line);
+    if (line.size() < 3 || area == 0) return;
+    // The edge of a courtyard has the building on its other side.
+    if (is_courtyard) std::reverse(line.begin(), line.end());
+    if ((area > 0) != is_courtyard) faces.push_back({std::move(line), {}});
+    else holes.push_back(std::move(line));
+  };
+  for (const PlateRing& ring : stack.outlines) take(ring, false);
+  for (const PlateRing& ring : stack.courtyards) take(ring, true);
+  for (Ring& hole : holes) {
+    PlateFace* around = nullptr;
+    for (PlateFace& face : faces)
+      if (ring_contains(face.outer, hole.front()) && (around == nullptr || signed_area(face.outer) < signed_area(around->outer)))
+        around = &face;
+    if (around != nullptr) around->holes.push_back(std::move(hole));
+  }
+  return faces;
+}
+
+Mesh mesh_of(const StandingBody& body, double tolerance) {
+  Mesh mesh;
+  for (const PlateStack& stack : body.stacks)
+    for (const PlateFace& face : faces_of(stack, body.centre, tolerance)) {
+      const Mesh prism = prism_mesh(face.outer, face.holes, stack.bottom, stack.top());
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.insert(mesh.vertices.end(), prism.vertices.begin(), prism.vertices.end());
+      for (const auto& [a, b, c] : prism.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+  return mesh;
+}
+
+}  // namespace bl::geometry
