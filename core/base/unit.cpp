@@ -10,14 +10,14 @@ namespace bl {
 
 namespace {
 
-constexpr Dimension kNone{}, kLength{1}, kArea{2}, kVolume{3}, kPerLength{-1}, kTime{0, 1}, kAngle{0, 0, 1}, kSpeed{1, -1},
+constexpr Dimension kNumber{}, kLength{1}, kArea{2}, kVolume{3}, kPerLength{-1}, kTime{0, 1}, kAngle{0, 0, 1}, kSpeed{1, -1},
     kRate{0, -1}, kMoney{0, 0, 0, 1};
 
 constexpr std::array kTable = {
-    UnitInfo{Unit::none, "", "", "number", kNone, 1},
-    UnitInfo{Unit::ratio, "ratio", "", "ratio", kNone, 1},
-    UnitInfo{Unit::ratio, "%", "%", "per cent", kNone, 0.01},
-    UnitInfo{Unit::count, "count", "", "count", kNone, 1},
+    UnitInfo{Unit::none, "", "", "number", kNumber, 1},
+    UnitInfo{Unit::ratio, "ratio", "", "ratio", kNumber, 1},
+    UnitInfo{Unit::ratio, "%", "%", "per cent", kNumber, 0.01},
+    UnitInfo{Unit::count, "count", "", "count", kNumber, 1},
     UnitInfo{Unit::metre, "m", "m", "metre", kLength, 1},
     UnitInfo{Unit::metre, "mm", "mm", "millimetre", kLength, 1e-3},
     UnitInfo{Unit::metre, "cm", "cm", "centimetre", kLength, 1e-2},

@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostHalvings = 12, kMostRepairs = 12, kScalings = 10, kRings = 2;
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoDemand = 0xffffffffu;
 
 class Fit {
  public:
   Fit(FootprintDiagram& diagram, std::vector<StandingSite>& sites, std::span<const FloorDemand> demands,
       const FootprintFitOptions& options, FootprintFit& report)
-      : diagram_(diagram), sites_(sites), demands_(demands), options_(options), report_(report), demand_of_(sites.size(), kNone) {
+      : diagram_(diagram), sites_(sites), demands_(demands), options_(options), report_(report), demand_of_(sites.size(), kNoDemand) {
     for (std::uint32_t g = 0; g < demands.size(); ++g)
       for (const std::uint32_t i : demands[g].sites) demand_of_[i] = g;
   }
@@ -137,7 +137,7 @@ class Fit {
         for (const std::uint32_t i : demands_[off[k]].sites)
           for (const FootprintMeasure::Neighbour& n : diagram_.footprints()[i].neighbours) {
             const std::uint32_t h = demand_of_[n.site];
-            if (h == kNone || is_in[h] != 0 || !counts(h)) continue;
+            if (h == kNoDemand || is_in[h] != 0 || !counts(h)) continue;
             is_in[h] = 1;
             off.push_back(h);
           }
@@ -150,7 +150,7 @@ class Fit {
   // The change of the weights of each demand [m²] by which the linear response meets all that may move.
   std::vector<double> newton_move() const {
     const std::vector<std::uint32_t> active = movable();
-    std::vector<std::uint32_t> row_of(demands_.size(), kNone);
+    std::vector<std::uint32_t> row_of(demands_.size(), kNoDemand);
     for (std::uint32_t r = 0; r < active.size(); ++r) row_of[active[r]] = r;
     RowSystem system;
     std::vector<double> right, entries(active.size(), 0);
@@ -162,9 +162,9 @@ class Fit {
         const FootprintMeasure& measure = diagram_.footprints()[i];
         diagonal += measure.own_response;
         for (const FootprintMeasure::Neighbour& n : measure.neighbours) {
-          const std::uint32_t h = demand_of_[n.site], column = h == kNone ? kNone : row_of[h];
+          const std::uint32_t h = demand_of_[n.site], column = h == kNoDemand ? kNoDemand : row_of[h];
           if (column == r) diagonal -= n.response;
-          if (column == kNone || column == r) continue;
+          if (column == kNoDemand || column == r) continue;
           if (entries[column] == 0) touched.push_back(column);
           entries[column] -= n.response;
         }
@@ -195,7 +195,7 @@ class Fit {
     double share = 1;
     for (int halving = 0; halving <= kMostHalvings; ++halving, share *= 0.5) {
       for (std::size_t i = 0; i < sites_.size(); ++i) {
-        if (demand_of_[i] == kNone) continue;
+        if (demand_of_[i] == kNoDemand) continue;
         const double to = before[i] + share * move[demand_of_[i]];
         sites_[i].site.weight = sites_[i].form == FootprintForm::cell ? to : std::max(to, 0.1 * before[i]);
       }
