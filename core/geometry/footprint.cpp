@@ -70,6 +70,8 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   w.sites.assign(sites.begin(), sites.end());
   w.measures.resize(sites.size());
   w.reaches.resize(sites.size());
+  w.is_touched.resize(sites.size(), 0);
+  for (const std::uint32_t i : w.made) w.is_touched[i] = 1;
   w.grid.fill(w.sites);
   w.find_coincident();
   const auto measure = [&w](std::size_t begin, std::size_t end) {
@@ -79,6 +81,14 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   if (pool != nullptr) pool->for_each_chunk(w.made.size(), kGrain, measure);
   else measure(0, w.made.size());
   return std::span<const FootprintMeasure>(w.measures);
+}
+
+std::vector<std::uint32_t> FootprintDiagram::take_touched() {
+  std::vector<std::uint32_t> touched;
+  std::vector<std::uint8_t>& marks = workshop_->is_touched;
+  for (std::uint32_t i = 0; i < marks.size(); ++i)
+    if (std::exchange(marks[i], std::uint8_t{0}) != 0) touched.push_back(i);
+  return touched;
 }
 
 void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
@@ -94,10 +104,10 @@ void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
   // Whoever had a part of a changed site within its reach, or has it now. Where many have changed, nearly all are touched.
   const bool is_all = changed.size() * 8 > now.size();
   for (std::uint32_t i = 0; i < now.size(); ++i) {
-    bool is_touched = is_all;
-    for (std::size_t k = 0; !is_touched && k < changed.size(); ++k)
-      is_touched = changed[k] == i || cuts(sites[changed[k]], i) || cuts(now[changed[k]], i);
-    if (is_touched) made.push_back(i);
+    bool is_met = is_all;
+    for (std::size_t k = 0; !is_met && k < changed.size(); ++k)
+      is_met = changed[k] == i || cuts(sites[changed[k]], i) || cuts(now[changed[k]], i);
+    if (is_met) made.push_back(i);
   }
 }
 

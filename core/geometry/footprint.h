@@ -80,8 +80,9 @@ class FootprintDiagram {
   std::span<const FootprintMeasure> footprints() const;
   /// Ascending: the sites that the last update has measured anew.
   std::span<const std::uint32_t> made() const;
-  /// Positions in the plot by which a site's outline is drawn, and with what is beyond each side; see `plates.h`.
-  struct Workshop;
+  /// Ascending: the sites that were measured anew since the last call of this.
+  std::vector<std::uint32_t> take_touched();
+  struct Workshop;  ///< for `plates.h`, which draws outlines
   const Workshop& workshop() const { return *workshop_; }
 
  private:

@@ -15,17 +15,30 @@ namespace bl::geometry {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kMostHalvings = 12, kMostRepairs = 12, kScalings = 10, kRings = 2;
+constexpr double kSmallShare = 0.02;
+constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kRings = 2;
 constexpr std::uint32_t kNoDemand = 0xffffffffu;
 
 class Fit {
  public:
   Fit(FootprintDiagram& diagram, std::vector<StandingSite>& sites, std::span<const FloorDemand> demands,
       const FootprintFitOptions& options, FootprintFit& report)
-      : diagram_(diagram), sites_(sites), demands_(demands), options_(options), report_(report), demand_of_(sites.size(), kNoDemand) {
+      : diagram_(diagram),
+        sites_(sites),
+        demands_(demands),
+        options_(options),
+        report_(report),
+        demand_of_(sites.size(), kNoDemand) {
     for (std::uint32_t g = 0; g < demands.size(); ++g)
-      for (const std::uint32_t i : demands[g].sites) demand_of_[i] = g;
+      for (const std::uint32_t i : demands[g].sites) {
+        demand_of_[i] = g;
+        fills_plot_ &= sites[i].form == FootprintForm::cell;
+      }
   }
+
+  // All footprints are whole cells: together they take the plot whatever the weights are, and demands are met by proportion only.
+  bool fills_plot() const { return fills_plot_; }
+  double factor() const { return factor_; }
 
   // Steps until the demands, times `factor`, are met. False: they are not.
   Result<bool> run(double factor) {
@@ -33,12 +46,16 @@ class Fit {
     if (auto done = evaluate(); !done) return done.error();
     if (auto done = repair(); !done) return done.error();
     least_ratio_ = 0.5 * std::min(1.0, smallest_ratio());
+    int small_steps = 0;
     for (int step = 0; step < options_.most_steps; ++step) {
       if (error() <= options_.tolerance) return true;
       const std::vector<double> move = newton_move();
       const auto taken = take(move);
       if (!taken) return taken.error();
       if (!*taken) return false;
+      // Demands that cannot be met are approached by ever smaller steps.
+      small_steps = share_ < kSmallShare ? small_steps + 1 : 0;
+      if (small_steps >= kMostSmallSteps) return false;
       ++report_.steps;
       if (options_.progress && !options_.progress(report_.evaluations, error())) report_.is_stopped = true;
       if (report_.is_stopped) return false;
@@ -63,7 +80,14 @@ class Fit {
     ++report_.evaluations;
     if (auto made = diagram_.update(sites_, options_.pool); !made) return made.error();
     floors_.resize(demands_.size());
-    for (std::uint32_t g = 0; g < demands_.size(); ++g) floors_[g] = floor_of(g);
+    double floors = 0, asked = 0;
+    for (std::uint32_t g = 0; g < demands_.size(); ++g) {
+      floors_[g] = floor_of(g);
+      if (!counts(g)) continue;
+      floors += floors_[g];
+      asked += demands_[g].least;
+    }
+    if (fills_plot_ && asked > 0) factor_ = floors / asked;
     return {};
   }
 
@@ -197,10 +221,16 @@ class Fit {
       for (std::size_t i = 0; i < sites_.size(); ++i) {
         if (demand_of_[i] == kNoDemand) continue;
         const double to = before[i] + share * move[demand_of_[i]];
-        sites_[i].site.weight = sites_[i].form == FootprintForm::cell ? to : std::max(to, 0.1 * before[i]);
+        // A nearly singular matrix asks for moves without an end.
+        const double most = 4 * std::abs(before[i]) + diagram_.plot_area();
+        sites_[i].site.weight =
+            std::clamp(to, sites_[i].form == FootprintForm::cell ? -most : std::min(most, 0.1 * before[i]), most);
       }
       if (auto done = evaluate(); !done) return done.error();
-      if (smallest_ratio() >= least_ratio_ && residual() <= (1 - 0.1 * share) * residual_before) return true;
+      if (smallest_ratio() >= least_ratio_ && residual() <= (1 - 0.1 * share) * residual_before) {
+        share_ = share;
+        return true;
+      }
     }
     for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].site.weight = before[i];
     if (auto done = evaluate(); !done) return done.error();
@@ -215,6 +245,8 @@ class Fit {
   std::vector<std::uint32_t> demand_of_;
   std::vector<double> floors_;
   double factor_ = 1, least_ratio_ = 0;
+  double share_ = 1;  // of the last full step, that was taken
+  bool fills_plot_ = true;
 };
 
 // The plot that all demands need at the least: each plate is a whole footprint.
@@ -265,14 +297,23 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
                                     std::span<const FloorDemand> demands, const FootprintFitOptions& options) {
   FootprintFit report;
   start(diagram, sites, demands);
+  const std::vector<StandingSite> initial = sites;
   Fit fit(diagram, sites, demands, options, report);
-  const double needed = needed_plot(sites, demands), most = needed > diagram.plot_area() ? diagram.plot_area() / needed : 1;
+  const double needed = needed_plot(sites, demands);
+  const double most = !fit.fills_plot() && needed > diagram.plot_area() ? diagram.plot_area() / needed : 1;
   Result<bool> met = most < 1 ? Result<bool>(false) : fit.run(1);
   if (!met) return met.error();
-  if (!*met && !report.is_stopped && options.is_final) {
+  if (fit.fills_plot()) {
+    report.factor = fit.factor();
+    if (std::abs(report.factor - 1) > options.tolerance) {
+      met = false;
+      report.infeasible = "all footprints are whole cells, which share the plot: each volume has " +
+                          fixed(100 * report.factor, 1) + " % of the floor area that it asks for";
+    }
+  } else if (!*met && !report.is_stopped && options.is_final) {
     // The largest share of all demands that can be met, by halving: each try starts from the best so far.
     double low = 0, high = most;
-    std::vector<StandingSite> best = sites;
+    std::vector<StandingSite> best = initial;
     for (int k = 0; k < kScalings && !report.is_stopped; ++k) {
       const double middle = k == 0 ? 0.9 * most : 0.5 * (low + high);
       sites = best;

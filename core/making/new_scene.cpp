@@ -11,6 +11,7 @@
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/geometry/plan_ring.h"
 #include "core/making/spread_points.h"
 
 namespace bl::making {
@@ -36,6 +37,20 @@ std::string fresh_id(const std::string& wanted, std::set<std::string>& taken) {
   std::string id = wanted.substr(0, 56);
   for (int i = 2; !taken.insert(id).second; ++i) id = wanted.substr(0, 56) + "_" + std::to_string(i);
   return id;
+}
+
+// Storeys with which all footprints together cover so much of the plan, as many as fit under the height.
+constexpr double kCoverage = 0.45;
+
+double plan_area(const SceneParts& parts) {
+  double area = geometry::signed_area(parts.plan);
+  for (const geometry::Ring& hole : parts.holes) area += geometry::signed_area(hole);
+  return area;
+}
+
+int storeys_for(const SceneParts& parts, double storey_height) {
+  const double needed = std::ceil(parts.programme.floor_area / (kCoverage * plan_area(parts)));
+  return static_cast<int>(std::clamp(needed, 1.0, std::max(1.0, std::floor(parts.height / storey_height + 1e-9))));
 }
 
 class Builder {
@@ -79,7 +94,8 @@ class Builder {
                       {"standing", row.standing},
                       {"note", row.name == row.use ? "" : row.name}});
     node(kProgramme, {{"name", "Programme"}, {"types", {{"programme", {{"rows", rows}}}}}});
-    node(kSolver, {{"name", "Solver"}, {"types", {{"smart_volumes_solver", Json::object()}}}});
+    node(kSolver,
+         {{"name", "Solver"}, {"types", {{parts_.is_standing ? "standing_solver" : "smart_volumes_solver", Json::object()}}}});
     node(kTotal, {{"name", "Total floor area"}, {"types", {{"statistics", {{"port", "smart_volume.floor_area"}}}}}});
   }
 
@@ -88,17 +104,19 @@ class Builder {
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
-    node(volume.id,
-         {{"name", volume.name},
-          {"position", {volume.position.x, volume.position.y, volume.position.z}},
-          {"tags", tags},
-          {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}}}});
+    Json types = {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}};
+    if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row.storey_height)}};
+    node(volume.id, {{"name", volume.name},
+                     {"position", {volume.position.x, volume.position.y, volume.position.z}},
+                     {"tags", tags},
+                     {"types", types}});
   }
 
   void general_links() {
     const Json all = {{"typification", "smart_volume"}};
     link("demands", {{"kind", "demand"}, {"from", kProgramme}, {"to", all}});
     link(kInsideLink, {{"kind", "inside_boundary"}, {"from", kSite}, {"to", all}, {"parameters", {{"margin", parts_.margin}}}});
+    if (parts_.is_standing) return;
     // Wishes to touch pull volumes together and down; these keep each of them a body of its own that stands on something.
     link("room", {{"kind", "make_room"}, {"from", kSolver}, {"to", all}});
     link("standing", {{"kind", "stand"}, {"from", kSolver}, {"to", all}});
@@ -191,12 +209,21 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (const WantedContact& contact : contacts)
     for (const std::size_t partner : contact.partners) neighbours.emplace_back(contact.hub, partner);
-  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes, on_ground);
+  // What stands is spread in plan: as volumes of one metre with the area of their footprint.
+  if (parts.is_standing)
+    for (std::size_t v = 0; v < volumes.size(); ++v) {
+      const double storey_height = parts.programme.rows[volumes[v].row].storey_height;
+      demands[v] = volumes[v].demand / (storey_height * storeys_for(parts, storey_height));
+      on_ground[v] = 1;
+    }
+  const double height = parts.is_standing ? 1 : parts.height;
+  const auto points = spread_points(parts.plan, 0, height, demands, parts.seed, neighbours, parts.holes, on_ground);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };
   for (std::size_t v = 0; v < volumes.size(); ++v)
-    volumes[v].position = {millimetres((*points)[v].x), millimetres((*points)[v].y), millimetres((*points)[v].z)};
+    volumes[v].position = {millimetres((*points)[v].x), millimetres((*points)[v].y),
+                           parts.is_standing ? 0 : millimetres((*points)[v].z)};
   Builder builder(parts, registry);
   builder.settings();
   builder.fixtures();

@@ -21,6 +21,7 @@ struct SceneParts {
   geometry::Ring plan;                ///< counter-clockwise
   std::vector<geometry::Ring> holes;  ///< clockwise
   double height = 0, margin = 0;      ///< [m]
+  bool is_standing = false;           ///< volumes stand in whole storeys; else they are cells cut to balls
   importing::ProgrammeImport programme;
   std::uint64_t seed = 1;
 };

@@ -33,6 +33,7 @@ class Maker {
     if (!takes_hull) parts.holes = made_.plan->holes;
     parts.height = o_.height;
     parts.margin = o_.margin;
+    parts.is_standing = o_.form == "standing";
     parts.programme = *programme;
     parts.seed = o_.seed;
     made_.plan_area = takes_hull ? hull.area : made_.plan->area;

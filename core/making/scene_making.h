@@ -13,6 +13,7 @@ namespace bl::making {
 
 struct NewOptions {
   std::string boundary, programme, out, feature, crs, title;
+  std::string form = "rounded";  ///< of the volumes: `rounded` or `standing`
   double height = 0;           ///< [m]
   double storey_height = 3.2;  ///< [m]
   double margin = 1;           ///< [m]

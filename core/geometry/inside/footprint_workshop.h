@@ -20,6 +20,7 @@ struct FootprintDiagram::Workshop {
   std::vector<FootprintMeasure> measures;
   std::vector<double> reaches;  // how far from its site each footprint can reach [m]
   std::vector<std::uint32_t> made, order;
+  std::vector<std::uint8_t> is_touched;  // since somebody has asked for the touched ones
   std::vector<std::uint8_t> is_covered;  // lies in the place of a heavier site
 
   void find_made(std::span<const StandingSite> now);

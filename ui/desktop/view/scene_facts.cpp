@@ -72,6 +72,10 @@ VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account, co
   const bool has_last = before != nullptr && before->cell && !before->is_ball && before->id == facts.id;
   if (!is_awaited) facts.cell = coarse_of(facts.figures.mesh);
   else if (has_last) facts.cell = before->cell;
+  // A body that comes without a wrapped cell, such as one that stands, is drawn as it is.
+  const MeshPointer& mesh = facts.figures.mesh;
+  if (!is_awaited && !facts.cell && mesh && !mesh->triangles.empty())
+    facts.cell = has_last && before->figures.mesh == mesh ? before->cell : as_cell(*mesh);
   const bool is_usable =
       facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
@@ -387,6 +391,22 @@ MeshPointer ball_cell(const Point3& centre, double radius) {
   MeshWrap wrap{centre, radius, {{24, centre, {}}}, std::vector<std::uint32_t>(mesh.vertices.size(), 0)};
   mesh.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
   return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+MeshPointer as_cell(const Mesh& mesh) {
+  Mesh cell{mesh.vertices, mesh.triangles, {}, {}};
+  Point3 low = cell.vertices.front(), high = low;
+  for (const Point3& v : cell.vertices) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  const Point3 centre = 0.5 * (low + high);
+  MeshWrap wrap{centre,
+                distance(low, high) + 1,
+                {{static_cast<std::uint32_t>(cell.triangles.size()), centre, {}}},
+                std::vector<std::uint32_t>(cell.vertices.size(), 0)};
+  cell.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
+  return std::make_shared<const Mesh>(std::move(cell));
 }
 
 std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& given) {

@@ -119,6 +119,8 @@ std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint3
 
 /// A coarse mesh around a ball, to be wrapped onto it: for volumes whose shape nobody has.
 MeshPointer ball_cell(const Point3& centre, double radius);
+/// A body as the renderer takes volumes: one part, wrapped onto a ball that is too large to cut anything. Not for an empty mesh.
+MeshPointer as_cell(const Mesh& mesh);
 /// Edges of a closed mesh where its faces meet at an angle [m].
 std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& mesh);
 

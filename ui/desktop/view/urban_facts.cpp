@@ -56,23 +56,6 @@ void add_routes(const State& state, const traffic::TripFlows& trips, UrbanFacts&
   }
 }
 
-// A body as the renderer takes volumes: one part, wrapped onto a ball that is too large to cut anything.
-MeshPointer as_cell(const Mesh& mesh) {
-  Mesh cell{mesh.vertices, mesh.triangles, {}, {}};
-  Point3 low = cell.vertices.front(), high = low;
-  for (const Point3& v : cell.vertices) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  const Point3 centre = 0.5 * (low + high);
-  MeshWrap wrap{centre,
-                distance(low, high) + 1,
-                {{static_cast<std::uint32_t>(cell.triangles.size()), centre, {}}},
-                std::vector<std::uint32_t>(cell.vertices.size(), 0)};
-  cell.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
-  return std::make_shared<const Mesh>(std::move(cell));
-}
-
 void add_body(const State& state, std::uint32_t node, const reading::BuildingFigures& read, const UrbanFacts* last,
               UrbanFacts& urban) {
   const MeshPointer& mesh = read.mesh;

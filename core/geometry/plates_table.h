@@ -1,0 +1,75 @@
+// The plates of a standing volume as rows of a table; works with any table of numbers and lists of numbers.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/plates.h"
+
+namespace bl::geometry {
+
+/// In the column `corners`: what is beyond a side.
+enum class PlateSide : int { free = 0, plot = 1, neighbour = 2 };
+
+/// One row for each ring: the stack that it belongs to, and of each corner x, y, the radius of the arc that begins there (0: a
+/// straight side) and what is beyond that side (PlateSide), one after the other.
+template <class Table>
+void write_body(const StandingBody& body, Table& table) {
+  table.columns = {"stack", "storeys", "bottom", "storey_height", "area", "courtyard", "corners"};
+  table.rows.clear();
+  for (std::size_t s = 0; s < body.stacks.size(); ++s) {
+    const PlateStack& stack = body.stacks[s];
+    const auto add = [&](const PlateRing& ring, double courtyard) {
+      std::vector<double> corners;
+      for (const PlateRing::Corner& c : ring.corners) {
+        const PlateSide side = c.beyond >= 0                  ? PlateSide::neighbour
+                               : c.beyond == PlateRing::kPlot ? PlateSide::plot
+                                                              : PlateSide::free;
+        corners.insert(corners.end(), {c.at.x, c.at.y, c.is_arc ? ring.radius : 0, static_cast<double>(side)});
+      }
+      auto& row = table.rows.emplace_back();
+      for (const double number :
+           {static_cast<double>(s), static_cast<double>(stack.storeys), stack.bottom, stack.storey_height, stack.area, courtyard})
+        row.emplace_back(number);
+      row.emplace_back(std::move(corners));
+    };
+    for (const PlateRing& ring : stack.outlines) add(ring, 0);
+    for (const PlateRing& ring : stack.courtyards) add(ring, 1);
+  }
+}
+
+/// The body of such rows about `centre`, from which arcs are drawn; sites beyond a side have the number 0.
+template <class Table>
+StandingBody read_body(const Table& table, const Point3& centre) {
+  StandingBody body;
+  body.centre = {centre.x, centre.y, 0};
+  double last = -1;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (const double number = table.number(row, "stack"); number != last) {
+      body.stacks.push_back({static_cast<int>(table.number(row, "storeys")),
+                             table.number(row, "bottom"),
+                             table.number(row, "storey_height"),
+                             table.number(row, "area"),
+                             {},
+                             {}});
+      last = number;
+    }
+    PlateRing ring;
+    const auto& numbers = *table.numbers(row, "corners");
+    for (std::size_t k = 0; k + 3 < numbers.size(); k += 4) {
+      const int side = static_cast<int>(numbers[k + 3]);
+      if (numbers[k + 2] > 0) ring.radius = numbers[k + 2];
+      ring.corners.push_back({{numbers[k], numbers[k + 1], 0},
+                              side == static_cast<int>(PlateSide::neighbour) ? 0
+                              : side == static_cast<int>(PlateSide::plot)    ? PlateRing::kPlot
+                                                                             : PlateRing::kFree,
+                              numbers[k + 2] > 0});
+    }
+    PlateStack& stack = body.stacks.back();
+    (table.number(row, "courtyard") > 0 ? stack.courtyards : stack.outlines).push_back(std::move(ring));
+  }
+  return body;
+}
+
+}  // namespace bl::geometry

@@ -1,0 +1,127 @@
+// How a SmartVolume stands: the form of its footprint, its storeys, set-backs and courtyard, and the plates that it got.
+#include "core/geometry/footprint.h"
+#include "core/define/registry.h"
+#include "core/define/typification_builder.h"
+
+namespace bl {
+
+namespace {
+
+struct Footprint {
+  using Form = geometry::FootprintForm;
+  struct In {
+    Form form = Form::block;
+    double angle = 0, aspect = 1;
+    int storeys = 4, storeys_min = 1;
+    double height_limit = 1e6, setback = 0, depth = 1000;
+    int full_storeys = 0;
+    bool has_party_walls = true;
+  };
+
+  struct Out {
+    int storeys_built = 0;
+    bool is_limited = false;
+    double facade_area = 0, roof_area = 0;
+    Table plates;
+  };
+
+  static void declare(TypificationBuilder<Footprint>& t) {
+    t.id("footprint").label("Footprint");
+    t.column(CanvasColumn::field).icon(Icon::cube);
+    t.doc(
+        "Lets a SmartVolume stand: whole storeys on a footprint, the part of the plot that its cell and its form leave it. A "
+        "solver "
+        "of standing volumes adapts its weight until the floor area of all storeys is what the volume wants.");
+    declare_form(t);
+    declare_storeys(t);
+    declare_results(t);
+  }
+
+  static void declare_form(TypificationBuilder<Footprint>& t) {
+    t.in(&In::form, "form",
+         {{Form::round, "round", "A disc about the position."},
+          {Form::block, "block", "A rectangle about the position."},
+          {Form::cell, "cell", "All that the neighbours and the plot leave: walls everywhere."}})
+        .doc("What bounds the footprint besides its neighbours and the plot.");
+    t.in(&In::angle, "angle")
+        .unit(Unit::degree)
+        .range(-360, 360)
+        .soft(0, 180)
+        .combine(CombineRule::blend)
+        .doc("Direction of a block's first side, counter-clockwise from east.");
+    t.in(&In::aspect, "aspect")
+        .unit(Unit::ratio)
+        .range(0.05, 20)
+        .soft(0.25, 4)
+        .combine(CombineRule::blend)
+        .doc("Length of a block's first side divided by that of its second.");
+    t.in(&In::depth, "depth")
+        .unit(Unit::metre)
+        .range(3, 1000)
+        .soft(8, 40)
+        .combine(CombineRule::min)
+        .doc("Greatest depth of the building. What lies deeper inside is a courtyard.");
+    t.in(&In::has_party_walls, "party_walls").doc("Set-backs do not hold towards neighbours: their walls touch in all storeys.");
+  }
+
+  static void declare_storeys(TypificationBuilder<Footprint>& t) {
+    t.in(&In::storeys, "storeys")
+        .unit(Unit::count)
+        .range(1, 500)
+        .soft(1, 20)
+        .doc("Number of storeys that is wished. The height limit and the boundary may leave fewer.");
+    t.in(&In::storeys_min, "storeys_min")
+        .unit(Unit::count)
+        .range(1, 500)
+        .soft(1, 10)
+        .doc("Number of storeys that no height limit goes below.");
+    t.in(&In::height_limit, "height_limit")
+        .unit(Unit::metre)
+        .range(0, 1e6)
+        .soft(0, 100)
+        .combine(CombineRule::min)
+        .doc(
+            "Greatest height above the ground. Links that set limits propose here. A storey that it has taken away comes back "
+            "when "
+            "the limit leaves room for 1.15 storeys.");
+    t.in(&In::setback, "setback")
+        .unit(Unit::metre)
+        .range(0, 100)
+        .soft(0, 5)
+        .doc("How far the upper storeys lie behind the edge of the footprint.");
+    t.in(&In::full_storeys, "full_storeys")
+        .unit(Unit::count)
+        .range(0, 500)
+        .soft(0, 10)
+        .doc("Number of storeys from the ground up that do not set back.");
+  }
+
+  static void declare_results(TypificationBuilder<Footprint>& t) {
+    t.out(&Out::storeys_built, "storeys_built").shown_first().unit(Unit::count).doc("Number of storeys that the volume has.");
+    t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
+    t.out(&Out::facade_area, "facade_area")
+        .unit(Unit::square_metre)
+        .doc("Area of all walls, towards courtyards and neighbours too.");
+    t.out(&Out::roof_area, "roof_area").unit(Unit::square_metre).doc("Area of all roofs, terraces included.");
+    t.out(&Out::plates, "plates")
+        .column({.id = "stack", .doc = "Number of the stack of equal storeys, from the ground up."})
+        .column({.id = "storeys", .unit = Unit::count, .doc = "Number of storeys in the stack."})
+        .column({.id = "bottom", .unit = Unit::metre, .doc = "Height of its lowest floor."})
+        .column({.id = "storey_height", .unit = Unit::metre, .doc = "Height from floor to floor."})
+        .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of one of its plates."})
+        .column({.id = "courtyard", .doc = "1 where the ring bounds a courtyard, 0 where it bounds the plate."})
+        .column({.id = "corners",
+                 .list = ListOf::numbers,
+                 .default_value = Numbers(),
+                 .doc =
+                     "Of each corner: x and y [m], the radius of the arc that begins there or 0, and what is beyond: 0 nothing, "
+                     "1 the border of the plot, 2 a neighbour."})
+        .doc("The plates: one row for each ring of each stack.");
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_TYPIFICATION(footprint, Footprint)

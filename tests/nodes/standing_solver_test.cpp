@@ -1,0 +1,100 @@
+// The solver of standing volumes: floor areas met on one ground, limits that come and go, and demands that cannot be met.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/base/text.h"
+#include "core/geometry/standing_tick.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+// `count` volumes at random places of a plot of 120 m by 90 m, whose plates need `share` of it.
+std::string crowd(int count, double share, std::uint64_t seed, const std::string& solver = "") {
+  Random random(seed);
+  std::string text = R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[120,0,0],[120,90,0],[0,90,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {)" +
+                     solver + "}}}";
+  const char* forms[] = {"round", "block"};
+  for (int i = 0; i < count; ++i) {
+    const int storeys = 2 + static_cast<int>(random.uniform(0, 6));
+    const double plate = random.uniform(0.5, 1.5) * share * 120 * 90 / count;
+    text += R"(,{"id": "v)" + std::to_string(100 + i) + R"(", "position": [)" + shortest(random.uniform(5, 115)) + "," +
+            shortest(random.uniform(5, 85)) + R"(, 0], "types": {"smart_volume": {"storey_height": 3, "demand": )" +
+            shortest(3 * storeys * plate) + R"(}, "footprint": {"form": ")" + forms[i % 2] + R"(", "storeys": )" +
+            std::to_string(storeys) + R"(, "full_storeys": 1, "setback": )" + (i % 3 == 0 ? "1" : "0") + "}}}";
+  }
+  return text + "]}";
+}
+
+TEST(StandingSolver, MeetsFloorAreasOfACrowd) {
+  World world = World::from_text(crowd(40, 0.5, 7, R"("tolerance": 1e-7)"));
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.node_error("solver", "standing_solver"), "");
+  EXPECT_EQ(world.text("solver", "standing_solver.message"), "");
+  EXPECT_EQ(world.number("solver", "standing_solver.count"), 40);
+  EXPECT_LE(world.number("solver", "standing_solver.largest_error"), 1e-7);
+  double floor = 0, covered = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::string id = "v" + std::to_string(100 + i);
+    EXPECT_NEAR(world.number(id, "smart_volume.floor_area") * 3, world.number(id, "smart_volume.demand"), 1e-2) << id;
+    EXPECT_EQ(world.number(id, "smart_volume.bottom"), 0);
+    EXPECT_EQ(world.text(id, "smart_volume.stands_on"), "the ground");
+    floor += world.number(id, "smart_volume.floor_area");
+    covered += world.number(id, "smart_volume.footprint");
+  }
+  EXPECT_NEAR(world.number("solver", "standing_solver.plot_area"), 10800, 1e-6);
+  EXPECT_NEAR(world.number("solver", "standing_solver.fsi"), floor / 10800, 1e-9);
+  EXPECT_NEAR(world.number("solver", "standing_solver.gsi"), covered / 10800, 1e-9);
+  EXPECT_NEAR(world.number("solver", "standing_solver.osr"), (10800 - covered) / floor, 1e-9);
+}
+
+// A tick is a function of the state: a scene that was saved on its way goes on with the same bits.
+TEST(StandingSolver, ASavedStateGoesOnAlike) {
+  World first = World::from_text(crowd(20, 0.6, 3, R"("tolerance": 1e-9, "steps": 1)"));
+  first.tick(2);
+  World second = World::from_text(crowd(20, 0.6, 3, R"("tolerance": 1e-9, "steps": 1)"), 3);
+  second.tick(5);
+  first.tick(3);
+  EXPECT_EQ(first.state().hash(), second.state().hash());
+}
+
+TEST(StandingSolver, TooMuchIsScaledAndSaid) {
+  World world = World::from_text(crowd(12, 1.4, 5));
+  world.settle();
+  EXPECT_NE(world.text("solver", "standing_solver.message").find("cannot be met together"), std::string::npos)
+      << world.text("solver", "standing_solver.message");
+  EXPECT_LE(world.number("solver", "standing_solver.gsi"), 1);
+}
+
+TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
+  geometry::StandingWish wish;
+  wish.site.storey_height = 3;
+  wish.storeys = 6;
+  int changes = 0, last = 0;
+  for (int k = 0; k < 40; ++k) {
+    wish.height_limit = 15 + 0.2 * std::sin(k);
+    const geometry::Storeys now = geometry::storeys_of(wish, 100);
+    changes += last != 0 && now.count != last ? 1 : 0;
+    last = wish.built = now.count;
+    wish.was_limited = now.is_limited;
+  }
+  EXPECT_LE(changes, 1);
+  EXPECT_EQ(last, 4);
+  wish.height_limit = 15.5;
+  EXPECT_EQ(geometry::storeys_of(wish, 100).count, 5);
+}
+
+TEST(StandingSolver, WithoutABoundaryItSaysSo) {
+  World world = World::from_text(
+      R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [{"id": "solver", "types": {"standing_solver": {}}}]})");
+  world.tick();
+  EXPECT_EQ(world.node_error("solver", "standing_solver"),
+            "boundary: a boundary is needed and none was found: add one, or choose one here");
+}
+
+}  // namespace
+}  // namespace bl
