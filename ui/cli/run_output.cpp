@@ -7,6 +7,9 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/geometry/plates_table.h"
+#include "core/reading/views/solver.h"
+#include "core/reading/views/volume.h"
 #include "core/report/figure_tables.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/terminal.h"
@@ -156,6 +159,32 @@ Json volume_json(const reading::VolumeRow& row, const std::string& why_short) {
           {"reason", row.figures.reason}};
 }
 
+// How it stands; nothing of a volume that does not.
+void add_footprint(const State& state, Json& volume) {
+  const auto found = reading::row_of<reading::FootprintFigures>(state, state.plan->node_index(volume["id"].get<std::string>()));
+  volume["form"] = found ? found->form : "rounded";
+  if (!found) return;
+  volume["storeys"] = found->storeys_built;
+  Json plates = Json::array();
+  for (const geometry::PlateStack& stack : geometry::read_body(found->plates, {}).stacks)
+    for (int storey = 0; storey < stack.storeys; ++storey)
+      plates.push_back({{"bottom", stack.bottom + storey * stack.storey_height}, {"area", stack.area}, {"use", volume["use"]}});
+  volume["plates"] = std::move(plates);
+}
+
+// The ground of each solver of standing volumes, under the id of the solver.
+Json plots_json(const State& state) {
+  Json plots = Json::array();
+  for (const auto& [node, figures] : reading::rows<reading::StandingFigures>(state))
+    plots.push_back({{"id", state.plan->nodes[node].id},
+                     {"fsi", figures.fsi},
+                     {"gsi", figures.gsi},
+                     {"osr", figures.osr},
+                     {"storeys", figures.mean_storeys},
+                     {"land", figures.plot_area}});
+  return plots;
+}
+
 Json use_json(const reading::UseRow& row) {
   const reading::UseAccount& use = row.account;
   return {{"use", use.use},
@@ -211,7 +240,7 @@ Json survey_json(const reading::Survey& survey, const State& state, const std::s
   json["largest_move"] = state.largest_move;
   json["volumes"] = Json::array();
   for (std::size_t k = 0; k < survey.volumes.size(); ++k)
-    json["volumes"].push_back(volume_json(survey.volumes[k], survey.why_volumes_short[k]));
+    add_footprint(state, json["volumes"].emplace_back(volume_json(survey.volumes[k], survey.why_volumes_short[k])));
   Json& totals = json["totals"] = use_json(survey.all);
   totals.erase("use");
   totals["uses"] = Json::array();
@@ -231,6 +260,8 @@ Json survey_json(const reading::Survey& survey, const State& state, const std::s
   // Streets, sun, plots, surroundings: whatever the scene has of them.
   const Json figures = report::figure_json(state);
   for (const auto& [name, rows] : figures.items()) json[name] = rows;
+  // Ground that volumes stand on has figures of a plot, whether or not a plot with rules lies there.
+  for (Json& plot : plots_json(state)) json["plots"].push_back(std::move(plot));
   json["problems"] = Json::array();
   for (const Error& problem : survey.problems)
     json["problems"].push_back(

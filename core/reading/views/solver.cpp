@@ -14,6 +14,17 @@ void SolverFigures::declare(ViewBuilder<SolverFigures>& v) {
 }
 BL_VIEW(SolverFigures)
 
+void StandingFigures::declare(ViewBuilder<StandingFigures>& v) {
+  v.of("standing_solver");
+  v.reads(&StandingFigures::plot_area, "standing_solver.plot_area", Unit::square_metre);
+  v.reads(&StandingFigures::fsi, "standing_solver.fsi", Unit::ratio);
+  v.reads(&StandingFigures::gsi, "standing_solver.gsi", Unit::ratio);
+  v.reads(&StandingFigures::osr, "standing_solver.osr", Unit::ratio);
+  v.reads(&StandingFigures::mean_storeys, "standing_solver.mean_storeys");
+  v.reads(&StandingFigures::message, "standing_solver.message");
+}
+BL_VIEW(StandingFigures)
+
 void BoundarySettings::declare(ViewBuilder<BoundarySettings>& v) {
   v.of("boundary");
   v.reads(&BoundarySettings::form, "boundary.form");
@@ -34,6 +45,6 @@ void BoundaryFigures::declare(ViewBuilder<BoundaryFigures>& v) {
 }
 BL_VIEW(BoundaryFigures)
 
-BL_VIEWS(solver, SolverFigures, BoundarySettings, BoundaryFigures)
+BL_VIEWS(solver, SolverFigures, StandingFigures, BoundarySettings, BoundaryFigures)
 
 }  // namespace bl::reading

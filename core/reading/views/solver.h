@@ -18,6 +18,16 @@ struct SolverFigures {
   static const ViewDefinition& view();
 };
 
+/// What a solver of standing volumes has made of the ground.
+struct StandingFigures {
+  double plot_area = 0;                                ///< [m²]
+  double fsi = 0, gsi = 0, osr = 0, mean_storeys = 0;  ///< as the solver documents them
+  std::string message;                                 ///< what cannot be had
+
+  static void declare(ViewBuilder<StandingFigures>& v);
+  static const ViewDefinition& view();
+};
+
 /// What people have said of the space that volumes may take.
 struct BoundarySettings {
   std::string form;              ///< which of the following counts

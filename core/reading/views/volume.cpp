@@ -34,6 +34,15 @@ void VolumeFigures::declare(ViewBuilder<VolumeFigures>& v) {
 }
 BL_VIEW(VolumeFigures)
 
+void FootprintFigures::declare(ViewBuilder<FootprintFigures>& v) {
+  v.of("footprint");
+  v.reads(&FootprintFigures::form, "footprint.form");
+  v.reads(&FootprintFigures::storeys, "footprint.storeys");
+  v.reads(&FootprintFigures::storeys_built, "footprint.storeys_built");
+  v.reads(&FootprintFigures::plates, "footprint.plates");
+}
+BL_VIEW(FootprintFigures)
+
 void VolumePlace::declare(ViewBuilder<VolumePlace>& v) {
   v.of("smart_volume");
   v.reads(&VolumePlace::position, "node.position", Unit::metre);
@@ -48,6 +57,6 @@ void StandParameters::declare(ViewBuilder<StandParameters>& v) {
 }
 BL_VIEW(StandParameters)
 
-BL_VIEWS(volume, VolumeFigures, VolumePlace, StandParameters)
+BL_VIEWS(volume, VolumeFigures, FootprintFigures, VolumePlace, StandParameters)
 
 }  // namespace bl::reading

@@ -39,6 +39,16 @@ struct VolumeFigures {
   static const ViewDefinition& view();
 };
 
+/// How a volume stands, where it has that role.
+struct FootprintFigures {
+  std::string form;
+  std::int64_t storeys = 0, storeys_built = 0;
+  Table plates;  ///< see core/geometry/plates_table.h
+
+  static void declare(ViewBuilder<FootprintFigures>& v);
+  static const ViewDefinition& view();
+};
+
 /// Where a volume is and how it stands, for readers of nothing else.
 struct VolumePlace {
   Point3 position;    ///< [m]
