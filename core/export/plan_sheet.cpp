@@ -144,6 +144,9 @@ class SheetMaker {
         if (const Storey* storey = passing(b, cut)) {
           passed.shapes.push_back(shape_of(storey->faces, b.label));
           passed.shapes.back().stroke = kGrey;
+          passed.shapes.back().is_filled = true;
+          passed.shapes.back().fill = drawing::mix(b.colour, drawing::kWhite, 0.7);
+          if (options_.labels) add_label(b, *storey, labels, false);
         }
         continue;
       }
@@ -163,12 +166,13 @@ class SheetMaker {
   }
 
   // In a size that fits into the plate, as far as it can be read; else the area alone; else nothing: the schedule has it.
-  void add_label(const Building& b, const Storey& storey, SheetGroup& labels) const {
+  void add_label(const Building& b, const Storey& storey, SheetGroup& labels, bool with_area = true) const {
     double low = 1e20, high = -1e20;
     for (const geometry::PlateFace& face : storey.faces)
       for (const Point3& p : face.outer) low = std::min(low, p.x), high = std::max(high, p.x);
     const double room = millimetres() * (high - low) * 0.9;
-    const std::string area = fixed(storey.floor_area, 0) + " m²";
+    // The area of a storey stands on one sheet only: where it is drawn in full.
+    const std::string area = with_area ? fixed(storey.floor_area, 0) + " m²" : "(storey " + std::to_string(storey.number) + ")";
     const SheetPoint middle = at(middle_of(storey.faces));
     const auto width = [](const std::string& words) { return 0.55 * static_cast<double>(words.size()); };  // at a size of 1 mm
     const double size = std::min(2.5, room / std::max(width(b.label), width(area)));

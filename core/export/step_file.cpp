@@ -56,7 +56,7 @@ std::string StepFile::add(std::string_view entity, std::initializer_list<std::st
 }
 
 std::string StepFile::str(const std::string& description, const std::string& name, const std::string& schema) const {
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [ReferenceView_V1.2]'," + step_text(description) +
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]'," + step_text(description) +
          "),'2;1');\nFILE_NAME(" + step_text(name) +
          ",'1970-01-01T00:00:00',(''),(''),'BehaviourLinks','BehaviourLinks','');\nFILE_SCHEMA((" + step_text(schema) +
          "));\nENDSEC;\nDATA;\n" + body_ + "ENDSEC;\nEND-ISO-10303-21;\n";

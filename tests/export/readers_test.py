@@ -34,6 +34,11 @@ def run(*arguments):
     return subprocess.run(arguments, capture_output=True, text=True, timeout=600)
 
 
+def text_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return file.read()
+
+
 def area(points):
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:] + points[:1])) / 2
 
@@ -42,12 +47,13 @@ class Export(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
-        scene = json.load(open(SCENE))
+        scene = json.loads(text_of(SCENE))
         # A place on Earth, for the formats that need one.
         scene["settings"].update({"coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
                                   "latitude": 51.9949, "longitude": 4.3716})
         cls.scene = os.path.join(cls.folder, "placed.json")
-        json.dump(scene, open(cls.scene, "w"))
+        with open(cls.scene, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
         cls.plans = os.path.join(cls.folder, "plans/")
         pairs = {"csv": "a.csv", "geojson": "a.geojson", "obj": "a.obj", "stl": "a.stl", "glb": "a.glb", "3mf": "a.3mf",
                  "dxf": "a.dxf", "svg": "plans/", "xlsx": "a.xlsx", "pdf": "a.pdf", "cityjson": "a.city.json", "ifc": "a.ifc"}
@@ -58,7 +64,7 @@ class Export(unittest.TestCase):
                 arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
         done = run(*arguments)
         assert done.returncode == 0, done.stdout + done.stderr
-        cls.rows = list(csv.DictReader(open(cls.path("a.csv"), newline="")))
+        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
         cls.storeys = [row for row in cls.rows if row["row"] == "storey"]
         cls.buildings = [row for row in cls.rows if row["row"] == "building"]
 
@@ -89,7 +95,7 @@ class Export(unittest.TestCase):
         self.assertTrue(all(row["hash"] == self.rows[0]["hash"] and row["tick"] for row in self.rows))
 
     def test_geojson_orientation_and_identity(self):
-        document = json.load(open(self.path("a.geojson")))
+        document = json.loads(text_of(self.path("a.geojson")))
         self.assertEqual(document["scene"]["hash"], self.rows[0]["hash"])
         buildings = [f for f in document["features"] if f["properties"]["kind"] == "building"]
         self.assertEqual(len(buildings), len(self.buildings))
@@ -111,7 +117,7 @@ class Export(unittest.TestCase):
                    back, self.path("a.geojson"))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Feature Count", run("ogrinfo", "-so", "-al", self.path("a.geojson")).stdout)
-        for feature in json.load(open(back))["features"]:
+        for feature in json.loads(text_of(back))["features"]:
             if feature["properties"]["kind"] != "building":
                 continue
             shape = feature["geometry"]
@@ -122,9 +128,10 @@ class Export(unittest.TestCase):
             self.near(found, feature["properties"]["drawn_area_m2"], 1e-6)
 
     def test_obj_and_glb_hold_the_same_bodies(self):
-        names = [line[2:].strip() for line in open(self.path("a.obj")) if line.startswith("o ")]
+        names = [line[2:].strip() for line in text_of(self.path("a.obj")).splitlines() if line.startswith("o ")]
         self.assertEqual(len(names), len(self.buildings))
-        data = open(self.path("a.glb"), "rb").read()
+        with open(self.path("a.glb"), "rb") as file:
+            data = file.read()
         magic, version, length, size, kind = struct.unpack("<4sIII4s", data[:20])
         self.assertEqual((magic, version, length, kind), (b"glTF", 2, len(data), b"JSON"))
         document = json.loads(data[20:20 + size])
@@ -158,10 +165,10 @@ class Export(unittest.TestCase):
         return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
 
     def test_3mf_objects_are_closed(self):
-        package = zipfile.ZipFile(self.path("a.3mf"))
-        self.assertIsNone(package.testzip())
         space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-        model = xml.fromstring(package.read("3D/3dmodel.model"))
+        with zipfile.ZipFile(self.path("a.3mf")) as package:
+            self.assertIsNone(package.testzip())
+            model = xml.fromstring(package.read("3D/3dmodel.model"))
         self.assertEqual(model.get("unit"), "millimeter")
         objects = list(model.iter(space + "object"))
         self.assertEqual(len(objects), len(self.buildings))
@@ -181,14 +188,91 @@ class Export(unittest.TestCase):
 
     @needs("admesh")
     def test_stl_is_sound(self):
-        binary = self.path("binary.stl")
-        done = run(PROGRAM, "export", self.scene, "--settle", "--format", "stl", "--out", binary, "--option", "layout=binary")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        # As the shapes are: nothing is fixed, only looked at.
-        text = run("admesh", "--no-check", "--exact", "-c", binary).stdout
-        self.assertRegex(run("admesh", "-x", binary).stdout, r"Edges fixed\s*:\s*0")
-        self.assertTrue(text)
-        self.assertEqual(sum(line.startswith("solid ") for line in open(self.path("a.stl"))), len(self.buildings))
+        text = run("admesh", self.path("a.stl")).stdout
+        for word in ("Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges"):
+            self.assertRegex(text, word + r"\s*:\s*0\b")
+        self.assertRegex(text, r"Total disconnected facets\s*:\s*0\s+0")
+        self.assertRegex(text, r"Number of parts\s*:\s*%d\b" % len(self.buildings))
+        # Millimetres at 1:500.
+        volume = float(re.search(r"Volume\s*:\s*([\d.]+)", text).group(1)) / 8
+        self.near(volume, self.mesh_volume_of_3mf() / 8, 1e-5)
+
+    def mesh_volume_of_3mf(self):
+        space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+        with zipfile.ZipFile(self.path("a.3mf")) as package:
+            model = xml.fromstring(package.read("3D/3dmodel.model"))
+        volume = 0.0
+        for one in model.iter(space + "object"):
+            points = [tuple(float(v.get(k)) for k in "xyz") for v in one.iter(space + "vertex")]
+            for t in one.iter(space + "triangle"):
+                volume += self.six_volumes(*(points[int(t.get(k))] for k in ("v1", "v2", "v3"))) / 6
+        return volume
+
+    def shells_of(self, document, solid):
+        scale, move = document["transform"]["scale"], document["transform"]["translate"]
+        places = [[v[k] * scale[k] for k in range(3)] for v in document["vertices"]]
+        for shell in solid:
+            yield [[[places[i] for i in ring] for ring in surface] for surface in shell], shell
+
+    def test_cityjson_solids_are_closed(self):
+        document = json.loads(text_of(self.path("a.city.json")))
+        self.assertEqual((document["type"], document["version"]), ("CityJSON", "2.0"))
+        self.assertEqual(document["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/28992")
+        self.assertEqual(document["transform"]["translate"][:2], [85000, 446000])
+        proposed = {name: one for name, one in document["CityObjects"].items() if name.startswith("building/")}
+        self.assertEqual(len(proposed), len(self.buildings))
+        for one in proposed.values():
+            self.assertEqual([g["lod"] for g in one["geometry"]], ["1.2", "2.2"])
+            for geometry in one["geometry"]:
+                solids = geometry["boundaries"] if geometry["type"] == "MultiSolid" else [geometry["boundaries"]]
+                volume = 0.0
+                for solid in solids:
+                    for surfaces, shell in self.shells_of(document, solid):
+                        sides = [(a, b) for surface in shell for ring in surface for a, b in zip(ring, ring[1:] + ring[:1])]
+                        self.assertEqual(len(sides), len(set(sides)))
+                        self.assertTrue(all((b, a) in set(sides) for a, b in sides) if len(sides) < 500 else
+                                        set((b, a) for a, b in sides) == set(sides))
+                        for surface in surfaces:
+                            for ring in surface:
+                                volume += sum(self.six_volumes(ring[0], a, b) for a, b in zip(ring[1:], ring[2:])) / 6
+                if geometry["lod"] == "2.2":
+                    self.assertGreater(volume, 0.8 * one["attributes"]["volume_m3"])
+                    self.assertLess(volume, 1.0001 * one["attributes"]["volume_m3"])
+                    kinds = [k["type"] for k in geometry["semantics"]["surfaces"]]
+                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface"])
+
+    def test_cityjson_is_read_back(self):
+        back = self.path("back.json")
+        done = run(PROGRAM, "import", self.path("a.city.json"), "--into", self.scene, "--out", back)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        count = sum("existing_building" in node.get("types", {}) for node in json.loads(text_of(back))["nodes"])
+        self.assertEqual(count, len(self.buildings))
+
+    def test_ifc_entities_and_quantities(self):
+        lines = text_of(self.path("a.ifc")).splitlines()
+        entities = {}
+        for line in lines:
+            found = re.match(r"(#\d+)=([A-Z0-9]+)\((.*)\);$", line)
+            if found:
+                self.assertNotIn(found.group(1), entities)
+                entities[found.group(1)] = found.groups()[1:]
+        count = lambda kind: sum(one[0] == kind for one in entities.values())
+        self.assertEqual(count("IFCBUILDING"), len(self.buildings))
+        self.assertEqual(count("IFCSPACE"), len(self.storeys))
+        self.assertEqual(count("IFCBUILDINGSTOREY"), len(self.storeys))
+        self.assertEqual((count("IFCPROJECT"), count("IFCSITE"), count("IFCMAPCONVERSION")), (1, 1, 1))
+        # Whatever is named is there, and before it is named.
+        for name, (kind, arguments) in entities.items():
+            for other in re.findall(r"#\d+", re.sub(r"'(?:[^']|'')*'", "", arguments)):
+                self.assertLess(int(other[1:]), int(name[1:]))
+        names = [re.match(r"'([0-9A-Za-z_$]{22})'", one[1]).group(1) for one in entities.values() if one[1].startswith("'") and
+                 re.match(r"'[0-9A-Za-z_$]{22}',\$", one[1])]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 3 * len(self.storeys))
+        areas = sum(float(one[1].split(",")[3]) for one in entities.values()
+                    if one[0] == "IFCQUANTITYAREA" and one[1].startswith("'GrossFloorArea'"))
+        # Those of the spaces, and those of the buildings.
+        self.near(areas, 2 * math.fsum(self.number(b, "floor_area [m2]") for b in self.buildings), 1e-9)
 
     @needs_module("ezdxf")
     def test_dxf_audit_and_areas(self):

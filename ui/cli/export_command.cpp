@@ -50,8 +50,8 @@ Result<std::vector<Order>> orders_of(const ExportOptions& options) {
   std::vector<std::string> ids;
   for (const auto& format : exporting::all_formats()) ids.push_back(format.id);
   if (options.formats.size() != options.outs.size())
-    return bad("", "there are " + counted(options.formats.size(), "--format") + " and " + counted(options.outs.size(), "--out") +
-                       ": give one pair for each file");
+    return bad("", "--format is given " + counted(options.formats.size(), "time") + ", --out " +
+                       counted(options.outs.size(), "time") + ": give one pair for each file");
   std::vector<Order> orders;
   std::vector<const exporting::FormatDefinition*> formats;
   for (std::size_t k = 0; k < options.formats.size(); ++k) {

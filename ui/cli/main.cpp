@@ -156,7 +156,7 @@ void declare_minutes(CLI::App& app, MinutesOptions& o) {
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
-  CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
+  CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds, commands and export formats, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
   d.add_option("--from", docs.from, "Includes the link kinds of this scene's scripts, or of this link script (.lua).")

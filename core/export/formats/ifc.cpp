@@ -30,7 +30,8 @@ struct IfcFormat {
         "of "
         "a space is a classification. A rounded volume is given as the plates that it is measured by. Identifiers follow from "
         "those of the scene, so that they are the same in every export.");
-    f.ending(".ifc").begins("ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [ReferenceView_V1.2]','BehaviourLinks");
+    f.ending(".ifc").begins(
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]','BehaviourLinks");
     f.option(&Options::slabs, "slabs").doc("With a slab under each space.");
     f.option(&Options::slab_thickness, "slab_thickness").unit(Unit::metre).range(0.01, 5).doc("Thickness of the slabs.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");

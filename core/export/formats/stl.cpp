@@ -15,20 +15,23 @@ enum class StlLayout { text, binary };
 struct StlFormat {
   struct Options {
     double scale = 500;
-    StlLayout layout = StlLayout::text;
+    StlLayout layout = StlLayout::binary;
     bool surroundings = false;
   };
 
   static void declare(FormatBuilder<StlFormat>& f) {
     f.id("stl").label("Model for printers (STL)");
     f.doc(
-        "Closed meshes in millimetres at a model scale, with the lowest corner at the origin. As text each building is a solid "
-        "with its name; the binary layout is smaller and has one solid without names.");
+        "Closed meshes in millimetres at a model scale, with the lowest corner at the origin. A file has all buildings in one "
+        "body of "
+        "triangles, a folder gets a file for each building, named by its id. As text each building is a solid with its name, "
+        "which "
+        "not every program reads.");
     f.ending(".stl").begins("solid ").begins("BehaviourLinks binary");
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::layout, "layout",
-             {{StlLayout::text, "text", "Named solids, one for each building."},
-              {StlLayout::binary, "binary", "A fifth of the size; names are lost."}})
+             {{StlLayout::binary, "binary", "Small, and read by all programs; it has no names."},
+              {StlLayout::text, "text", "Named solids, one for each building."}})
         .doc("How triangles are written.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
   }
@@ -90,13 +93,22 @@ struct StlFormat {
     return out;
   }
 
-  static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
     const std::vector<Solid> solids = solids_of(proposal, options.surroundings);
+    // All files of a folder lie in one frame, so that they fit together.
     const ModelScale scale(solids, options.scale);
     const std::string note = "1:" + shortest(options.scale) + ", mm; " + identity_line(proposal);
-    return ExportFiles{
-        {{"model.stl", options.layout == StlLayout::text ? as_text(solids, scale, note) : as_binary(solids, scale, proposal)}},
-        {}};
+    ExportFiles made;
+    const auto add = [&](const std::string& name, const std::vector<Solid>& part) {
+      made.files.push_back(
+          {name, options.layout == StlLayout::text ? as_text(part, scale, note) : as_binary(part, scale, proposal)});
+    };
+    if (!is_folder) add("model.stl", solids);
+    std::size_t existing = 0;
+    for (std::size_t k = 0; is_folder && k < solids.size(); ++k)
+      add(solids[k].building != nullptr ? solids[k].building->id + ".stl" : "existing_" + std::to_string(++existing) + ".stl",
+          {solids[k]});
+    return made;
   }
 };
 

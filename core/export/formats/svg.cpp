@@ -22,7 +22,7 @@ struct SvgFormat {
         "Plans on paper in millimetres: title, legend, scale bar, north, dimensions; a group for each use. A folder gets one "
         "file "
         "for each level, a file gets one level. Levels are as high as the lowest storey of the proposal; a building is drawn "
-        "filled where one of its storeys belongs to the level, and as a line where a higher storey passes through.");
+        "in full where one of its storeys belongs to the level, and pale where a higher storey passes through.");
     f.ending(".svg").begins("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- BehaviourLinks");
     f.option(&Options::level, "level").range(0, 10000).doc("Which level a single file shows, from 0.");
     declare_sheet_options(f);

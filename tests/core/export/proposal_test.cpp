@@ -22,7 +22,7 @@ World settled_world() {
     "settings": {"title": "Two houses", "coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
                  "latitude": 51.99, "longitude": 4.37},
     "nodes": [
-      {"id": "site", "types": {"boundary": {"plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
       {"id": "solver", "types": {"smart_volumes_solver": {}}},
       {"id": "east", "position": [9, 0, 8], "types": {"smart_volume": {"demand": 3000, "use": "housing"}}},
       {"id": "west", "position": [-6, 0, 8], "types": {"smart_volume": {"demand": 2000, "use": "shops"}}}]})");
