@@ -38,6 +38,7 @@ struct Building {
   std::vector<Storey> storeys;               ///< from the ground up; the sum of their floor areas is `floor_area`
   std::vector<geometry::PlateFace> outline;  ///< of its lowest storey where it stands, else as seen from above
   std::shared_ptr<const Mesh> mesh;          ///< closed; never empty
+  std::string why_shapeless;                 ///< of a volume without a shape: the reason
 };
 
 /// A plot with its indices, or the boundary that volumes stay in.
@@ -80,9 +81,9 @@ struct Proposal {
   std::string hash;  ///< of the state
   std::int64_t tick = 0;
   bool is_settled = false;
-  importing::GeoReference reference;   ///< of the local frame; `crs` is empty where the scene says nothing
-  std::vector<Building> buildings;     ///< ascending id
-  std::vector<std::string> shapeless;  ///< labels of volumes without a shape, with the reason
+  importing::GeoReference reference;  ///< of the local frame; `crs` is empty where the scene says nothing
+  std::vector<Building> buildings;    ///< ascending id
+  std::vector<Building> shapeless;    ///< volumes without a shape: they have figures, but neither storeys nor a mesh
   std::vector<Land> lands;
   std::vector<Neighbour> neighbours;
   std::vector<Street> streets;

@@ -52,6 +52,18 @@ void stand(const geometry::StandingBody& body, Building& building) {
   if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
 }
 
+// Rounded volumes are convex, or of convex parts where the boundary is not: each is seen as its hull.
+std::vector<PlateFace> seen_from_above(const reading::VolumeRow& volume) {
+  std::vector<Ring> rings;
+  if (volume.exact.radius > 0) rings.push_back(geometry::hull_of_plan(reading::outline_of(volume.exact, {0, 0, -1})));
+  else
+    for (const Mesh& body : geometry::bodies_of(*volume.mesh)) rings.push_back(geometry::hull_of_plan(body.vertices));
+  std::vector<PlateFace> faces;
+  for (Ring& ring : rings)
+    if (ring.size() >= 3) faces.push_back({std::move(ring), {}});
+  return faces;
+}
+
 // The solver measures a rounded volume at the middle of each storey above its lowest point, at least once.
 void cut(const reading::VolumeRow& volume, Building& building) {
   const double height = volume.figures.height, storey = building.storey_height;
@@ -70,18 +82,10 @@ void cut(const reading::VolumeRow& volume, Building& building) {
   // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
   for (Storey& made : building.storeys) made.floor_area = building.floor_area * area_of(made.faces) / drawn;
   building.mesh = std::make_shared<const Mesh>(*volume.mesh);
-  building.outline = faces_of_rings(rings_of(geometry::seen_from_above(*volume.mesh)));
-}
-
-std::string reason_of(const reading::VolumeRow& volume) {
-  return volume.figures.reason.empty() ? "it has no shape" : volume.figures.reason;
+  building.outline = seen_from_above(volume);
 }
 
 void add_building(const State& state, const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
-  if (!volume.mesh) {
-    all.shapeless.push_back(volume.name + ": " + reason_of(volume));
-    return;
-  }
   Building building;
   building.id = volume.id;
   building.label = volume.name;
@@ -97,12 +101,15 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   building.bottom = volume.figures.bottom;
   building.top = volume.figures.bottom + volume.figures.height;
   if (const auto body = standing_body(state, volume.node)) stand(*body, building);
-  else cut(volume, building);
-  if (building.mesh->triangles.empty() || building.storeys.empty()) {
-    all.shapeless.push_back(volume.name + ": its shape is too flat to be cut");
-    return;
-  }
-  all.buildings.push_back(std::move(building));
+  else if (volume.mesh) cut(volume, building);
+  if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
+    return all.buildings.push_back(std::move(building));
+  building.why_shapeless = building.mesh != nullptr        ? "its shape is too flat to be cut"
+                           : volume.figures.reason.empty() ? "it has no shape"
+                                                           : volume.figures.reason;
+  building.storeys.clear();
+  building.mesh = nullptr;
+  all.shapeless.push_back(std::move(building));
 }
 
 // Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
@@ -255,7 +262,8 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
   if (all.buildings.empty())
     return Error{ErrorCode::missing, "",
                  model.volumes.empty() ? "the scene has no volumes, so that there is no proposal to hand on"
-                                       : "no volume has a shape (" + all.shapeless.front() + ")"};
+                                       : "no volume has a shape (" + all.shapeless.front().label + ": " +
+                                             all.shapeless.front().why_shapeless + ")"};
   number_levels(all);
   add_lands(state, model, all);
   add_neighbours(state, all);

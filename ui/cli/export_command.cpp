@@ -188,7 +188,8 @@ int export_command(const ExportOptions& options) {
   const State seen = with_sums_of_now(*outcome.state);
   const auto proposal = exporting::read_proposal(seen, fs::path(options.scene).filename().string());
   if (!proposal) return fail(options.scene, proposal.error());
-  for (const std::string& volume : proposal->shapeless) print_line("left out: " + volume, Colour::yellow);
+  for (const exporting::Building& volume : proposal->shapeless)
+    print_line("in tables only: " + volume.label + ": " + volume.why_shapeless, Colour::yellow);
   const auto products = make_products(*orders, *proposal);
   if (!products) return fail(options.scene, products.error());
   if (auto made = make_folders(*orders); !made) return fail("--out", made.error());

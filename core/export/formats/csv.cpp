@@ -51,6 +51,10 @@ struct CsvFormat {
                                              "tick",
                                              "place"};
     std::vector<Row> rows;
+    const auto add_building = [&](const Building& b, const char* form, csv::CsvCell drawn) {
+      rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, std::move(drawn),
+                      b.asked_area, b.volume, b.asked_volume, b.footprint, b.position.x, b.position.y});
+    };
     for (const Building& b : proposal.buildings) {
       const char* form = b.is_standing ? "standing" : "rounded";
       double drawn = 0;
@@ -60,9 +64,9 @@ struct CsvFormat {
           rows.push_back({"storey", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
                           "", "", "", ""});
       }
-      rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, drawn,
-                      b.asked_area, b.volume, b.asked_volume, b.footprint, b.position.x, b.position.y});
+      add_building(b, form, drawn);
     }
+    for (const Building& b : proposal.shapeless) add_building(b, "no shape", "");
     for (const UseRow& use : proposal.uses) rows.push_back(row_of_use(use, "use"));
     rows.push_back(row_of_use(proposal.all, "all"));
     for (Row& row : rows)

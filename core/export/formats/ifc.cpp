@@ -58,7 +58,7 @@ struct IfcFormat {
     const Proposal& proposal;
     const Options& options;
     StepFile file = {};
-    std::string origin = {}, axis = {}, body = {}, context = {}, site = {}, site_place = {};
+    std::string origin = {}, axis = {}, up = {}, body = {}, context = {}, site = {}, site_place = {};
     std::map<std::string, Names> spaces_of_use = {};
     std::map<std::string, std::string> styles = {};
 
@@ -71,11 +71,12 @@ struct IfcFormat {
       if (!parts.empty()) file.add("IFCRELAGGREGATES", {guid("aggregate/" + name), "$", "$", "$", whole, step_list(parts)});
     }
 
+    // A list of points is a third of the text of single points; the first one stands at the end again, so that it is closed.
     std::string curve(const geometry::Ring& ring) {
       Names points;
-      for (const Point3& corner : ring) points.push_back(file.add("IFCCARTESIANPOINT", {step_coordinates(corner, false)}));
+      for (const Point3& corner : ring) points.push_back(step_coordinates(corner, false));
       points.push_back(points.front());
-      return file.add("IFCPOLYLINE", {step_list(points)});
+      return file.add("IFCINDEXEDPOLYCURVE", {file.add("IFCCARTESIANPOINTLIST2D", {step_list(points)}), "$", "$"});
     }
     std::string extrusion(const geometry::PlateFace& face, double from, double height, const std::string& style) {
       const std::string outer = curve(face.outer);
@@ -85,7 +86,6 @@ struct IfcFormat {
                                       ? file.add("IFCARBITRARYCLOSEDPROFILEDEF", {".AREA.", "$", outer})
                                       : file.add("IFCARBITRARYPROFILEDEFWITHVOIDS", {".AREA.", "$", outer, step_list(holes)});
       const std::string at = from == 0 ? axis : file.add("IFCAXIS2PLACEMENT3D", {point({0, 0, from}), "$", "$"});
-      const std::string up = file.add("IFCDIRECTION", {step_coordinates({0, 0, 1})});
       const std::string solid = file.add("IFCEXTRUDEDAREASOLID", {profile, at, up, step_real(height)});
       if (!style.empty()) file.add("IFCSTYLEDITEM", {solid, step_list({style}), "$"});
       return solid;
@@ -111,6 +111,7 @@ struct IfcFormat {
                         volume = file.add("IFCSIUNIT", {"*", ".VOLUMEUNIT.", "$", ".CUBIC_METRE."}),
                         angle = file.add("IFCSIUNIT", {"*", ".PLANEANGLEUNIT.", "$", ".RADIAN."});
       const std::string units = file.add("IFCUNITASSIGNMENT", {step_list({length, area, volume, angle})});
+      up = file.add("IFCDIRECTION", {step_coordinates({0, 0, 1})});
       origin = point({0, 0, 0});
       axis = file.add("IFCAXIS2PLACEMENT3D", {origin, "$", "$"});
       const double turn = proposal.reference.true_north * std::numbers::pi / 180;

@@ -51,6 +51,13 @@ struct XlsxFormat {
       return "SUM(" + c + "2:" + c + std::to_string(last) + ")";
     }
 
+    // In the order of the rows that a formula adds up.
+    static double sum_of_storeys(const Building& building) {
+      double sum = building.mesh != nullptr ? 0 : building.floor_area;
+      for (const Storey& s : building.storeys) sum += s.floor_area;
+      return sum;
+    }
+
     XlsxSheet storeys() const {
       XlsxSheet sheet{"Storeys", {18, 24, 18, 10, 10, 12, 12, 16}, {}};
       sheet.rows.push_back(header({"building", "label", "use", "storey", "level", "bottom [m]", "top [m]", "floor area [m2]"}));
@@ -71,18 +78,21 @@ struct XlsxFormat {
           header({"building", "label", "use", "form", "storeys", "floor area [m2]", "asked floor area [m2]", "difference [m2]",
                   "volume [m3]", "asked volume [m3]", "footprint [m2]", "bottom [m]", "top [m]"}));
       double area = 0, asked = 0, volume = 0, asked_volume = 0, footprint = 0;
-      for (const Building& one : proposal.buildings) {
+      const auto add = [&](const Building& one, const char* form, XlsxCell floor) {
         const std::string row = std::to_string(sheet.rows.size() + 1);
-        double sum = 0;
-        for (const Storey& s : one.storeys) sum += s.floor_area;
-        const std::string of_storeys = "SUMPRODUCT(EXACT(" + range("Storeys", 'A', last_storey) + ",A" + row + ")*" +
-                                       range("Storeys", 'H', last_storey) + ")";
-        sheet.rows.push_back({w(one.id), w(one.label), w(one.use), w(one.is_standing ? "standing" : "rounded"),
-                              XlsxCell::value(static_cast<double>(one.storeys.size()), XlsxStyle::plain), f(of_storeys, sum),
+        const double sum = floor.number;
+        sheet.rows.push_back({w(one.id), w(one.label), w(one.use), w(form),
+                              XlsxCell::value(static_cast<double>(one.storeys.size()), XlsxStyle::plain), std::move(floor),
                               n(one.asked_area), f("F" + row + "-G" + row, sum - one.asked_area), n(one.volume),
                               n(one.asked_volume), n(one.footprint), n(one.bottom), n(one.top)});
         area += sum, asked += one.asked_area, volume += one.volume, asked_volume += one.asked_volume, footprint += one.footprint;
+      };
+      for (const Building& one : proposal.buildings) {
+        const std::string of_storeys = "SUMPRODUCT(EXACT(" + range("Storeys", 'A', last_storey) + ",A" +
+                                       std::to_string(sheet.rows.size() + 1) + ")*" + range("Storeys", 'H', last_storey) + ")";
+        add(one, one.is_standing ? "standing" : "rounded", f(of_storeys, sum_of_storeys(one)));
       }
+      for (const Building& one : proposal.shapeless) add(one, "no shape", n(one.floor_area));
       const std::size_t last = sheet.rows.size();
       sheet.rows.push_back({b("all"),
                             {},
@@ -110,12 +120,9 @@ struct XlsxFormat {
                  range("Buildings", column, last_building) + ")";
         };
         double got = 0, got_volume = 0;
-        for (const Building& one : proposal.buildings) {
-          if (one.use != use.use) continue;
-          double sum = 0;
-          for (const Storey& s : one.storeys) sum += s.floor_area;
-          got += sum, got_volume += one.volume;
-        }
+        for (const auto* list : {&proposal.buildings, &proposal.shapeless})
+          for (const Building& one : *list)
+            if (one.use == use.use) got += sum_of_storeys(one), got_volume += one.volume;
         sheet.rows.push_back(
             {w(use.use), XlsxCell::value(static_cast<double>(use.buildings), XlsxStyle::plain), n(use.asked_area),
              f(sum_of('F'), got), f("D" + row + "-C" + row, got - use.asked_area),
@@ -153,7 +160,8 @@ struct XlsxFormat {
       XlsxSheet sheet{"About", {24, 60}, {}};
       sheet.rows.push_back(header({"what", "value"}));
       for (const auto& [name, value] : identity_of(proposal)) sheet.rows.push_back({w(name), w(value)});
-      for (const std::string& volume : proposal.shapeless) sheet.rows.push_back({w("left out"), w(volume)});
+      for (const Building& volume : proposal.shapeless)
+        sheet.rows.push_back({w("no shape"), w(volume.label + ": " + volume.why_shapeless)});
       return sheet;
     }
   };

@@ -52,6 +52,8 @@ TEST(Proposal, StoreysAddUpToTheFiguresOfTheScene) {
     EXPECT_NEAR(sum, figure, 1e-9 * figure);
     // The sections are those that the solver measures, with fine chords for arcs.
     EXPECT_NEAR(drawn, figure, 0.01 * figure);
+    const double footprint = world.number(building.id, "smart_volume.footprint");
+    EXPECT_NEAR(area_of(building.outline), footprint, 0.01 * footprint);
     EXPECT_TRUE(is_closed(*building.mesh));
     EXPECT_GT(building.storeys.size(), 2u);
     all += sum;
