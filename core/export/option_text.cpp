@@ -16,6 +16,7 @@ namespace {
 
 std::string default_text(const PortDefinition& option) {
   const Json json = value_to_json(option.default_value, option);
+  if (json.is_boolean()) return json.get<bool>() ? "yes" : "no";
   return json.is_string() ? json.get<std::string>() : write_json_line(json);
 }
 
@@ -24,8 +25,9 @@ std::string range_text(const PortDefinition& option) {
   for (const ChoiceDefinition& choice : option.choices) text += (text.empty() ? "" : ", ") + choice.id;
   if (!text.empty()) return "one of " + text;
   if (!std::isfinite(option.hard_minimum) || !std::isfinite(option.hard_maximum)) return "";
-  const std::string unit(info(option.unit).symbol);
-  return "from " + shortest(option.hard_minimum) + " to " + shortest(option.hard_maximum) + (unit.empty() ? "" : " " + unit);
+  const std::string unit(info(option.unit).pretty);
+  const auto plain = [](double limit) { return std::floor(limit) == limit ? fixed(limit, 0) : shortest(limit); };
+  return "from " + plain(option.hard_minimum) + " to " + plain(option.hard_maximum) + (unit.empty() ? "" : " " + unit);
 }
 
 Result<Value> value_of(const PortDefinition& option, const std::string& text, const std::string& place) {

@@ -20,7 +20,9 @@ struct Storey {
   double bottom = 0, top = 0;  ///< height above the origin [m]
   double floor_area = 0;       ///< the storey's part of the building's figure [m²]
   std::vector<geometry::PlateFace> faces;  ///< its outline, arcs as chords
-  std::vector<geometry::PlateRing> rings;  ///< the same with arcs, of standing volumes only
+  /// The same with arcs, of standing volumes only: outlines, and what is not built of them; all as `geometry::PlateStack` has
+  /// them.
+  std::vector<geometry::PlateRing> rings, courtyards;
 };
 
 /// A SmartVolume with a shape.

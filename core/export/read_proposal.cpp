@@ -34,24 +34,6 @@ std::vector<Ring> rings_of(const std::vector<geometry::Polyline>& lines) {
   return rings;
 }
 
-void stand(const geometry::StandingBody& body, Building& building) {
-  building.is_standing = true;
-  building.arc_centre = body.centre;
-  for (const geometry::PlateStack& stack : body.stacks) {
-    const std::vector<PlateFace> faces = geometry::faces_of(stack, body.centre, kChordTolerance);
-    std::vector<geometry::PlateRing> rings = stack.outlines;
-    rings.insert(rings.end(), stack.courtyards.begin(), stack.courtyards.end());
-    for (int k = 0; k < stack.storeys; ++k) {
-      const double bottom = stack.bottom + k * stack.storey_height;
-      building.storeys.push_back(
-          {static_cast<int>(building.storeys.size()), 0, bottom, bottom + stack.storey_height, stack.area, faces, rings});
-    }
-  }
-  if (!body.stacks.empty()) building.storey_height = body.stacks.front().storey_height;
-  building.mesh = std::make_shared<const Mesh>(geometry::mesh_of(body, kChordTolerance));
-  if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
-}
-
 // Rounded volumes are convex, or of convex parts where the boundary is not: each is seen as its hull.
 std::vector<PlateFace> seen_from_above(const reading::VolumeRow& volume) {
   std::vector<Ring> rings;
@@ -74,7 +56,8 @@ void cut(const reading::VolumeRow& volume, Building& building) {
     std::vector<Ring> rings;
     if (volume.exact.radius > 0) rings = {reading::section_of(volume.exact, z)};
     else rings = rings_of(geometry::section(*volume.mesh, z, [](std::size_t) { return true; }));
-    Storey made{static_cast<int>(k), 0, bottom, std::min(bottom + storey, building.top), 0, faces_of_rings(std::move(rings)), {}};
+    Storey made{
+        static_cast<int>(k), 0, bottom, std::min(bottom + storey, building.top), 0, faces_of_rings(std::move(rings)), {}, {}};
     if (!made.faces.empty()) building.storeys.push_back(std::move(made));
   }
   double drawn = 0;
@@ -201,6 +184,22 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
 }
 
 }  // namespace
+
+void stand(const geometry::StandingBody& body, Building& building) {
+  building.is_standing = true;
+  building.arc_centre = body.centre;
+  for (const geometry::PlateStack& stack : body.stacks) {
+    const std::vector<PlateFace> faces = geometry::faces_of(stack, body.centre, kChordTolerance);
+    for (int k = 0; k < stack.storeys; ++k) {
+      const double bottom = stack.bottom + k * stack.storey_height;
+      building.storeys.push_back({static_cast<int>(building.storeys.size()), 0, bottom, bottom + stack.storey_height, stack.area,
+                                  faces, stack.outlines, stack.courtyards});
+    }
+  }
+  if (!body.stacks.empty()) building.storey_height = body.stacks.front().storey_height;
+  building.mesh = std::make_shared<const Mesh>(geometry::mesh_of(body, kChordTolerance));
+  if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
+}
 
 double area_of(const PlateFace& face) {
   double area = std::abs(geometry::signed_area(face.outer));

@@ -16,6 +16,9 @@ inline constexpr double kChordTolerance = 0.002;
 /// where nothing has been computed yet, or no volume has a shape: then there is nothing to hand on.
 Result<Proposal> read_proposal(const State& state, const std::string& file);
 
+/// Gives a building the storeys, the outline and the mesh of a volume that stands.
+void stand(const geometry::StandingBody& body, Building& building);
+
 /// Rings that may turn either way, as faces with holes by the even-odd rule; rings of less than three corners are left out.
 std::vector<geometry::PlateFace> faces_of_rings(std::vector<geometry::Ring> rings);
 

@@ -1,4 +1,5 @@
 // Plans of all storeys as DXF R2000: metres, layers by storey and use, plots, surroundings, dimensions, title.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -68,21 +69,37 @@ struct DxfFormat {
         for (const geometry::Ring& hole : face.holes) ring(layer, hole, height, by);
       }
     }
-    void arcs(const std::string& layer, const Building& b, const Storey& storey, const Vector3& by) {
-      for (const geometry::PlateRing& plate : storey.rings) {
-        std::vector<DxfDrawing::Corner> line;
-        for (std::size_t k = 0; k < plate.corners.size(); ++k) {
-          const geometry::PlateRing::Corner& corner = plate.corners[k];
-          const Point3 &from = corner.at, &to = plate.corners[(k + 1) % plate.corners.size()].at;
-          double bulge = 0;
-          if (corner.is_arc) {
-            const Vector3 u = from - b.arc_centre, v = to - b.arc_centre;
-            double angle = mathematics::arc_tangent(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
-            if (angle <= 0) angle += 2 * std::numbers::pi;
-            bulge = mathematics::sine(angle / 4) / mathematics::cosine(angle / 4);
-          }
-          line.push_back({from + by, bulge});
-        }
+    static double bulge_of(const Point3& from, const Point3& to, const Point3& centre) {
+      const Vector3 u = from - centre, v = to - centre;
+      double angle = mathematics::arc_tangent(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
+      if (angle <= 0) angle += 2 * std::numbers::pi;
+      return mathematics::sine(angle / 4) / mathematics::cosine(angle / 4);
+    }
+    // A whole circle has one corner, which no line of arcs can do with: it gets the opposite one as well.
+    static std::vector<DxfDrawing::Corner> line_of(const geometry::PlateRing& plate, const Point3& centre) {
+      const std::size_t count = plate.corners.size();
+      if (count == 1) return {{plate.corners[0].at, 1}, {centre + (centre - plate.corners[0].at), 1}};
+      std::vector<DxfDrawing::Corner> line;
+      for (std::size_t k = 0; k < count; ++k) {
+        const Point3 &from = plate.corners[k].at, &to = plate.corners[(k + 1) % count].at;
+        line.push_back({from, plate.corners[k].is_arc ? bulge_of(from, to, centre) : 0});
+      }
+      return line;
+    }
+    // The other way round: each side then begins where it ended.
+    static void turn_round(std::vector<DxfDrawing::Corner>& line) {
+      std::reverse(line.begin(), line.end());
+      const double first = line.front().bulge;
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) line[k].bulge = -line[k + 1].bulge;
+      line.back().bulge = -first;
+    }
+    void arcs(const std::string& layer, const std::vector<geometry::PlateRing>& rings, bool is_turned, const Building& b,
+              const Storey& storey, const Vector3& by) {
+      for (const geometry::PlateRing& plate : rings) {
+        if (plate.corners.empty()) continue;
+        std::vector<DxfDrawing::Corner> line = line_of(plate, {b.arc_centre.x, b.arc_centre.y, 0});
+        if (is_turned) turn_round(line);
+        for (DxfDrawing::Corner& corner : line) corner.at = corner.at + by;
         drawing.polyline(layer, line, true, storey.bottom);
       }
     }
@@ -93,11 +110,9 @@ struct DxfFormat {
       drawing.layer(layer, colour);
       drawing.layer(words, 7);
       const Vector3 by = shift(s.level);
-      // A ring of one corner is a whole circle, which no arc of a line can be: it is drawn as chords.
-      const bool has_arcs = !s.rings.empty() && std::all_of(s.rings.begin(), s.rings.end(),
-                                                            [](const geometry::PlateRing& r) { return r.corners.size() > 1; });
-      if (has_arcs) arcs(layer, b, s, by);
-      else faces(layer, s.faces, s.bottom, by);
+      if (s.rings.empty()) faces(layer, s.faces, s.bottom, by);
+      arcs(layer, s.rings, false, b, s, by);
+      arcs(layer, s.courtyards, true, b, s, by);
       Point3 middle = middle_of(s.faces) + by;
       middle.z = s.bottom;
       drawing.text(words, middle, options.text_height, b.label + "  " + fixed(s.floor_area, 1) + " m²", true);
