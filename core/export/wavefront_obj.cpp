@@ -12,8 +12,15 @@ namespace bl::exporting {
 
 namespace {
 
+std::string one_line(std::string text) {
+  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 || c == '\\' ? ' ' : c;
+  return text;
+}
+
+}  // namespace
+
 // Blanks and control characters would end the name or the line; letters beyond ASCII are kept.
-std::string object_name(const std::string& name) {
+std::string name_in_obj(const std::string& name) {
   std::string legal;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
@@ -22,16 +29,10 @@ std::string object_name(const std::string& name) {
   return legal.empty() ? "object" : legal;
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 || c == '\\' ? ' ' : c;
-  return text;
-}
-
-}  // namespace
-
-std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note) {
+std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note, const std::string& library) {
   std::string out = "# BehaviourLinks: lengths in metres, z up\n";
   if (!note.empty()) out.append("# ").append(one_line(note)).append("\n");
+  if (!library.empty()) out.append("mtllib ").append(library).append("\n");
   std::set<std::string> used;
   std::map<std::string, int> numbers;  // the last one given to each name
   std::size_t first = 1;
@@ -40,13 +41,14 @@ std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note
       out.append("# ").append(one_line(named.name)).append(": no shape\n");
       continue;
     }
-    const std::string base = object_name(named.name);
+    const std::string base = name_in_obj(named.name);
     std::string name = base;
     // From where the last one of that name left off: a thousand volumes of one name are not a thousand times a thousand looks.
     int& number = numbers[base];
     while (!used.insert(name).second) name = base + "_" + std::to_string(number = std::max(2, number + 1));
     if (name != named.name) out.append("# ").append(one_line(named.name)).append("\n");
     out.append("o ").append(name).append("\n");
+    if (!named.material.empty()) out.append("usemtl ").append(name_in_obj(named.material)).append("\n");
     for (const Point3& v : named.mesh->vertices)
       out.append("v ").append(shortest(v.x)).append(" ").append(shortest(v.y)).append(" ").append(shortest(v.z)).append("\n");
     for (const auto& triangle : named.mesh->triangles) {

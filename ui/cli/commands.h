@@ -110,6 +110,16 @@ struct PlaceOptions {
 };
 int place_command(const PlaceOptions& options);
 
+struct ExportOptions {
+  std::string scene;
+  std::vector<std::string> formats, outs;  ///< pairs in the order given
+  std::vector<std::string> options;        ///< each NAME=VALUE
+  bool is_settling = false;                ///< first runs until the scene settles
+  long long max_ticks = 2000;
+  int threads = 1;
+};
+int export_command(const ExportOptions& options);
+
 struct OpenOptions {
   std::vector<std::string> arguments;  ///< the arguments of the window's own program
 };

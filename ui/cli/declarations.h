@@ -15,6 +15,8 @@ void declare_import(CLI::App& app, making::ImportOptions& o);
 void declare_place(CLI::App& app, PlaceOptions& o);
 void declare_script(CLI::App& app, ScriptOptions& o);
 
+void declare_export(CLI::App& app, ExportOptions& o);
+
 void declare_serve(CLI::App& app, ServeOptions& o);
 void declare_rehearse(CLI::App& app, RehearseOptions& o);
 

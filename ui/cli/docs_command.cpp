@@ -1,12 +1,14 @@
-// `docs`: catalogue pages of typifications, link kinds and commands, from their declarations.
+// `docs`: catalogue pages of typifications, link kinds, commands and export formats, from their declarations.
 #include <sys/stat.h>
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/define/catalogue.h"
+#include "core/export/option_text.h"
 #include "core/file/file_io.h"
 #include "core/making/script_file.h"
 #include "ui/cli/commands.h"
@@ -34,6 +36,10 @@ int print_list(const Registry& registry) {
   list_types("link kind", registry.links(), {"name", "what it does"});
   print_line();
   list_types("command", registry.commands(), {"name", "what it does"});
+  print_line();
+  std::map<std::string, exporting::FormatDefinition> formats;
+  for (const exporting::FormatDefinition& format : exporting::all_formats()) formats.emplace(format.id, format);
+  list_types("export format", formats, {"name", "what it holds"});
   return kDone;
 }
 
@@ -43,6 +49,7 @@ std::optional<std::string> page_of(const std::string& id, const Registry& regist
   if (const auto* type = registry.typification(id)) page += catalogue_page(*type, registry);
   if (const auto* kind = registry.link(id)) page += (page.empty() ? "" : "\n") + catalogue_page(*kind, registry);
   if (const auto* command = registry.command(id)) page += (page.empty() ? "" : "\n") + catalogue_page(*command);
+  if (const auto* format = exporting::find_format(id)) page += (page.empty() ? "" : "\n") + exporting::format_page(*format);
   if (page.empty()) return std::nullopt;
   return page;
 }
@@ -51,6 +58,7 @@ std::vector<std::string> all_ids(const Registry& registry) {
   std::vector<std::string> ids = keys_of(registry.typifications());
   for (const auto& [id, kind] : registry.links()) ids.push_back(id);
   for (const auto& [id, command] : registry.commands()) ids.push_back(id);
+  for (const exporting::FormatDefinition& format : exporting::all_formats()) ids.push_back(format.id);
   return ids;
 }
 
@@ -108,11 +116,13 @@ Result<std::size_t> write_pages(const std::string& folder, const Registry& regis
     files.emplace_back("nodes/" + id + ".md", catalogue_page(type, registry));
   for (const auto& [id, kind] : registry.links()) files.emplace_back("links/" + id + ".md", catalogue_page(kind, registry));
   for (const auto& [id, command] : registry.commands()) files.emplace_back("commands/" + id + ".md", catalogue_page(command));
+  for (const exporting::FormatDefinition& format : exporting::all_formats())
+    files.emplace_back("formats/" + format.id + ".md", exporting::format_page(format));
   for (const auto& [name, text] : files)
     if (const auto there = read_file(folder + "/" + name); there && !there->empty() && first_line(*there) != first_line(text))
       return Error{ErrorCode::conflict, folder + "/" + name,
                    "exists already and is no page of the catalogue; choose another folder, or remove it first"};
-  for (const char* part : {"", "/nodes", "/links", "/commands"})
+  for (const char* part : {"", "/nodes", "/links", "/commands", "/formats"})
     if (auto made = make_folder(folder + part); !made) return made.error();
   for (const auto& [name, text] : files)
     if (auto written = write_file(folder + "/" + name, text); !written) return written.error();

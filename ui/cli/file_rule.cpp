@@ -24,7 +24,7 @@ std::map<const CLI::App*, TaskFiles>& all_task_files() {
 // Type names of options that take files or folders.
 bool takes_files(const std::string& type) {
   static const std::set<std::string> kTypes = {"FILE", "SCENE", "SCENE_A", "SCENE_B", "FILE.lua", "DIR",
-                                               "OUT",  "LOG",   "PICTURE", "NET",     "TRIPS"};
+                                               "OUT",  "PATH",  "LOG",     "PICTURE", "NET",      "TRIPS"};
   return kTypes.contains(type);
 }
 
@@ -108,7 +108,7 @@ using Use = TaskFiles::Role::Use;
 
 // Does what `output` writes fall on the file `other`?
 bool falls_on(const NamedFile& output, const std::string& other) {
-  if (output.role->use == Use::writes) return is_one_file(output.path, other);
+  if (output.role->use != Use::fills) return is_one_file(output.path, other);
   const std::vector<std::string>& endings = output.role->endings;
   const fs::path path = fs::absolute(other);
   return std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end() &&
@@ -124,8 +124,9 @@ std::string meets_another(const CLI::App& task, const std::vector<NamedFile>& na
     const NamedFile& other = named[i];
     if (i == place || other.role->use == Use::fills || !is_plain_file(other.path) || !falls_on(output, other.path)) continue;
     // Of two files the one that is named later is blamed.
-    if (other.role->use == Use::writes && output.role->use == Use::writes && i > place) continue;
-    if (other.role->use == Use::writes)
+    const bool is_written = other.role->use != Use::reads;
+    if (is_written && output.role->use != Use::fills && i > place) continue;
+    if (is_written)
       return output.option + ": " + other.path + ": is written by " + other.option + " already; choose another " + thing;
     if (changed != nullptr && shown_option(*changed) == other.option) continue;
     return output.option + ": " + other.path + ": is read as " + other.option + "; choose another " + thing;
@@ -187,6 +188,11 @@ TaskFiles& TaskFiles::fills(const char* option, std::vector<std::string> endings
   return *this;
 }
 
+TaskFiles& TaskFiles::exports(const char* option) {
+  roles_[option] = {Role::Use::exports, FileKind::figures, "", {}, {}};
+  return *this;
+}
+
 TaskFiles& files_of(CLI::App& task) { return all_task_files()[&task]; }
 
 std::string wrong_files(const CLI::App& task) {
@@ -202,6 +208,10 @@ std::string wrong_files(const CLI::App& task) {
     const NamedFile& file = named[i];
     if (file.role->use == Use::reads) continue;
     std::string sentence = meets_another(task, named, i);
+    if (file.role->use == Use::exports) {
+      if (!sentence.empty()) return sentence;
+      continue;
+    }
     if (sentence.empty()) sentence = file.role->use == Use::fills ? cannot_be_filled(file) : cannot_be_written(file);
     const bool is_forced = force != nullptr && force->count() > 0 && file.option == kForced;
     if (sentence.empty() && file.role->use == Use::writes && !is_forced) sentence = replaces_another_kind(file, force != nullptr);

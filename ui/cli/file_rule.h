@@ -29,8 +29,12 @@ class TaskFiles {
   /// An option that names a folder into which files with these endings are written.
   TaskFiles& fills(const char* option, std::vector<std::string> endings, Objection objection = {});
 
+  /// An option that names files or folders which the task itself judges when it knows what they are to hold. Here it is only seen
+  /// to that they are no inputs and no other outputs.
+  TaskFiles& exports(const char* option);
+
   struct Role {
-    enum class Use { reads, writes, fills } use = Use::reads;
+    enum class Use { reads, writes, fills, exports } use = Use::reads;
     FileKind kind = FileKind::figures;
     std::string changed;
     std::vector<std::string> endings;

@@ -156,7 +156,7 @@ void declare_minutes(CLI::App& app, MinutesOptions& o) {
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
-  CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
+  CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds, commands and export formats, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
   d.add_option("--from", docs.from, "Includes the link kinds of this scene's scripts, or of this link script (.lua).")
@@ -186,6 +186,7 @@ struct Options {
   making::NewOptions fresh;
   making::ImportOptions import;
   PlaceOptions place;
+  ExportOptions export_of;
   CheckOptions check;
   ReplayOptions replay;
   EraseOptions erase;
@@ -207,6 +208,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_new(app, o.fresh);
   declare_import(app, o.import);
   declare_place(app, o.place);
+  declare_export(app, o.export_of);
   declare_check(app, o.check);
   declare_papers(app, o.docs, o.schema);
   declare_replay(app, o.replay);
@@ -226,6 +228,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("new")) return new_command(o.fresh);
   if (app.got_subcommand("import")) return import_command(o.import);
   if (app.got_subcommand("place")) return place_command(o.place);
+  if (app.got_subcommand("export")) return export_command(o.export_of);
   if (app.got_subcommand("check")) return check_command(o.check);
   if (app.got_subcommand("docs")) return docs_command(o.docs);
   if (app.got_subcommand("schema")) return schema_command(o.schema);

@@ -1,0 +1,94 @@
+// An export format as a declaration: what it is for, its options, and the function that writes its files. One format is one file
+// of core/export/formats.
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/define/port_builder.h"
+#include "core/export/proposal_model.h"
+
+namespace bl::exporting {
+
+/// One file of a format: its name within a folder, and all of its bytes.
+struct ExportFile {
+  std::string name, content;
+};
+
+struct ExportFiles {
+  std::vector<ExportFile> files;   ///< one, or several for a folder
+  std::vector<std::string> notes;  ///< sentences on what the format cannot hold or had to change
+};
+
+struct FormatDefinition : TypeDefinition {
+  std::string ending;  ///< of its files, with the point: ".dxf"
+  /// What its files begin with, one or the other: an existing file is replaced only where it does, too.
+  std::vector<std::string> beginnings;
+  bool may_fill_folder = false;  ///< it makes several files where it is given a folder, and one where it is given a file
+  /// From a proposal and the values of all options, in order. `is_folder`: several files are wanted.
+  std::function<Result<ExportFiles>(const Proposal&, std::span<const Value> options, bool is_folder)> write;
+};
+
+/// T has `struct Options`, `static void declare(FormatBuilder<T>&)`, and `static Result<ExportFiles> write(const Proposal&,
+/// const Options&)`, or the same with a `bool is_folder` behind.
+template <class T>
+class FormatBuilder : public TypeBuilder<FormatDefinition> {
+ public:
+  using TypeBuilder::TypeBuilder;
+  using Options = typename T::Options;
+
+  FormatBuilder& ending(std::string text) {
+    definition_->ending = std::move(text);
+    return *this;
+  }
+  FormatBuilder& begins(std::string text) {
+    definition_->beginnings.push_back(std::move(text));
+    return *this;
+  }
+  /// Options may come from a struct that several formats share.
+  template <class M, class Shared>
+  requires std::derived_from<Options, Shared> PortBuilder<M> option(M Shared::*member, std::string id) {
+    return add_port(definition_->ports, static_cast<M Options::*>(member), std::move(id));
+  }
+  template <ChoiceMember E, class Shared>
+  requires std::derived_from<Options, Shared> PortBuilder<E> option(E Shared::*member, std::string id,
+                                                                    std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, static_cast<E Options::*>(member), std::move(id), std::move(choices));
+  }
+
+  static FormatDefinition build() {
+    FormatDefinition definition;
+    FormatBuilder builder(definition);
+    T::declare(builder);
+    const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition.ports);
+    constexpr bool kFillsFolder = requires(const Proposal& p, const Options& o) { T::write(p, o, true); };
+    definition.may_fill_folder = kFillsFolder;
+    definition.write = [ports](const Proposal& proposal, std::span<const Value> values, bool is_folder) {
+      Options options;
+      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&options, values[p]);
+      (void)is_folder;
+      if constexpr (kFillsFolder) return T::write(proposal, options, is_folder);
+      else return T::write(proposal, options);
+    };
+    return definition;
+  }
+};
+
+using FormatList = std::vector<FormatDefinition>;
+/// All formats of the program, in the order of their ids.
+const FormatList& all_formats();
+/// Written by the build from the files of core/export/formats.
+void register_formats(FormatList& list);
+/// nullptr where there is none of that id.
+const FormatDefinition* find_format(std::string_view id);
+
+}  // namespace bl::exporting
+
+/// Closes a file of core/export/formats: makes its format known under the file's stem.
+#define BL_FORMAT(stem, Type) \
+  void register_format_##stem(FormatList& list) { list.push_back(FormatBuilder<Type>::build()); }

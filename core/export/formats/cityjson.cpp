@@ -1,0 +1,204 @@
+// Buildings, plots and surroundings as CityJSON 2.0: solids of LoD 1.2 and 2.2 with semantic surfaces.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <nlohmann/json.hpp>
+
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/read_proposal.h"
+#include "core/geometry/mesh_lines.h"
+
+namespace bl::exporting {
+
+namespace {
+
+struct CityJsonFormat {
+  using CityText = nlohmann::ordered_json;
+  struct Options {
+    bool surroundings = true;
+  };
+
+  static void declare(FormatBuilder<CityJsonFormat>& f) {
+    f.id("cityjson").label("City model (CityJSON 2.0)");
+    f.doc(
+        "Each building with a prism over its outline (LoD 1.2) and its closed shape with ground, wall, roof and overhanging "
+        "surfaces (LoD 2.2), its use, storeys and areas as attributes; plots as land use. Coordinates are those of the scene's "
+        "coordinate system, which is named where it has an EPSG code; else a note says that they are metres of the scene.");
+    f.ending(".city.json").begins("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"metadata\":{\"identifier\":\"BehaviourLinks");
+    f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+  }
+
+  // Tenths of a millimetre: finer than anybody builds.
+  static constexpr double kStep = 1e-4;
+  enum CitySurface { ground = 0, wall = 1, roof = 2, ceiling = 3 };
+
+  struct CityBuilder {
+    const Proposal& proposal;
+    CityText objects = CityText::object(), vertices = CityText::array();
+    std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::size_t> places = {};
+
+    std::size_t vertex(const Point3& p) {
+      const auto whole = [](double value) { return static_cast<std::int64_t>(std::llround(value / kStep)); };
+      const auto [found, is_new] = places.emplace(std::tuple(whole(p.x), whole(p.y), whole(p.z)), vertices.size());
+      if (is_new) vertices.push_back({whole(p.x), whole(p.y), whole(p.z)});
+      return found->second;
+    }
+
+    // At a height; nothing where less than a triangle is left of it on the grid.
+    CityText ring(const geometry::Ring& corners, double z, bool is_turned) {
+      std::vector<std::size_t> indices;
+      for (const Point3& corner : corners) {
+        const std::size_t index = vertex({corner.x, corner.y, z});
+        if (indices.empty() || indices.back() != index) indices.push_back(index);
+      }
+      while (indices.size() > 1 && indices.front() == indices.back()) indices.pop_back();
+      if (is_turned) std::reverse(indices.begin(), indices.end());
+      return indices.size() < 3 ? CityText() : CityText(indices);
+    }
+    CityText plate(const geometry::PlateFace& face, double z, bool is_turned) {
+      CityText rings = CityText::array();
+      if (CityText outer = ring(face.outer, z, is_turned); !outer.is_null()) rings.push_back(std::move(outer));
+      else return CityText();
+      for (const geometry::Ring& hole : face.holes)
+        if (CityText inner = ring(hole, z, is_turned); !inner.is_null()) rings.push_back(std::move(inner));
+      return rings;
+    }
+
+    struct Shell {
+      CityText surfaces = CityText::array(), values = CityText::array();
+      void add(CityText rings, CitySurface kind) {
+        surfaces.push_back(std::move(rings));
+        values.push_back(static_cast<int>(kind));
+      }
+    };
+
+    Shell prism(const geometry::PlateFace& face, double bottom, double top) {
+      Shell shell;
+      CityText low = plate(face, bottom, true), high = plate(face, top, false);
+      if (low.is_null() || high.is_null()) return shell;
+      // The walls follow the rings as they came out on the grid, so that sides fit.
+      for (const CityText& ring : high) {
+        std::vector<std::size_t> up = ring.get<std::vector<std::size_t>>(), down;
+        for (const std::size_t index : up) {
+          const CityText at = vertices[index];
+          down.push_back(vertex({at[0].get<double>() * kStep, at[1].get<double>() * kStep, bottom}));
+        }
+        for (std::size_t k = 0; k < up.size(); ++k) {
+          const std::size_t next = (k + 1) % up.size();
+          shell.add(CityText::array({{down[k], down[next], up[next], up[k]}}), wall);
+        }
+      }
+      shell.add(std::move(low), ground);
+      shell.add(std::move(high), roof);
+      return shell;
+    }
+
+    Shell body(const Mesh& mesh, double bottom) {
+      Shell shell;
+      const std::vector<Vector3> normals = geometry::unit_normals(mesh);
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const std::size_t i = vertex(mesh.vertices[a]), j = vertex(mesh.vertices[b]), k = vertex(mesh.vertices[c]);
+        if (i == j || j == k || k == i) continue;
+        const double lowest = std::min({mesh.vertices[a].z, mesh.vertices[b].z, mesh.vertices[c].z});
+        const double up = normals[t].z;
+        const CitySurface kind = up > 0.1 ? roof : up > -0.1 ? wall : lowest < bottom + 0.01 && up < -0.99 ? ground : ceiling;
+        shell.add(CityText::array({{i, j, k}}), kind);
+      }
+      return shell;
+    }
+
+    static CityText geometry_of(std::vector<Shell> shells, const char* lod, bool has_semantics) {
+      std::erase_if(shells, [](const Shell& shell) { return shell.surfaces.empty(); });
+      if (shells.empty()) return CityText();
+      const bool is_one = shells.size() == 1;
+      CityText boundaries = CityText::array(), values = CityText::array();
+      for (Shell& shell : shells) {
+        boundaries.push_back(CityText::array({std::move(shell.surfaces)}));
+        values.push_back(CityText::array({std::move(shell.values)}));
+      }
+      CityText made = {
+          {"type", is_one ? "Solid" : "MultiSolid"}, {"lod", lod}, {"boundaries", is_one ? boundaries[0] : boundaries}};
+      if (has_semantics)
+        made["semantics"] = {{"surfaces",
+                              {{{"type", "GroundSurface"}},
+                               {{"type", "WallSurface"}},
+                               {{"type", "RoofSurface"}},
+                               {{"type", "OuterCeilingSurface"}}}},
+                             {"values", is_one ? values[0] : values}};
+      return made;
+    }
+
+    void add_building(const std::string& id, CityText attributes, const std::vector<geometry::PlateFace>& outline, double bottom,
+                      double top, const Mesh* mesh) {
+      std::vector<Shell> prisms, bodies;
+      for (const geometry::PlateFace& face : outline) prisms.push_back(prism(face, bottom, top));
+      if (mesh != nullptr)
+        for (const Mesh& part : geometry::bodies_of(*mesh)) bodies.push_back(body(part, bottom));
+      CityText shapes = CityText::array();
+      if (CityText made = geometry_of(std::move(prisms), "1.2", false); !made.is_null()) shapes.push_back(std::move(made));
+      if (CityText made = geometry_of(std::move(bodies), "2.2", true); !made.is_null()) shapes.push_back(std::move(made));
+      objects[id] = {{"type", "Building"}, {"attributes", std::move(attributes)}, {"geometry", std::move(shapes)}};
+    }
+
+    void add_all(bool with_surroundings) {
+      for (const Building& b : proposal.buildings)
+        add_building("building/" + b.id,
+                     {{"name", b.label},
+                      {"function", b.use},
+                      {"form", b.is_standing ? "standing" : "rounded"},
+                      {"storeysAboveGround", b.storeys.size()},
+                      {"measuredHeight", b.top - b.bottom},
+                      {"floor_area_m2", b.floor_area},
+                      {"asked_floor_area_m2", b.asked_area},
+                      {"volume_m3", b.volume},
+                      {"asked_volume_m3", b.asked_volume},
+                      {"is_proposed", true}},
+                     b.outline, b.bottom, b.top, b.mesh.get());
+      if (with_surroundings)
+        for (const Neighbour& n : proposal.neighbours)
+          add_building("existing/" + n.id,
+                       {{"name", n.name}, {"function", n.use}, {"measuredHeight", n.top - n.bottom}, {"is_proposed", false}},
+                       {n.face}, n.bottom, n.top, n.mesh.get());
+      for (const Land& land : proposal.lands) {
+        if (land.is_boundary) continue;
+        CityText surfaces = CityText::array();
+        for (const geometry::PlateFace& face : land.faces)
+          if (CityText made = plate(face, land.ground, false); !made.is_null()) surfaces.push_back(std::move(made));
+        objects["plot/" + land.id] = {
+            {"type", "LandUse"},
+            {"attributes", {{"name", land.name}, {"area_m2", land.area}, {"fsi", land.fsi}, {"gsi", land.gsi}}},
+            {"geometry", CityText::array({{{"type", "MultiSurface"}, {"lod", "1"}, {"boundaries", std::move(surfaces)}}})}};
+      }
+    }
+  };
+
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
+    CityBuilder made{proposal};
+    made.add_all(options.surroundings);
+    const importing::GeoReference& place = proposal.reference;
+    CityText document = {{"type", "CityJSON"}, {"version", "2.0"}};
+    // Other members of the root would need an extension: what the file is of stands in its identifier.
+    CityText metadata = {{"identifier", "BehaviourLinks; " + identity_line(proposal)}, {"title", proposal.name()}};
+    if (place.crs.starts_with("EPSG:"))
+      metadata["referenceSystem"] = "https://www.opengis.net/def/crs/EPSG/0/" + place.crs.substr(5);
+    document["metadata"] = std::move(metadata);
+    document["transform"] = {{"scale", {kStep, kStep, kStep}}, {"translate", {place.origin_x, place.origin_y, 0}}};
+    ExportFiles files;
+    if (!place.crs.starts_with("EPSG:"))
+      files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene");
+    document["CityObjects"] = std::move(made.objects);
+    document["vertices"] = std::move(made.vertices);
+    files.files.push_back({"proposal.city.json", document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"});
+    return files;
+  }
+};
+
+}  // namespace
+
+BL_FORMAT(cityjson, CityJsonFormat)
+
+}  // namespace bl::exporting

@@ -1,0 +1,83 @@
+// The area schedule as one table: a row for each storey, building and use, and one for all.
+#include "core/csv/csv_table.h"
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/read_proposal.h"
+
+namespace bl::exporting {
+
+namespace {
+
+struct CsvFormat {
+  struct Options {
+    bool storeys = true;
+  };
+
+  static void declare(FormatBuilder<CsvFormat>& f) {
+    f.id("csv").label("Area schedule (CSV)");
+    f.doc(
+        "One table by RFC 4180 with decimal points: a row for each storey, each building, each use, and one for all. The floor "
+        "areas of the storeys add up to that of their building, and buildings to uses. The last columns name the scene and its "
+        "state.");
+    f.ending(".csv").begins("row,building,");
+    f.option(&Options::storeys, "storeys").doc("With a row for each storey.");
+  }
+
+  using Row = std::vector<csv::CsvCell>;
+
+  static Row row_of_use(const UseRow& use, const char* kind) {
+    return {kind, "", "", use.use, "", "", "", "", use.floor_area, "", use.asked_area, use.volume, use.asked_volume, "", "", ""};
+  }
+
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
+    const std::vector<std::string> header = {"row",
+                                             "building",
+                                             "label",
+                                             "use",
+                                             "form",
+                                             "storey",
+                                             "bottom [m]",
+                                             "top [m]",
+                                             "floor_area [m2]",
+                                             "drawn_area [m2]",
+                                             "asked_floor_area [m2]",
+                                             "volume [m3]",
+                                             "asked_volume [m3]",
+                                             "footprint [m2]",
+                                             "x [m]",
+                                             "y [m]",
+                                             "scene",
+                                             "hash",
+                                             "tick",
+                                             "place"};
+    std::vector<Row> rows;
+    const auto add_building = [&](const Building& b, const char* form, csv::CsvCell drawn) {
+      rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, std::move(drawn),
+                      b.asked_area, b.volume, b.asked_volume, b.footprint, b.position.x, b.position.y});
+    };
+    for (const Building& b : proposal.buildings) {
+      const char* form = b.is_standing ? "standing" : "rounded";
+      double drawn = 0;
+      for (const Storey& s : b.storeys) {
+        drawn += area_of(s.faces);
+        if (options.storeys)
+          rows.push_back({"storey", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
+                          "", "", "", ""});
+      }
+      add_building(b, form, drawn);
+    }
+    for (const Building& b : proposal.shapeless) add_building(b, "no shape", "");
+    for (const UseRow& use : proposal.uses) rows.push_back(row_of_use(use, "use"));
+    rows.push_back(row_of_use(proposal.all, "all"));
+    for (Row& row : rows)
+      for (csv::CsvCell& cell : Row{proposal.name(), proposal.hash, proposal.tick, place_text(proposal)})
+        row.push_back(std::move(cell));
+    return ExportFiles{{{"schedule.csv", csv::write_csv(header, rows)}}, {}};
+  }
+};
+
+}  // namespace
+
+BL_FORMAT(csv, CsvFormat)
+
+}  // namespace bl::exporting

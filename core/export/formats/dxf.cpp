@@ -1,0 +1,174 @@
+// Plans of all storeys as DXF R2000: metres, layers by storey and use, plots, surroundings, dimensions, title.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/mathematics.h"
+#include "core/base/text.h"
+#include "core/export/dxf_drawing.h"
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/plan_places.h"
+#include "core/export/read_proposal.h"
+
+namespace bl::exporting {
+
+namespace {
+
+enum class DxfArrangement { stacked, beside };
+
+struct DxfFormat {
+  struct Options {
+    DxfArrangement storeys = DxfArrangement::stacked;
+    bool surroundings = true;
+    double text_height = 1;
+  };
+
+  static void declare(FormatBuilder<DxfFormat>& f) {
+    f.id("dxf").label("Plans of the storeys (DXF R2000)");
+    f.doc(
+        "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
+        "a "
+        "layer such as L02-HOUSING: level and use. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
+        "dimensions and the title have layers of their own.");
+    f.ending(".dxf").begins("999\nBehaviourLinks");
+    f.option(&Options::storeys, "storeys",
+             {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
+              {DxfArrangement::beside, "beside", "Levels side by side, the lowest at its true place."}})
+        .doc("How the storeys lie.");
+    f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
+    f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
+  }
+
+  // Of AutoCAD's list of colours, one for each use in turn.
+  static int colour_of(std::size_t use) {
+    constexpr std::array<int, 9> kColours = {30, 150, 10, 94, 50, 200, 62, 130, 252};
+    return kColours[use % kColours.size()];
+  }
+
+  struct DxfPlans {
+    const Proposal& proposal;
+    const Options& options;
+    DxfDrawing drawing = {};
+    PlanExtent extent = plan_extent(proposal);
+
+    Vector3 shift(int level) const {
+      if (options.storeys == DxfArrangement::stacked) return {};
+      return {level * 1.25 * std::max(1.0, extent.high.x - extent.low.x), 0, 0};
+    }
+
+    void ring(const std::string& layer, const geometry::Ring& corners, double height, const Vector3& by) {
+      std::vector<DxfDrawing::Corner> line;
+      for (const Point3& corner : corners) line.push_back({corner + by, 0});
+      drawing.polyline(layer, line, true, height);
+    }
+    void faces(const std::string& layer, const std::vector<geometry::PlateFace>& all, double height, const Vector3& by) {
+      for (const geometry::PlateFace& face : all) {
+        ring(layer, face.outer, height, by);
+        for (const geometry::Ring& hole : face.holes) ring(layer, hole, height, by);
+      }
+    }
+    static double bulge_of(const Point3& from, const Point3& to, const Point3& centre) {
+      const Vector3 u = from - centre, v = to - centre;
+      double angle = mathematics::arc_tangent(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
+      if (angle <= 0) angle += 2 * std::numbers::pi;
+      return mathematics::sine(angle / 4) / mathematics::cosine(angle / 4);
+    }
+    // A whole circle has one corner, which no line of arcs can do with: it gets the opposite one as well.
+    static std::vector<DxfDrawing::Corner> line_of(const geometry::PlateRing& plate, const Point3& centre) {
+      const std::size_t count = plate.corners.size();
+      if (count == 1) return {{plate.corners[0].at, 1}, {centre + (centre - plate.corners[0].at), 1}};
+      std::vector<DxfDrawing::Corner> line;
+      for (std::size_t k = 0; k < count; ++k) {
+        const Point3 &from = plate.corners[k].at, &to = plate.corners[(k + 1) % count].at;
+        line.push_back({from, plate.corners[k].is_arc ? bulge_of(from, to, centre) : 0});
+      }
+      return line;
+    }
+    // The other way round: each side then begins where it ended.
+    static void turn_round(std::vector<DxfDrawing::Corner>& line) {
+      std::reverse(line.begin(), line.end());
+      const double first = line.front().bulge;
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) line[k].bulge = -line[k + 1].bulge;
+      line.back().bulge = -first;
+    }
+    void arcs(const std::string& layer, const std::vector<geometry::PlateRing>& rings, bool is_turned, const Building& b,
+              const Storey& storey, const Vector3& by) {
+      for (const geometry::PlateRing& plate : rings) {
+        if (plate.corners.empty()) continue;
+        std::vector<DxfDrawing::Corner> line = line_of(plate, {b.arc_centre.x, b.arc_centre.y, 0});
+        if (is_turned) turn_round(line);
+        for (DxfDrawing::Corner& corner : line) corner.at = corner.at + by;
+        drawing.polyline(layer, line, true, storey.bottom);
+      }
+    }
+
+    void storey(const Building& b, const Storey& s, int colour) {
+      const std::string level = "L" + std::string(s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
+      const std::string layer = level + DxfDrawing::layer_name(b.use.empty() ? "no use" : b.use), words = level + "TEXT";
+      drawing.layer(layer, colour);
+      drawing.layer(words, 7);
+      const Vector3 by = shift(s.level);
+      if (s.rings.empty()) faces(layer, s.faces, s.bottom, by);
+      arcs(layer, s.rings, false, b, s, by);
+      arcs(layer, s.courtyards, true, b, s, by);
+      Point3 middle = middle_of(s.faces) + by;
+      middle.z = s.bottom;
+      drawing.text(words, middle, options.text_height, b.label + "  " + fixed(s.floor_area, 1) + " m²", true);
+    }
+
+    void surroundings() {
+      for (const Neighbour& n : proposal.neighbours) faces("EXISTING", {n.face}, n.bottom, {});
+      for (const Street& street : proposal.streets) {
+        std::vector<DxfDrawing::Corner> line;
+        for (const Point3& p : street.line) line.push_back({p, 0});
+        drawing.polyline("STREETS", line, false, street.line.empty() ? 0 : street.line.front().z);
+      }
+    }
+
+    // A line with its ends marked, and its length beside it.
+    void dimension(const Point3& from, const Point3& to, const Vector3& out) {
+      const double gap = 2 * options.text_height;
+      const Point3 a = from + gap * out, b = to + gap * out;
+      drawing.line("DIMENSIONS", a, b);
+      drawing.line("DIMENSIONS", from, a + 0.5 * gap * out);
+      drawing.line("DIMENSIONS", to, b + 0.5 * gap * out);
+      drawing.text("DIMENSIONS", 0.5 * (a + b) + options.text_height * out, options.text_height, fixed(distance(from, to), 2),
+                   true);
+    }
+
+    std::string write() {
+      for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{
+               {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
+        drawing.layer(name, colour);
+      for (const Land& land : proposal.lands) faces(land.is_boundary ? "BOUNDARY" : "PLOT", land.faces, land.ground, {});
+      if (options.surroundings) surroundings();
+      for (const Building& b : proposal.buildings) {
+        std::size_t use = 0;
+        while (use < proposal.uses.size() && proposal.uses[use].use != b.use) ++use;
+        for (const Storey& s : b.storeys) storey(b, s, colour_of(use));
+      }
+      const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},
+                   c = {extent.high.x, extent.high.y, 0};
+      dimension(a, b, {0, -1, 0});
+      dimension(b, c, {1, 0, 0});
+      double y = extent.low.y - 8 * options.text_height;
+      for (const auto& [name, value] : identity_of(proposal)) {
+        drawing.text("TITLE", {extent.low.x, y, 0}, options.text_height, name + ": " + value);
+        y -= 1.8 * options.text_height;
+      }
+      return drawing.str("BehaviourLinks: " + identity_line(proposal));
+    }
+  };
+
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
+    return ExportFiles{{{"plans.dxf", DxfPlans{proposal, options}.write()}}, {}};
+  }
+};
+
+}  // namespace
+
+BL_FORMAT(dxf, DxfFormat)
+
+}  // namespace bl::exporting

@@ -1,0 +1,53 @@
+// Closed meshes as Wavefront OBJ: metres, z up, one object for each building, uses as materials.
+#include "core/base/text.h"
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/wavefront_obj.h"
+
+namespace bl::exporting {
+
+namespace {
+
+struct ObjFormat {
+  struct Options {
+    bool surroundings = false;
+  };
+
+  static void declare(FormatBuilder<ObjFormat>& f) {
+    f.id("obj").label("Meshes (Wavefront OBJ)");
+    f.doc(
+        "One closed object for each building, in metres from the origin of the scene, z up. The material of an object is its "
+        "use; "
+        "a folder also gets the colours of the materials.");
+    f.ending(".obj").begins("# BehaviourLinks:");
+    f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+  }
+
+  static std::string library_of(const Proposal& proposal) {
+    std::string text = "# BehaviourLinks: " + identity_line(proposal) + "\n";
+    const auto add = [&](const std::string& name, const drawing::Colour& c) {
+      text += "newmtl " + name_in_obj(name) + "\nKd " + fixed(c.red, 4) + " " + fixed(c.green, 4) + " " + fixed(c.blue, 4) + "\n";
+    };
+    for (const UseRow& use : proposal.uses) add(use.use.empty() ? "no_use" : use.use, use.colour);
+    add("existing", {0.8, 0.8, 0.8});
+    return text;
+  }
+
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
+    std::vector<NamedMesh> meshes;
+    for (const Building& b : proposal.buildings) meshes.push_back({b.label, b.mesh, b.use.empty() ? "no_use" : b.use});
+    if (options.surroundings)
+      for (const Neighbour& n : proposal.neighbours)
+        if (n.mesh) meshes.push_back({n.name, n.mesh, "existing"});
+    ExportFiles made;
+    made.files.push_back({"proposal.obj", write_obj(meshes, identity_line(proposal), is_folder ? "proposal.mtl" : "")});
+    if (is_folder) made.files.push_back({"proposal.mtl", library_of(proposal)});
+    return made;
+  }
+};
+
+}  // namespace
+
+BL_FORMAT(obj, ObjFormat)
+
+}  // namespace bl::exporting

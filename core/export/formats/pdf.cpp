@@ -1,0 +1,86 @@
+// The set of drawings as PDF: a page for each level at scale, and the area schedule before them.
+#include <algorithm>
+
+#include "core/base/text.h"
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/pdf_pages.h"
+#include "core/export/sheet_options.h"
+
+namespace bl::exporting {
+
+namespace {
+
+struct PdfFormat {
+  struct Options : SheetOptions {};
+
+  static void declare(FormatBuilder<PdfFormat>& f) {
+    f.id("pdf").label("Set of drawings (PDF)");
+    f.doc(
+        "A page with the area schedule by use, then the plan of each level at one scale, as the format svg draws it. Letters are "
+        "those of western Europe; others become question marks, which is told.");
+    f.ending(".pdf").begins("%PDF");
+    declare_sheet_options(f);
+  }
+
+  static void cell(SheetGroup& group, double x, double y, std::string words, bool is_number, bool is_bold = false) {
+    group.texts.push_back({{x, y}, 3, is_number ? SheetAnchor::end : SheetAnchor::start, is_bold, std::move(words)});
+  }
+
+  // The first page: what was asked for and got, in the frame of the plans.
+  static PlanSheet schedule_of(const Proposal& proposal, const PlanSheet& like) {
+    PlanSheet sheet = like;
+    sheet.groups.clear();
+    for (const SheetGroup& group : like.groups)
+      if (group.id == "title") sheet.groups.push_back(group);
+    SheetText& line = sheet.groups.front().texts[1];
+    line.words = "Area schedule, and plans of " + std::to_string(proposal.levels) + " levels at 1:" + shortest(like.scale);
+    sheet.groups.front().texts.pop_back();
+    SheetGroup table{"schedule", "Area schedule", false, {}, {}};
+    const double x = like.window_low.x + 6;
+    double y = like.window_low.y + 12;
+    const auto row = [&](const std::string& name, const UseRow& use, bool is_bold) {
+      cell(table, x, y, name, false, is_bold);
+      const double values[] = {use.asked_area, use.floor_area, use.floor_area - use.asked_area, use.asked_volume, use.volume};
+      cell(table, x + 90, y, std::to_string(use.buildings), true, is_bold);
+      for (int k = 0; k < 5; ++k) cell(table, x + 120 + 30 * k, y, fixed(values[k], 1), true, is_bold);
+      y += 6;
+    };
+    const char* heads[] = {"asked m²", "floor m²", "difference m²", "asked m³", "volume m³"};
+    cell(table, x, y, "Use", false, true);
+    cell(table, x + 90, y, "Volumes", true, true);
+    for (int k = 0; k < 5; ++k) cell(table, x + 120 + 30 * k, y, heads[k], true, true);
+    y += 7;
+    // What has no place on this page is in the tables of xlsx and csv.
+    const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - 14) / 6));
+    for (std::size_t k = 0; k < std::min(room, proposal.uses.size()); ++k)
+      row(proposal.uses[k].use.empty() ? "no use" : proposal.uses[k].use, proposal.uses[k], false);
+    if (room < proposal.uses.size())
+      cell(table, x, y, "and " + std::to_string(proposal.uses.size() - room) + " more uses", false), y += 6;
+    row("all", proposal.all, true);
+    sheet.groups.push_back(std::move(table));
+    return sheet;
+  }
+
+  static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
+    std::vector<PlanSheet> sheets;
+    for (int level = 0; level < proposal.levels; ++level) {
+      auto sheet = plan_sheet(proposal, level, options);
+      if (!sheet) return sheet.error();
+      if (level == 0) sheets.push_back(schedule_of(proposal, *sheet));
+      sheets.push_back(std::move(*sheet));
+    }
+    auto book = pdf_pages(sheets, proposal.name(), identity_line(proposal));
+    if (!book) return book.error();
+    ExportFiles made;
+    if (book->lost_letters) made.notes.push_back("letters that western fonts lack are question marks in this file");
+    made.files.push_back({"drawings.pdf", std::move(book->bytes)});
+    return made;
+  }
+};
+
+}  // namespace
+
+BL_FORMAT(pdf, PdfFormat)
+
+}  // namespace bl::exporting

@@ -1,0 +1,19 @@
+// Places in plans: how far a proposal reaches, and where a label stands.
+#pragma once
+
+#include <vector>
+
+#include "core/export/proposal_model.h"
+
+namespace bl::exporting {
+
+struct PlanExtent {
+  Point3 low, high;  ///< [m]; z is 0
+};
+
+/// Around all buildings, plots and boundaries; existing buildings and streets may lie outside.
+PlanExtent plan_extent(const Proposal& proposal);
+/// The centroid of the largest face; its first corner where it has no area.
+Point3 middle_of(const std::vector<geometry::PlateFace>& faces);
+
+}  // namespace bl::exporting

@@ -1,0 +1,67 @@
+// The plan of one level on a sheet of paper at a scale: shapes and texts in millimetres, for whoever draws them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/define/port_builder.h"
+#include "core/export/proposal_model.h"
+
+namespace bl::exporting {
+
+/// A place on the sheet [mm], from its upper left corner, y downwards.
+struct SheetPoint {
+  double x = 0, y = 0;
+};
+
+/// Lines, closed or not, filled by the even-odd rule or not.
+struct SheetShape {
+  std::vector<std::vector<SheetPoint>> lines;
+  bool is_closed = true, is_filled = false, is_stroked = true, is_dashed = false;
+  drawing::Colour fill, stroke = drawing::kInk;
+  double width = 0.18;  ///< of the stroke [mm]
+  std::string name;     ///< what it is, for those who look
+};
+
+enum class SheetAnchor { start, middle, end };
+
+struct SheetText {
+  SheetPoint at;      ///< on the base line
+  double size = 2.5;  ///< [mm]
+  SheetAnchor anchor = SheetAnchor::start;
+  bool is_bold = false;
+  std::string words;
+};
+
+struct SheetGroup {
+  std::string id, label;
+  bool is_clipped = false;  ///< nothing is seen of it beyond the window
+  std::vector<SheetShape> shapes;
+  std::vector<SheetText> texts;
+};
+
+struct PlanSheet {
+  std::string title;
+  int level = 0;
+  double width = 420, height = 297;    ///< [mm]
+  double scale = 500;                  ///< 1:n
+  SheetPoint window_low, window_high;  ///< where the plan is seen [mm]
+  Point3 origin;                       ///< the place of the scene at `window_low`, the upper left corner [m]
+  std::vector<SheetGroup> groups;      ///< in the order in which they are drawn
+};
+
+enum class Paper { a4, a3, a2, a1, a0 };
+/// The sizes for a declaration of options.
+std::vector<Choice<Paper>> paper_choices();
+
+struct SheetOptions {
+  Paper paper = Paper::a3;
+  double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
+  bool surroundings = true, labels = true;
+};
+
+/// Fails where the scale does not fit on the paper; the sentence names one that does.
+Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options);
+
+}  // namespace bl::exporting

@@ -1,0 +1,102 @@
+// The proposal as plain data, made once from a state of a scene: what all exporters write, each in its own format.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/mesh.h"
+#include "core/drawing/palette.h"
+#include "core/geometry/plates.h"
+#include "core/import/local_frame.h"
+
+namespace bl::exporting {
+
+/// One storey of a building.
+struct Storey {
+  int number = 0;              ///< from 0, the lowest of its building
+  int level = 0;               ///< of the plan that shows it, from 0; each storey of a building has a level of its own
+  double bottom = 0, top = 0;  ///< height above the origin [m]
+  double floor_area = 0;       ///< the storey's part of the building's figure [m²]
+  std::vector<geometry::PlateFace> faces;  ///< its outline, arcs as chords
+  /// The same with arcs, of standing volumes only: outlines, and what is not built of them; all as `geometry::PlateStack` has
+  /// them.
+  std::vector<geometry::PlateRing> rings, courtyards;
+};
+
+/// A SmartVolume with a shape.
+struct Building {
+  std::string id, label, use;
+  drawing::Colour colour;    ///< of its use
+  Point3 position;           ///< [m]
+  Point3 arc_centre;         ///< of all arcs of a standing volume [m]
+  bool is_standing = false;  ///< whole storeys on a footprint; else a rounded volume, cut at the middle of each storey
+  double asked_area = 0, floor_area = 0;     ///< [m²]
+  double asked_volume = 0, volume = 0;       ///< [m³]
+  double footprint = 0;                      ///< [m²]
+  double storey_height = 0;                  ///< [m]
+  double bottom = 0, top = 0;                ///< height above the origin [m]
+  std::vector<Storey> storeys;               ///< from the ground up; the sum of their floor areas is `floor_area`
+  std::vector<geometry::PlateFace> outline;  ///< of its lowest storey where it stands, else as seen from above
+  std::shared_ptr<const Mesh> mesh;          ///< closed; never empty
+  std::string why_shapeless;                 ///< of a volume without a shape: the reason
+};
+
+/// A plot with its indices, or the boundary that volumes stay in.
+struct Land {
+  std::string id, name;
+  bool is_boundary = false;
+  std::vector<geometry::PlateFace> faces;
+  double area = 0;          ///< [m²]
+  double ground = 0;        ///< height above the origin [m]
+  double fsi = 0, gsi = 0;  ///< of a plot
+  double fsi_max = 0, gsi_max = 0;
+  double height_max = 0;  ///< [m]
+};
+
+/// A building of the surroundings, which stands already.
+struct Neighbour {
+  std::string id, name, use;
+  geometry::PlateFace face;
+  double bottom = 0, top = 0;        ///< height above the origin [m]
+  std::shared_ptr<const Mesh> mesh;  ///< may be null
+};
+
+struct Street {
+  std::string name;
+  std::vector<Point3> line;
+};
+
+/// What was asked for a use, and what it got. The one without a name is all of them together.
+struct UseRow {
+  std::string use, letter;
+  drawing::Colour colour;
+  std::size_t buildings = 0;
+  double asked_area = 0, floor_area = 0;  ///< [m²]
+  double asked_volume = 0, volume = 0;    ///< [m³]
+};
+
+struct Proposal {
+  std::string title, about;
+  std::string file;  ///< the scene's file, without its folder
+  std::string hash;  ///< of the state
+  std::int64_t tick = 0;
+  bool is_settled = false;
+  importing::GeoReference reference;  ///< of the local frame; `crs` is empty where the scene says nothing
+  std::vector<Building> buildings;    ///< ascending id
+  std::vector<Building> shapeless;    ///< volumes without a shape: they have figures, but neither storeys nor a mesh
+  std::vector<Land> lands;
+  std::vector<Neighbour> neighbours;
+  std::vector<Street> streets;
+  std::vector<UseRow> uses;
+  UseRow all;
+  double ground = 0;        ///< of level 0 [m]
+  double level_height = 3;  ///< of one level: the smallest storey height [m]
+  int levels = 0;           ///< number of plans that show all storeys
+
+  /// "Urban quarter", or the file where the scene has no title.
+  const std::string& name() const { return title.empty() ? file : title; }
+};
+
+}  // namespace bl::exporting

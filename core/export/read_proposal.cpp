@@ -1,0 +1,274 @@
+// Reads buildings, plots, surroundings and sums through the views that reports read.
+#include "core/export/read_proposal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/base/hash.h"
+#include "core/geometry/mesh_lines.h"
+#include "core/reading/report_model.h"
+#include "core/reading/views/plot.h"
+#include "core/reading/views/surroundings.h"
+
+namespace bl::exporting {
+
+namespace {
+
+using geometry::PlateFace;
+using geometry::Ring;
+
+// The one place where standing volumes come in: the plates of a volume that stands, or nothing.
+std::shared_ptr<const geometry::StandingBody> standing_body(const State& state, std::uint32_t node) {
+  const auto port = state.plan->find(node, PortPath{"smart_volume", "body", ""});
+  if (!port) return nullptr;
+  auto body = Binding<std::shared_ptr<const geometry::StandingBody>>::from_value(state.value(*port));
+  return body != nullptr && !body->stacks.empty() ? body : nullptr;
+}
+
+std::vector<Ring> rings_of(const std::vector<geometry::Polyline>& lines) {
+  std::vector<Ring> rings;
+  for (const geometry::Polyline& line : lines)
+    if (line.is_closed) rings.push_back(line.points);
+  return rings;
+}
+
+// Rounded volumes are convex, or of convex parts where the boundary is not: each is seen as its hull.
+std::vector<PlateFace> seen_from_above(const reading::VolumeRow& volume) {
+  std::vector<Ring> rings;
+  if (volume.exact.radius > 0) rings.push_back(geometry::hull_of_plan(reading::outline_of(volume.exact, {0, 0, -1})));
+  else
+    for (const Mesh& body : geometry::bodies_of(*volume.mesh)) rings.push_back(geometry::hull_of_plan(body.vertices));
+  std::vector<PlateFace> faces;
+  for (Ring& ring : rings)
+    if (ring.size() >= 3) faces.push_back({std::move(ring), {}});
+  return faces;
+}
+
+// The solver measures a rounded volume at the middle of each storey above its lowest point, at least once.
+void cut(const reading::VolumeRow& volume, Building& building) {
+  const double height = volume.figures.height, storey = building.storey_height;
+  const auto cuts = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(height / storey - 0.5)));
+  for (std::int64_t k = 0; k < cuts; ++k) {
+    const double bottom = building.bottom + static_cast<double>(k) * storey;
+    const double z = height < storey ? building.bottom + height / 2 : bottom + storey / 2;
+    std::vector<Ring> rings;
+    if (volume.exact.radius > 0) rings = {reading::section_of(volume.exact, z)};
+    else rings = rings_of(geometry::section(*volume.mesh, z, [](std::size_t) { return true; }));
+    Storey made{
+        static_cast<int>(k), 0, bottom, std::min(bottom + storey, building.top), 0, faces_of_rings(std::move(rings)), {}, {}};
+    if (!made.faces.empty()) building.storeys.push_back(std::move(made));
+  }
+  double drawn = 0;
+  for (const Storey& made : building.storeys) drawn += area_of(made.faces);
+  // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
+  for (Storey& made : building.storeys) made.floor_area = building.floor_area * area_of(made.faces) / drawn;
+  building.mesh = std::make_shared<const Mesh>(*volume.mesh);
+  building.outline = seen_from_above(volume);
+}
+
+void add_building(const State& state, const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
+  Building building;
+  building.id = volume.id;
+  building.label = volume.name;
+  building.use = volume.use;
+  building.colour = palette.colour(volume.use);
+  building.position = volume.figures.position;
+  building.asked_area = volume.asked_area;
+  building.floor_area = volume.floor_area;
+  building.asked_volume = volume.asked;
+  building.volume = volume.volume;
+  building.footprint = volume.figures.footprint;
+  building.storey_height = std::max(0.1, volume.figures.storey_height);
+  building.bottom = volume.figures.bottom;
+  building.top = volume.figures.bottom + volume.figures.height;
+  if (const auto body = standing_body(state, volume.node)) stand(*body, building);
+  else if (volume.mesh) cut(volume, building);
+  if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
+    return all.buildings.push_back(std::move(building));
+  building.why_shapeless = building.mesh != nullptr        ? "its shape is too flat to be cut"
+                           : volume.figures.reason.empty() ? "it has no shape"
+                                                           : volume.figures.reason;
+  building.storeys.clear();
+  building.mesh = nullptr;
+  all.shapeless.push_back(std::move(building));
+}
+
+// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
+void number_levels(Proposal& all) {
+  all.level_height = std::numeric_limits<double>::infinity();
+  all.ground = std::numeric_limits<double>::infinity();
+  for (const Building& building : all.buildings) {
+    all.ground = std::min(all.ground, building.storeys.front().bottom);
+    all.level_height = std::min(all.level_height, building.storey_height);
+  }
+  for (Building& building : all.buildings)
+    for (Storey& storey : building.storeys) {
+      // The half is taken as that of a whole storey: the last one of a rounded volume may be lower.
+      const double middle = storey.bottom + building.storey_height / 2;
+      storey.level = static_cast<int>(std::floor((middle - all.ground) / all.level_height + 1e-9));
+      all.levels = std::max(all.levels, storey.level + 1);
+    }
+}
+
+void add_lands(const State& state, const reading::ReportModel& model, Proposal& all) {
+  for (const reading::SiteRow& site : model.sites) {
+    if (!site.shape) continue;
+    Land land;
+    land.id = land.name = site.name;
+    land.is_boundary = true;
+    land.faces = faces_of_rings(rings_of(site.ground));
+    land.area = site.ground_area;
+    land.ground = site.bottom;
+    if (!land.faces.empty()) all.lands.push_back(std::move(land));
+  }
+  for (const auto& [node, plot] : reading::rows<reading::PlotFigures>(state)) {
+    Land land{state.plan->nodes[node].id,
+              state.plan->nodes[node].name,
+              false,
+              faces_of_rings({plot.polygon}),
+              0,
+              plot.ground,
+              plot.fsi,
+              plot.gsi,
+              plot.fsi_max,
+              plot.gsi_max,
+              plot.height_max};
+    land.area = area_of(land.faces);
+    if (!land.faces.empty()) all.lands.push_back(std::move(land));
+  }
+}
+
+void add_neighbours(const State& state, Proposal& all) {
+  for (const auto& [node, read] : reading::rows<reading::BuildingFigures>(state)) {
+    std::vector<Ring> rings{read.outline};
+    std::map<std::string, Ring> courts;
+    for (std::size_t row = 0; row < read.holes->rows.size(); ++row)
+      courts[read.holes->text(row, "name")].push_back({read.holes->number(row, "x"), read.holes->number(row, "y"), 0});
+    for (auto& [name, ring] : courts) rings.push_back(std::move(ring));
+    std::vector<PlateFace> faces = faces_of_rings(std::move(rings));
+    if (faces.empty()) continue;
+    Neighbour neighbour{state.plan->nodes[node].id,
+                        state.plan->nodes[node].name,
+                        read.use,
+                        std::move(faces.front()),
+                        read.base,
+                        read.top,
+                        nullptr};
+    if (read.mesh && !read.mesh->triangles.empty()) neighbour.mesh = std::make_shared<const Mesh>(*read.mesh);
+    all.neighbours.push_back(std::move(neighbour));
+  }
+}
+
+UseRow row_of(const reading::Account& account) {
+  UseRow row;
+  row.asked_area = account.asked_area;
+  row.floor_area = account.floor_area;
+  row.asked_volume = account.asked;
+  row.volume = account.volume;
+  return row;
+}
+
+void add_uses(const reading::ReportModel& model, const drawing::Palette& palette, Proposal& all) {
+  for (const reading::UseAccount& account : model.accounts.uses) {
+    UseRow row = row_of(account);
+    row.use = account.use;
+    row.letter = palette.letter(account.use);
+    row.colour = palette.colour(account.use);
+    row.buildings = account.volumes;
+    all.uses.push_back(std::move(row));
+  }
+  all.all = row_of(model.accounts.all);
+  all.all.buildings = model.volumes.size();
+}
+
+}  // namespace
+
+void stand(const geometry::StandingBody& body, Building& building) {
+  building.is_standing = true;
+  building.arc_centre = body.centre;
+  for (const geometry::PlateStack& stack : body.stacks) {
+    const std::vector<PlateFace> faces = geometry::faces_of(stack, body.centre, kChordTolerance);
+    for (int k = 0; k < stack.storeys; ++k) {
+      const double bottom = stack.bottom + k * stack.storey_height;
+      building.storeys.push_back({static_cast<int>(building.storeys.size()), 0, bottom, bottom + stack.storey_height, stack.area,
+                                  faces, stack.outlines, stack.courtyards});
+    }
+  }
+  if (!body.stacks.empty()) building.storey_height = body.stacks.front().storey_height;
+  building.mesh = std::make_shared<const Mesh>(geometry::mesh_of(body, kChordTolerance));
+  if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
+}
+
+double area_of(const PlateFace& face) {
+  double area = std::abs(geometry::signed_area(face.outer));
+  for (const Ring& hole : face.holes) area -= std::abs(geometry::signed_area(hole));
+  return area;
+}
+
+double area_of(const std::vector<PlateFace>& faces) {
+  double area = 0;
+  for (const PlateFace& face : faces) area += area_of(face);
+  return area;
+}
+
+std::vector<PlateFace> faces_of_rings(std::vector<Ring> rings) {
+  std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3 || geometry::signed_area(ring) == 0; });
+  for (Ring& ring : rings)
+    for (Point3& corner : ring) corner.z = 0;
+  const auto size_of = [](const Ring& ring) { return std::abs(geometry::signed_area(ring)); };
+  std::stable_sort(rings.begin(), rings.end(), [&](const Ring& a, const Ring& b) { return size_of(a) > size_of(b); });
+  // Most sides decide, since rings that touch share corners.
+  const auto is_within = [](const Ring& ring, const Ring& other) {
+    std::size_t inside = 0;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      inside += geometry::ring_contains(other, 0.5 * (ring[k] + ring[(k + 1) % ring.size()])) ? 1u : 0u;
+    return 2 * inside > ring.size();
+  };
+  std::vector<PlateFace> faces;
+  std::vector<std::size_t> depth(rings.size(), 0), face_of(rings.size(), 0);
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    std::size_t around = rings.size();
+    for (std::size_t other = 0; other < k; ++other)
+      if (is_within(rings[k], rings[other])) ++depth[k], around = other;
+    const bool is_hole = depth[k] % 2 == 1;
+    if ((geometry::signed_area(rings[k]) > 0) == is_hole) std::reverse(rings[k].begin(), rings[k].end());
+    face_of[k] = is_hole ? face_of[around] : faces.size();
+    if (is_hole) faces[face_of[k]].holes.push_back(rings[k]);
+    else faces.push_back({rings[k], {}});
+  }
+  return faces;
+}
+
+Result<Proposal> read_proposal(const State& state, const std::string& file) {
+  if (state.tick == 0)
+    return Error{ErrorCode::missing, "", "nothing has been computed yet, so that there is no proposal to hand on; use --settle"};
+  reading::ReportModel model;
+  reading::read_model(state, model);
+  const drawing::Palette palette(model.use_names());
+  Proposal all;
+  all.title = model.title;
+  all.about = model.about;
+  all.file = file;
+  all.hash = model.hash;
+  all.tick = model.tick;
+  all.is_settled = model.is_settled;
+  const Settings& settings = state.plan->settings;
+  all.reference = {settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                   settings.latitude,          settings.longitude, settings.true_north};
+  for (const reading::VolumeRow& volume : model.volumes) add_building(state, volume, palette, all);
+  if (all.buildings.empty())
+    return Error{ErrorCode::missing, "",
+                 model.volumes.empty() ? "the scene has no volumes, so that there is no proposal to hand on"
+                                       : "no volume has a shape (" + all.shapeless.front().label + ": " +
+                                             all.shapeless.front().why_shapeless + ")"};
+  number_levels(all);
+  add_lands(state, model, all);
+  add_neighbours(state, all);
+  for (const reading::StreetLine& street : model.surroundings.streets) all.streets.push_back({street.name, street.line});
+  add_uses(model, palette, all);
+  return all;
+}
+
+}  // namespace bl::exporting

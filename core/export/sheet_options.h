@@ -1,0 +1,21 @@
+// The options of all formats that draw plans on paper.
+#pragma once
+
+#include "core/export/format.h"
+#include "core/export/plan_sheet.h"
+
+namespace bl::exporting {
+
+/// The options of the format begin with SheetOptions.
+template <class T>
+void declare_sheet_options(FormatBuilder<T>& f) {
+  f.option(&SheetOptions::paper, "paper", paper_choices()).doc("Size of the sheet, in landscape.");
+  f.option(&SheetOptions::scale, "scale")
+      .unit(Unit::ratio)
+      .range(0, 1000000)
+      .doc("The n of 1:n; 0: the largest usual one that fits.");
+  f.option(&SheetOptions::surroundings, "surroundings").doc("With existing buildings and streets.");
+  f.option(&SheetOptions::labels, "labels").doc("With the name and floor area of each storey.");
+}
+
+}  // namespace bl::exporting

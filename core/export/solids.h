@@ -1,0 +1,46 @@
+// The closed meshes of a proposal for programs that print or show them: which bodies there are, and how they are placed.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/export/proposal_model.h"
+
+namespace bl::exporting {
+
+/// A body with a name and a material.
+struct Solid {
+  std::string name, material;
+  drawing::Colour colour;
+  std::shared_ptr<const Mesh> mesh;
+  const Building* building = nullptr;  ///< none for surroundings
+};
+
+/// The colour of what stands already.
+inline constexpr drawing::Colour kExistingColour = {0.80, 0.80, 0.78};
+/// The material of a use; never empty.
+std::string material_of(const std::string& use);
+
+/// One for each building, then one for each building of the surroundings that has a mesh, where these are wanted.
+std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings);
+
+/// A model at a scale in millimetres, with its lowest corner at (0, 0, 0): slicers expect it on the plate.
+class ModelScale {
+ public:
+  /// `denominator` of 1:n.
+  ModelScale(const std::vector<Solid>& solids, double denominator);
+  Point3 millimetres(const Point3& metres) const { return factor_ * (metres - corner_); }
+  double factor() const { return factor_; }         ///< [mm/m]
+  const Point3& corner() const { return corner_; }  ///< [m]
+
+ private:
+  Point3 corner_;
+  double factor_ = 1;
+};
+
+/// Does each side of a triangle meet exactly one other one in the opposite direction?
+bool is_closed(const Mesh& mesh);
+
+}  // namespace bl::exporting

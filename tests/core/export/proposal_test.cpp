@@ -1,0 +1,171 @@
+// The proposal of a scene, and what all formats make of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/export/format.h"
+#include "core/export/identity.h"
+#include "core/export/option_text.h"
+#include "core/export/read_proposal.h"
+#include "core/export/solids.h"
+#include "core/geometry/plan_ring.h"
+#include "tests/support/world.h"
+
+namespace bl::exporting {
+namespace {
+
+// Two volumes, one of them shaped by its neighbour, on a place in Delft.
+World settled_world() {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1,
+    "settings": {"title": "Two houses", "coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
+                 "latitude": 51.99, "longitude": 4.37},
+    "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "east", "position": [9, 0, 8], "types": {"smart_volume": {"demand": 3000, "use": "housing"}}},
+      {"id": "west", "position": [-6, 0, 8], "types": {"smart_volume": {"demand": 2000, "use": "shops"}}}]})");
+  EXPECT_TRUE(world.settle());
+  return world;
+}
+
+Proposal proposal_of(const World& world) {
+  auto proposal = read_proposal(world.state(), "two.json");
+  EXPECT_TRUE(proposal) << proposal.error().text();
+  return std::move(*proposal);
+}
+
+TEST(Proposal, StoreysAddUpToTheFiguresOfTheScene) {
+  const World world = settled_world();
+  const Proposal proposal = proposal_of(world);
+  ASSERT_EQ(proposal.buildings.size(), 2u);
+  double all = 0;
+  for (const Building& building : proposal.buildings) {
+    double sum = 0, drawn = 0;
+    for (const Storey& storey : building.storeys) {
+      sum += storey.floor_area;
+      drawn += area_of(storey.faces);
+      EXPECT_GT(storey.top, storey.bottom);
+    }
+    const double figure = world.number(building.id, "smart_volume.floor_area");
+    EXPECT_NEAR(sum, figure, 1e-9 * figure);
+    // The sections are those that the solver measures, with fine chords for arcs.
+    EXPECT_NEAR(drawn, figure, 0.01 * figure);
+    const double footprint = world.number(building.id, "smart_volume.footprint");
+    EXPECT_NEAR(area_of(building.outline), footprint, 0.01 * footprint);
+    EXPECT_TRUE(is_closed(*building.mesh));
+    EXPECT_GT(building.storeys.size(), 2u);
+    all += sum;
+  }
+  EXPECT_NEAR(proposal.all.floor_area, all, 1e-9 * all);
+  ASSERT_FALSE(proposal.lands.empty());
+  EXPECT_NEAR(proposal.lands.front().area, 2400, 1e-9 * 2400);
+  EXPECT_NEAR(area_of(proposal.lands.front().faces), 2400, 1e-9 * 2400);
+}
+
+TEST(Proposal, EachStoreyOfABuildingHasALevelOfItsOwn) {
+  const Proposal proposal = proposal_of(settled_world());
+  for (const Building& building : proposal.buildings)
+    for (std::size_t k = 1; k < building.storeys.size(); ++k) EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level);
+}
+
+TEST(Proposal, WhatHasNotRunIsNoProposal) {
+  const World world = World::from_file("scenes/start/quarter.json");
+  const auto proposal = read_proposal(world.state(), "quarter.json");
+  if (world.state().tick == 0) {
+    ASSERT_FALSE(proposal);
+    EXPECT_NE(proposal.error().message.find("--settle"), std::string::npos);
+  }
+}
+
+TEST(FacesOfRings, HolesAreFoundWhateverTheyTurn) {
+  const geometry::Ring outer = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}},
+                       hole = {{2, 2, 0}, {4, 2, 0}, {4, 4, 0}, {2, 4, 0}},
+                       island = {{2.5, 2.5, 0}, {3, 2.5, 0}, {3, 3, 0}, {2.5, 3, 0}};
+  const auto faces = faces_of_rings({island, hole, geometry::Ring(outer.rbegin(), outer.rend())});
+  ASSERT_EQ(faces.size(), 2u);
+  EXPECT_EQ(faces[0].holes.size(), 1u);
+  EXPECT_GT(geometry::signed_area(faces[0].outer), 0);
+  EXPECT_LT(geometry::signed_area(faces[0].holes[0]), 0);
+  EXPECT_NEAR(area_of(faces), 100 - 4 + 0.25, 1e-12);
+}
+
+// Side by side they share corners and a side, but none lies within the other.
+TEST(FacesOfRings, NeighboursAreNoHoles) {
+  const auto faces =
+      faces_of_rings({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{1, 0, 0}, {1.5, 0, 0}, {1.5, 1, 0}, {1, 1, 0}}});
+  EXPECT_EQ(faces.size(), 2u);
+}
+
+TEST(Formats, AllWriteTheSameBytesTwiceAndNameTheState) {
+  const Proposal proposal = proposal_of(settled_world());
+  ASSERT_GE(all_formats().size(), 10u);
+  for (const FormatDefinition& format : all_formats()) {
+    EXPECT_FALSE(format.doc.empty()) << format.id;
+    EXPECT_FALSE(format.beginnings.empty()) << format.id;
+    const auto options = option_values(format, {});
+    ASSERT_TRUE(options);
+    const auto once = format.write(proposal, *options, format.may_fill_folder),
+               again = format.write(proposal, *options, format.may_fill_folder);
+    ASSERT_TRUE(once) << format.id << ": " << once.error().text();
+    ASSERT_EQ(once->files.size(), again->files.size());
+    for (std::size_t k = 0; k < once->files.size(); ++k) {
+      EXPECT_EQ(once->files[k].content, again->files[k].content) << format.id;
+      const bool is_own = once->files[k].name.ends_with(format.ending);
+      EXPECT_TRUE(!is_own ||
+                  std::any_of(format.beginnings.begin(), format.beginnings.end(),
+                              [&](const std::string& beginning) { return once->files[k].content.starts_with(beginning); }))
+          << format.id << ": " << once->files[k].content.substr(0, 80);
+      const bool is_packed = format.ending == ".xlsx" || format.ending == ".3mf" || format.ending == ".pdf";
+      EXPECT_TRUE(is_packed || once->files[k].content.find(proposal.hash) != std::string::npos) << format.id;
+    }
+  }
+}
+
+TEST(Formats, GeoJsonRefusesASceneWithoutAPlace) {
+  Proposal proposal = proposal_of(settled_world());
+  proposal.reference = {};
+  const FormatDefinition* format = find_format("geojson");
+  ASSERT_NE(format, nullptr);
+  const auto refused = format->write(proposal, *option_values(*format, {}), false);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("where it lies on Earth"), std::string::npos) << refused.error().message;
+  const auto own = format->write(proposal, *option_values(*format, {"coordinates=scene"}), false);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->notes.size(), 1u);
+}
+
+TEST(Formats, OptionsAreReadByTheirDeclarations) {
+  const FormatDefinition* format = find_format("stl");
+  ASSERT_NE(format, nullptr);
+  const auto values = option_values(*format, {"scale=200", "layout=binary"});
+  ASSERT_TRUE(values);
+  EXPECT_EQ(std::get<double>((*values)[format->port_index("scale")]), 200);
+  EXPECT_FALSE(option_values(*format, {"scale=0.5"}));
+  EXPECT_FALSE(option_values(*format, {"scale=large"}));
+  EXPECT_FALSE(option_values(*format, {"layout=triangles"}));
+  EXPECT_FALSE(option_values(*format, {"surroundings=maybe"}));
+  const auto unknown = check_option_names({format}, {"scael=200"});
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("did you mean `scale`"), std::string::npos);
+  EXPECT_FALSE(check_option_names({format}, {"scale"}));
+}
+
+// Known to the decimetre by hand: the origin of the scene is where the settings say.
+TEST(WayToEarth, TheOriginIsWhereTheSceneSays) {
+  Proposal proposal;
+  proposal.reference = {"", 0, 0, 52, 5, 30};
+  const auto way = WayToEarth::make(proposal);
+  ASSERT_TRUE(way);
+  const Point3 origin = way->degrees({0, 0, 0});
+  EXPECT_NEAR(origin.x, 5, 1e-12);
+  EXPECT_NEAR(origin.y, 52, 1e-12);
+  // True north lies 30 degrees clockwise from the scene's y.
+  const Point3 north = way->degrees({std::sin(std::numbers::pi / 6) * 1000, std::cos(std::numbers::pi / 6) * 1000, 0});
+  EXPECT_NEAR(north.x, 5, 1e-9);
+  EXPECT_GT(north.y, 52.008);
+}
+
+}  // namespace
+}  // namespace bl::exporting

@@ -1,0 +1,108 @@
+// Standing volumes in exports: plates, courtyards and arcs keep their exact areas.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "core/export/format.h"
+#include "core/export/option_text.h"
+#include "core/export/read_proposal.h"
+#include "core/export/solids.h"
+#include "core/geometry/domain_makers.h"
+#include "core/geometry/footprint.h"
+
+namespace bl::exporting {
+namespace {
+
+struct Standing {
+  Proposal proposal;
+  double floor_area = 0;  // of all plates, as measured [m²]
+};
+
+// Discs with a courtyard and a set-back, one of them alone, and a block beside them.
+Standing standing_proposal() {
+  const std::vector<Point3> plot = {{-40, -30, 0}, {60, -30, 0}, {60, 30, 0}, {-40, 30, 0}};
+  const auto domain = geometry::extrude_plan(plot, {}, 0, 40);
+  geometry::FootprintDiagram diagram;
+  EXPECT_TRUE(diagram.set_domain(*domain));
+  std::vector<geometry::StandingSite> sites(3);
+  sites[0].site = {{-12, 0, 0}, 300};
+  sites[0].runs = {{3, 0}, {2, 2}};
+  sites[0].depth = 6;
+  sites[1].site = {{8, 3, 0}, 250};
+  sites[1].form = geometry::FootprintForm::block;
+  sites[1].runs = {{4, 0}};
+  sites[2].site = {{45, 0, 0}, 100};
+  sites[2].runs = {{2, 0}};
+  const auto measured = diagram.update(sites);
+  EXPECT_TRUE(measured);
+  Standing made;
+  for (std::uint32_t k = 0; k < sites.size(); ++k) {
+    Building building;
+    building.id = building.label = "house_" + std::to_string(k);
+    building.use = "housing";
+    stand(geometry::body_of(diagram, k), building);
+    building.floor_area = (*measured)[k].floor_area;
+    made.floor_area += building.floor_area;
+    made.proposal.buildings.push_back(std::move(building));
+  }
+  made.proposal.levels = 5;
+  made.proposal.hash = "0123456789abcdef";
+  return made;
+}
+
+// Of closed lines with bulges, as other programs measure them: polygon and segments of circles.
+double measured_in_dxf(const std::string& text) {
+  std::istringstream lines(text);
+  std::string code, value, entity, layer;
+  std::vector<std::array<double, 3>> corners;
+  double sum = 0;
+  const auto close = [&] {
+    if (entity == "LWPOLYLINE" && layer.starts_with("L0"))
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const auto &a = corners[k], &b = corners[(k + 1) % corners.size()];
+        sum += (a[0] * b[1] - b[0] * a[1]) / 2;
+        if (a[2] == 0) continue;
+        const double angle = 4 * std::atan(a[2]), chord = std::hypot(b[0] - a[0], b[1] - a[1]);
+        const double radius = chord / (2 * std::sin(angle / 2));
+        sum += radius * radius * (angle - std::sin(angle)) / 2;
+      }
+    corners.clear();
+  };
+  while (std::getline(lines, code) && std::getline(lines, value)) {
+    const int number = std::stoi(code);
+    if (number == 0) close(), entity = value;
+    else if (number == 8) layer = value;
+    else if (entity == "LWPOLYLINE" && number == 10) corners.push_back({std::stod(value), 0, 0});
+    else if (entity == "LWPOLYLINE" && number == 20) corners.back()[1] = std::stod(value);
+    else if (entity == "LWPOLYLINE" && number == 42) corners.back()[2] = std::stod(value);
+  }
+  return sum;
+}
+
+TEST(StandingExport, StoreysAreThePlates) {
+  const Standing made = standing_proposal();
+  for (const Building& building : made.proposal.buildings) {
+    EXPECT_TRUE(building.is_standing);
+    double sum = 0;
+    for (const Storey& storey : building.storeys) sum += storey.floor_area;
+    EXPECT_NEAR(sum, building.floor_area, 1e-9 * sum);
+    EXPECT_TRUE(is_closed(*building.mesh));
+  }
+  EXPECT_EQ(made.proposal.buildings[0].storeys.size(), 5u);
+  EXPECT_FALSE(made.proposal.buildings[0].storeys[0].courtyards.empty());
+  EXPECT_EQ(made.proposal.buildings[2].storeys[0].rings.front().corners.size(), 1u);
+}
+
+TEST(StandingExport, ADrawingHasTheirExactAreas) {
+  const Standing made = standing_proposal();
+  const FormatDefinition* format = find_format("dxf");
+  ASSERT_NE(format, nullptr);
+  const auto files = format->write(made.proposal, *option_values(*format, {}), false);
+  ASSERT_TRUE(files);
+  EXPECT_NEAR(measured_in_dxf(files->files.front().content), made.floor_area, 1e-9 * made.floor_area);
+}
+
+}  // namespace
+}  // namespace bl::exporting

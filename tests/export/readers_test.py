@@ -1,0 +1,366 @@
+# Reads exported files by programs that share no code with this one, and compares what they return with the area schedule.
+import csv
+import importlib
+import json
+import math
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+import xml.etree.ElementTree as xml
+
+PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
+SCENE = os.path.join(SOURCE, "scenes/start/quarter.json")
+
+
+def needs(command):
+    return unittest.skipUnless(shutil.which(command), command + " is not installed")
+
+
+def needs_module(name):
+    try:
+        importlib.import_module(name)
+        return lambda test: test
+    except ImportError:
+        return unittest.skip("the Python module " + name + " is not installed")
+
+
+def run(*arguments):
+    return subprocess.run(arguments, capture_output=True, text=True, timeout=600)
+
+
+def text_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def area(points):
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:] + points[:1])) / 2
+
+
+class Export(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        scene = json.loads(text_of(SCENE))
+        # A place on Earth, for the formats that need one.
+        scene["settings"].update({"coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
+                                  "latitude": 51.9949, "longitude": 4.3716})
+        cls.scene = os.path.join(cls.folder, "placed.json")
+        with open(cls.scene, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        cls.plans = os.path.join(cls.folder, "plans/")
+        pairs = {"csv": "a.csv", "geojson": "a.geojson", "obj": "a.obj", "stl": "a.stl", "glb": "a.glb", "3mf": "a.3mf",
+                 "dxf": "a.dxf", "svg": "plans/", "xlsx": "a.xlsx", "pdf": "a.pdf", "cityjson": "a.city.json", "ifc": "a.ifc"}
+        help_text = run(PROGRAM, "export", "--help").stdout
+        arguments = [PROGRAM, "export", cls.scene, "--settle"]
+        for name, file in pairs.items():
+            if re.search(r"^  " + name + r" ", help_text, re.M):
+                arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
+        done = run(*arguments)
+        assert done.returncode == 0, done.stdout + done.stderr
+        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
+        cls.storeys = [row for row in cls.rows if row["row"] == "storey"]
+        cls.buildings = [row for row in cls.rows if row["row"] == "building"]
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    def near(self, found, wanted, share):
+        self.assertLessEqual(abs(found - wanted), share * max(1, abs(wanted)), (found, wanted))
+
+    def number(self, row, name):
+        return float(row[name])
+
+    def test_csv_sums(self):
+        self.assertGreater(len(self.storeys), len(self.buildings))
+        for building in self.buildings:
+            parts = [self.number(s, "floor_area [m2]") for s in self.storeys if s["building"] == building["building"]]
+            self.near(math.fsum(parts), self.number(building, "floor_area [m2]"), 1e-9)
+        for use in (row for row in self.rows if row["row"] == "use"):
+            parts = [self.number(b, "floor_area [m2]") for b in self.buildings if b["use"] == use["use"]]
+            self.near(math.fsum(parts), self.number(use, "floor_area [m2]"), 1e-9)
+        every = [row for row in self.rows if row["row"] == "all"]
+        self.near(math.fsum(self.number(b, "floor_area [m2]") for b in self.buildings), self.number(every[0], "floor_area [m2]"), 1e-9)
+        self.assertTrue(all(row["hash"] == self.rows[0]["hash"] and row["tick"] for row in self.rows))
+
+    def test_geojson_orientation_and_identity(self):
+        document = json.loads(text_of(self.path("a.geojson")))
+        self.assertEqual(document["scene"]["hash"], self.rows[0]["hash"])
+        buildings = [f for f in document["features"] if f["properties"]["kind"] == "building"]
+        self.assertEqual(len(buildings), len(self.buildings))
+        for feature in document["features"]:
+            shape = feature["geometry"]
+            if shape["type"] == "LineString":
+                continue
+            for polygon in shape["coordinates"] if shape["type"] == "MultiPolygon" else [shape["coordinates"]]:
+                self.assertEqual(polygon[0][0], polygon[0][-1])
+                self.assertGreater(area(polygon[0][:-1]), 0)
+                self.assertTrue(all(area(hole[:-1]) < 0 for hole in polygon[1:]))
+                self.assertTrue(all(3 < p[0] < 8 and 50 < p[1] < 54 for p in polygon[0]))
+
+    @needs("ogrinfo")
+    @needs("ogr2ogr")
+    def test_geojson_areas_in_metres(self):
+        back = self.path("metres.geojson")
+        done = run("ogr2ogr", "-f", "GeoJSON", "-lco", "COORDINATE_PRECISION=9", "-s_srs", "EPSG:4326", "-t_srs", "EPSG:28992",
+                   back, self.path("a.geojson"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Feature Count", run("ogrinfo", "-so", "-al", self.path("a.geojson")).stdout)
+        for feature in json.loads(text_of(back))["features"]:
+            if feature["properties"]["kind"] != "building":
+                continue
+            shape = feature["geometry"]
+            found = 0
+            for polygon in shape["coordinates"] if shape["type"] == "MultiPolygon" else [shape["coordinates"]]:
+                x, y = polygon[0][0]
+                found += sum(area([(p[0] - x, p[1] - y) for p in ring[:-1]]) for ring in polygon)
+            self.near(found, feature["properties"]["drawn_area_m2"], 1e-6)
+
+    def test_obj_and_glb_hold_the_same_bodies(self):
+        names = [line[2:].strip() for line in text_of(self.path("a.obj")).splitlines() if line.startswith("o ")]
+        self.assertEqual(len(names), len(self.buildings))
+        with open(self.path("a.glb"), "rb") as file:
+            data = file.read()
+        magic, version, length, size, kind = struct.unpack("<4sIII4s", data[:20])
+        self.assertEqual((magic, version, length, kind), (b"glTF", 2, len(data), b"JSON"))
+        document = json.loads(data[20:20 + size])
+        binary = data[28 + size:]
+        self.assertEqual(len(binary), document["buffers"][0]["byteLength"])
+        self.assertEqual(document["asset"]["extras"]["hash"], self.rows[0]["hash"])
+        bodies = [node for node in document["nodes"] if "extras" in node]
+        self.assertEqual(len(bodies), len(self.buildings))
+        for node in bodies:
+            primitive = document["meshes"][node["mesh"]]["primitives"][0]
+            places, corners = (document["accessors"][primitive[k]] if k == "indices" else
+                               document["accessors"][primitive["attributes"]["POSITION"]] for k in ("POSITION", "indices"))
+            def read(accessor, form):
+                view = document["bufferViews"][accessor["bufferView"]]
+                part = binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+                return list(struct.unpack("<%d%s" % (len(part) // 4, form), part))
+            numbers, index = read(places, "f"), read(corners, "I")
+            points = [tuple(numbers[k:k + 3]) for k in range(0, len(numbers), 3)]
+            self.assertEqual([min(p[k] for p in points) for k in range(3)], places["min"])
+            self.assertEqual(len(points), places["count"])
+            triangles = [index[k:k + 3] for k in range(0, len(index), 3)]
+            sides = {(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)}
+            self.assertEqual(len(sides), 3 * len(triangles))
+            self.assertTrue(all((b, a) in sides for a, b in sides))
+            volume = sum(self.six_volumes(*(points[c] for c in t)) for t in triangles) / 6
+            self.assertGreater(volume, 0.8 * node["extras"]["volume_m3"])
+            self.assertLess(volume, 1.0001 * node["extras"]["volume_m3"])
+
+    @staticmethod
+    def six_volumes(a, b, c):
+        return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
+
+    def test_3mf_objects_are_closed(self):
+        space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+        with zipfile.ZipFile(self.path("a.3mf")) as package:
+            self.assertIsNone(package.testzip())
+            model = xml.fromstring(package.read("3D/3dmodel.model"))
+        self.assertEqual(model.get("unit"), "millimeter")
+        objects = list(model.iter(space + "object"))
+        self.assertEqual(len(objects), len(self.buildings))
+        for one in objects:
+            triangles = [[int(t.get(k)) for k in ("v1", "v2", "v3")] for t in one.iter(space + "triangle")]
+            sides = {(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)}
+            self.assertEqual(len(sides), 3 * len(triangles))
+            self.assertTrue(all((b, a) in sides for a, b in sides))
+        hashes = [m.text for m in model.iter(space + "metadata") if m.get("name") == "bl:hash"]
+        self.assertEqual(hashes, [self.rows[0]["hash"]])
+
+    @needs("prusa-slicer")
+    def test_3mf_in_a_slicer(self):
+        text = run("prusa-slicer", "--info", self.path("a.3mf")).stdout
+        self.assertNotIn("manifold = no", text)
+        self.assertIn("manifold = yes", text)
+
+    @needs("admesh")
+    def test_stl_is_sound(self):
+        text = run("admesh", self.path("a.stl")).stdout
+        for word in ("Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges"):
+            self.assertRegex(text, word + r"\s*:\s*0\b")
+        self.assertRegex(text, r"Total disconnected facets\s*:\s*0\s+0")
+        self.assertRegex(text, r"Number of parts\s*:\s*%d\b" % len(self.buildings))
+        # Millimetres at 1:500.
+        volume = float(re.search(r"Volume\s*:\s*([\d.]+)", text).group(1)) / 8
+        self.near(volume, self.mesh_volume_of_3mf() / 8, 1e-5)
+
+    def mesh_volume_of_3mf(self):
+        space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+        with zipfile.ZipFile(self.path("a.3mf")) as package:
+            model = xml.fromstring(package.read("3D/3dmodel.model"))
+        volume = 0.0
+        for one in model.iter(space + "object"):
+            points = [tuple(float(v.get(k)) for k in "xyz") for v in one.iter(space + "vertex")]
+            for t in one.iter(space + "triangle"):
+                volume += self.six_volumes(*(points[int(t.get(k))] for k in ("v1", "v2", "v3"))) / 6
+        return volume
+
+    def shells_of(self, document, solid):
+        scale, move = document["transform"]["scale"], document["transform"]["translate"]
+        places = [[v[k] * scale[k] for k in range(3)] for v in document["vertices"]]
+        for shell in solid:
+            yield [[[places[i] for i in ring] for ring in surface] for surface in shell], shell
+
+    def test_cityjson_solids_are_closed(self):
+        document = json.loads(text_of(self.path("a.city.json")))
+        self.assertEqual((document["type"], document["version"]), ("CityJSON", "2.0"))
+        self.assertEqual(document["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/28992")
+        self.assertEqual(document["transform"]["translate"][:2], [85000, 446000])
+        proposed = {name: one for name, one in document["CityObjects"].items() if name.startswith("building/")}
+        self.assertEqual(len(proposed), len(self.buildings))
+        for one in proposed.values():
+            self.assertEqual([g["lod"] for g in one["geometry"]], ["1.2", "2.2"])
+            for geometry in one["geometry"]:
+                solids = geometry["boundaries"] if geometry["type"] == "MultiSolid" else [geometry["boundaries"]]
+                volume = 0.0
+                for solid in solids:
+                    for surfaces, shell in self.shells_of(document, solid):
+                        sides = [(a, b) for surface in shell for ring in surface for a, b in zip(ring, ring[1:] + ring[:1])]
+                        self.assertEqual(len(sides), len(set(sides)))
+                        self.assertEqual({(b, a) for a, b in sides}, set(sides))
+                        for surface in surfaces:
+                            for ring in surface:
+                                volume += sum(self.six_volumes(ring[0], a, b) for a, b in zip(ring[1:], ring[2:])) / 6
+                if geometry["lod"] == "2.2":
+                    self.assertGreater(volume, 0.8 * one["attributes"]["volume_m3"])
+                    self.assertLess(volume, 1.0001 * one["attributes"]["volume_m3"])
+                    kinds = [k["type"] for k in geometry["semantics"]["surfaces"]]
+                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface"])
+
+    def test_cityjson_is_read_back(self):
+        back = self.path("back.json")
+        done = run(PROGRAM, "import", self.path("a.city.json"), "--into", self.scene, "--out", back)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        count = sum("existing_building" in node.get("types", {}) for node in json.loads(text_of(back))["nodes"])
+        self.assertEqual(count, len(self.buildings))
+
+    def test_ifc_entities_and_quantities(self):
+        lines = text_of(self.path("a.ifc")).splitlines()
+        entities = {}
+        for line in lines:
+            found = re.match(r"(#\d+)=([A-Z0-9]+)\((.*)\);$", line)
+            if found:
+                self.assertNotIn(found.group(1), entities)
+                entities[found.group(1)] = found.groups()[1:]
+        count = lambda kind: sum(one[0] == kind for one in entities.values())
+        self.assertEqual(count("IFCBUILDING"), len(self.buildings))
+        self.assertEqual(count("IFCSPACE"), len(self.storeys))
+        self.assertEqual(count("IFCBUILDINGSTOREY"), len(self.storeys))
+        self.assertEqual((count("IFCPROJECT"), count("IFCSITE"), count("IFCMAPCONVERSION")), (1, 1, 1))
+        # Whatever is named is there, and before it is named.
+        for name, (kind, arguments) in entities.items():
+            for other in re.findall(r"#\d+", re.sub(r"'(?:[^']|'')*'", "", arguments)):
+                self.assertLess(int(other[1:]), int(name[1:]))
+        names = [re.match(r"'([0-9A-Za-z_$]{22})'", one[1]).group(1) for one in entities.values() if one[1].startswith("'") and
+                 re.match(r"'[0-9A-Za-z_$]{22}',\$", one[1])]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 3 * len(self.storeys))
+        areas = sum(float(one[1].split(",")[3]) for one in entities.values()
+                    if one[0] == "IFCQUANTITYAREA" and one[1].startswith("'GrossFloorArea'"))
+        # Those of the spaces, and those of the buildings.
+        self.near(areas, 2 * math.fsum(self.number(b, "floor_area [m2]") for b in self.buildings), 1e-9)
+
+    @needs_module("ezdxf")
+    def test_dxf_audit_and_areas(self):
+        import ezdxf
+        document = ezdxf.readfile(self.path("a.dxf"))
+        auditor = document.audit()
+        self.assertEqual((len(auditor.errors), len(auditor.fixes)), (0, 0))
+        self.assertEqual(document.units, 6)
+        handles = [e.dxf.handle for e in document.entitydb.values()]
+        self.assertEqual(len(handles), len(set(handles)))
+        found = 0.0
+        for line in document.modelspace().query("LWPOLYLINE"):
+            if not re.match(r"L\d+-", line.dxf.layer):
+                continue
+            self.assertTrue(line.closed)
+            points = [(p[0], p[1], p[4]) for p in line.get_points()]
+            part = area([p[:2] for p in points])
+            for a, b in zip(points, points[1:] + points[:1]):
+                if a[2] == 0:
+                    continue
+                angle = 4 * math.atan(a[2])
+                radius = math.dist(a[:2], b[:2]) / (2 * math.sin(angle / 2))
+                part += radius * radius * (angle - math.sin(angle)) / 2
+            found += part
+        self.near(found, math.fsum(self.number(s, "drawn_area [m2]") for s in self.storeys), 1e-6)
+
+    @needs("ogrinfo")
+    def test_dxf_in_gdal(self):
+        self.assertIn("Feature Count", run("ogrinfo", "-so", "-al", self.path("a.dxf")).stdout)
+
+    def test_svg_areas(self):
+        space = "{http://www.w3.org/2000/svg}"
+        found = 0.0
+        for name in sorted(os.listdir(self.plans)):
+            root = xml.parse(os.path.join(self.plans, name)).getroot()
+            self.assertEqual((root.get("width"), root.get("height"), root.get("viewBox")), ("420mm", "297mm", "0 0 420 297"))
+            scale = float(re.search(r"scale 1:([\d.]+)", root.find(space + "desc").text).group(1))
+            self.assertIn(self.rows[0]["hash"], root.find(space + "desc").text)
+            for group in root.iter(space + "g"):
+                if not group.get("id").startswith("use_"):
+                    continue
+                for path in group.iter(space + "path"):
+                    rings = [[tuple(map(float, p.split())) for p in ring.strip("MZ").split("L")]
+                             for ring in re.findall(r"M[^Z]*Z", path.get("d"))]
+                    found -= sum(area(ring) for ring in rings) * (scale / 1000) ** 2
+        self.near(found, math.fsum(self.number(s, "drawn_area [m2]") for s in self.storeys), 1e-6)
+
+    @needs("xmllint")
+    def test_svg_is_well_formed(self):
+        files = [os.path.join(self.plans, name) for name in os.listdir(self.plans)]
+        self.assertEqual(run("xmllint", "--noout", *files).returncode, 0)
+
+    @needs("rsvg-convert")
+    def test_svg_is_drawn(self):
+        picture = self.path("plan.png")
+        done = run("rsvg-convert", "-o", picture, os.path.join(self.plans, "level_00.svg"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(os.path.getsize(picture), 10000)
+
+    @needs_module("openpyxl")
+    def test_xlsx_sums(self):
+        import openpyxl
+        values = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
+        formulas = openpyxl.load_workbook(self.path("a.xlsx"))
+        self.assertEqual(values.sheetnames, ["Programme", "Buildings", "Storeys", "Plots", "About"])
+        rows = list(values["Buildings"].iter_rows(min_row=2, values_only=True))
+        self.assertEqual(len(rows), len(self.buildings) + 1)
+        for row, building in zip(rows, self.buildings):
+            self.assertEqual(row[0], building["building"])
+            self.near(row[5], self.number(building, "floor_area [m2]"), 1e-9)
+        self.near(rows[-1][5], math.fsum(self.number(b, "floor_area [m2]") for b in self.buildings), 1e-9)
+        storeys = list(values["Storeys"].iter_rows(min_row=2, values_only=True))
+        self.near(storeys[-1][7], math.fsum(row[7] for row in storeys[:-1]), 1e-9)
+        self.assertEqual(formulas["Buildings"].cell(len(rows) + 1, 6).value, "=SUM(F2:F%d)" % len(rows))
+        about = dict(row[:2] for row in values["About"].iter_rows(min_row=2, values_only=True))
+        self.assertEqual(about["hash"], self.rows[0]["hash"])
+
+    @needs("qpdf")
+    def test_pdf_is_sound(self):
+        done = run("qpdf", "--check", self.path("a.pdf"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    @needs("pdftotext")
+    @needs("pdfinfo")
+    def test_pdf_texts(self):
+        text = run("pdftotext", "-layout", self.path("a.pdf"), "-").stdout
+        self.assertIn(self.rows[0]["hash"], text)
+        self.assertRegex(run("pdfinfo", self.path("a.pdf")).stdout, r"Page size:\s+1190\.5\d* x 841\.8\d*")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
