@@ -8,9 +8,11 @@
 
 #include "core/base/hash.h"
 #include "core/geometry/mesh_lines.h"
+#include "core/geometry/plates_table.h"
 #include "core/reading/report_model.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/surroundings.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::exporting {
 
@@ -19,12 +21,10 @@ namespace {
 using geometry::PlateFace;
 using geometry::Ring;
 
-// The one place where standing volumes come in: the plates of a volume that stands, or nothing.
-std::shared_ptr<const geometry::StandingBody> standing_body(const State& state, std::uint32_t node) {
-  const auto port = state.plan->find(node, PortPath{"smart_volume", "body", ""});
-  if (!port) return nullptr;
-  auto body = Binding<std::shared_ptr<const geometry::StandingBody>>::from_value(state.value(*port));
-  return body != nullptr && !body->stacks.empty() ? body : nullptr;
+// The plates of a volume that stands; without stacks for one that does not.
+geometry::StandingBody standing_body(const State& state, const reading::VolumeRow& volume) {
+  const auto figures = reading::row_of<reading::FootprintFigures>(state, volume.node);
+  return figures ? geometry::read_body(figures->plates, volume.figures.position) : geometry::StandingBody{};
 }
 
 std::vector<Ring> rings_of(const std::vector<geometry::Polyline>& lines) {
@@ -83,7 +83,7 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   building.storey_height = std::max(0.1, volume.figures.storey_height);
   building.bottom = volume.figures.bottom;
   building.top = volume.figures.bottom + volume.figures.height;
-  if (const auto body = standing_body(state, volume.node)) stand(*body, building);
+  if (const geometry::StandingBody body = standing_body(state, volume); !body.stacks.empty()) stand(body, building);
   else if (volume.mesh) cut(volume, building);
   if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
     return all.buildings.push_back(std::move(building));

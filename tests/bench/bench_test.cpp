@@ -95,6 +95,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"fit", 5},
                                                {"seeds", 5},
                                                {"drag", 8},
+                                               {"standing", 3},
                                                {"growth", 1},
                                                {"complex", 2},
                                                {"rays", 2},

@@ -25,13 +25,13 @@ void declare(CLI::App& c, BenchOptions& o) {
                            "Shows where the time of a tick goes: its parts, and kinds, nodes and links, the slowest first.");
   auto* solver =
       c.add_flag("--solver", o.is_solver,
-                 "Measures the algorithms: cells, fits, drags, growth, rays, traffic, the feedback on a scene, and ticks that "
+                 "Measures the algorithms: cells, fits, drags, standing volumes, growth, rays, traffic, the feedback on a scene, and ticks that "
                  "evaluate what has changed.")
           ->excludes(times);
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study", "tick", "plan",
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "standing", "growth", "complex", "rays", "traffic", "study", "tick", "plan",
                              "past", "load", "journal", "tick_growth"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")

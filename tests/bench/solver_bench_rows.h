@@ -104,6 +104,8 @@ BenchTables bench_wrapped(const SolverBench& bench);
 BenchTables bench_cold_fit(const SolverBench& bench);
 /// One site dragged through the others, frame by frame.
 BenchTables bench_drag(const SolverBench& bench);
+/// Whole storeys on a plot instead of balls: fits from nothing, and one volume dragged.
+BenchTables bench_standing(const SolverBench& bench);
 /// Time and memory over the number of sites.
 BenchTables bench_growth(const SolverBench& bench);
 /// The cell complex kept live while one site changes.

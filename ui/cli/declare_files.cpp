@@ -70,12 +70,26 @@ void declare_fit(CLI::App& app, FitFileOptions& o) {
       "        or a .csv with the columns x, y, z, demand or demand_min and demand_max, weight or radius, group, name\n"
       "Demand: 1200 (m3), {\"min\": 900, \"max\": 1200} (either alone will do),\n"
       "        {\"floor_area\": 400 or {\"min\", \"max\"}, \"storey_height\": 3} (m2 and m); for each site, null for a\n"
-      "        locked one, or with `groups` for each group; sites in no group keep their weight\n" +
+      "        locked one, or with `groups` for each group; sites in no group keep their weight\n"
+      "Form:   volumes are balls; with `form` they stand, as whole storeys on footprints. A footprint is what the power cell "
+      "in\n"
+      "        plan, the plot (the section of the boundary a little above its bottom) and the form share:\n"
+      "        {\"kind\": \"round\" (a disc of radius sqrt(w)), \"block\" (a rectangle) or \"cell\" (no form of its own),\n"
+      "         \"storeys\": [n, ...] a whole number for each site, \"storey_height\": 3 (m),\n"
+      "         \"setbacks\": [s, ...] (m) how far the plate of each storey from the ground up lies inside the footprint;\n"
+      "         above the last one it holds on; not given: 0,\n"
+      "         \"depth\": d (m) what lies deeper than d inside a plate is a courtyard; null or not given: none,\n"
+      "         \"angle\": a (degrees) of the first side of a block, counter-clockwise from the x axis; not given: 0,\n"
+      "         \"aspect\": r first side / second side of a block, whose half sides are sqrt(w r) and sqrt(w / r); not given: "
+      "1}\n"
+      "        Demands are then volumes (floor area times storey height) or floor areas of the same storey height.\n" +
       std::string(kBoundaryFormsHelp) +
       "Output: {\"weights\", \"volumes\", \"iterations\", \"evaluations\", \"max_relative_error\",\n         \"status\": "
       "\"met\", \"infeasible\", \"step limit\" or \"cancelled\", \"reasons\": [sentence, ...],\n         \"losses\": "
-      "[{\"demand\", \"sites\", \"wanted\", \"had\"}, ...]}\n\nExample:\n  behaviourlinks fit sites.json --json "
-      "weights.json\n\nExit codes: 0 all demands met; 2 bad input; 3 some are not met, and the best weights found are written; "
+      "[{\"demand\", \"sites\", \"wanted\", \"had\"}, ...]}; with `form` also \"sites\": [{\"weight\", \"floor_area\",\n"
+      "         \"plates\": [area of each storey from the ground up, ...]}, ...] (m2) and \"notes\": [sentence, ...]\n\n"
+      "Example:\n  behaviourlinks fit sites.json --json weights.json\n\nExit codes: 0 all demands met; 2 bad input; 3 some are "
+      "not met, and the best weights found are written; "
       "130 stopped by Ctrl-C, with everything written.");
 }
 

@@ -21,9 +21,15 @@ constexpr const char* kDemandForms =
 // More than any boundary can hold, whose coordinates end at 1e8 m.
 constexpr double kLargestDemand = 1e25;
 
-// What a demand without a maximum is told instead: twice what the box about the domain could hold.
-double largest_possible(const geometry::Domain& domain, const geometry::VolumeDemand& demand) {
-  const Vector3 box = domain.maximum - domain.minimum;
+// What a demand without a maximum is told instead: twice what the box about the domain could hold, or all storeys on it.
+double largest_possible(const SiteCase& c, const geometry::VolumeDemand& demand) {
+  const Vector3 box = c.boundary.domain.maximum - c.boundary.domain.minimum;
+  if (!c.standing.empty()) {
+    double storeys = 0;
+    for (const geometry::StandingSite& site : c.standing) storeys += site.storeys();
+    const double floors = 2 * box.x * box.y * storeys;
+    return demand.kind == geometry::VolumeDemand::Kind::volume ? floors * c.standing.front().storey_height : floors;
+  }
   if (demand.kind == geometry::VolumeDemand::Kind::volume) return 2 * box.x * box.y * box.z;
   return 2 * box.x * box.y * (box.z / demand.storey_height + 1);
 }
@@ -38,8 +44,7 @@ Result<double> amount_at(const Json& json, const std::string& place) {
 }
 
 // Sets least and most from a number or from {"min", "max"}.
-Result<void> read_bounds(const Json& json, const geometry::Domain& domain, const std::string& place,
-                         geometry::VolumeDemand& demand) {
+Result<void> read_bounds(const Json& json, const SiteCase& c, const std::string& place, geometry::VolumeDemand& demand) {
   if (!json.is_object()) {
     const auto amount = amount_at(json, place);
     if (!amount) return amount.error();
@@ -51,7 +56,7 @@ Result<void> read_bounds(const Json& json, const geometry::Domain& domain, const
   const auto least = json.contains("min") ? amount_at(json["min"], slash(place, "min")) : Result<double>(0.0);
   if (!least) return least.error();
   const auto most = json.contains("max") ? amount_at(json["max"], slash(place, "max"))
-                                         : Result<double>(std::max(*least, largest_possible(domain, demand)));
+                                         : Result<double>(std::max(*least, largest_possible(c, demand)));
   if (!most) return most.error();
   if (*least > *most)
     return Error{ErrorCode::conflict, place,
@@ -61,22 +66,28 @@ Result<void> read_bounds(const Json& json, const geometry::Domain& domain, const
   return {};
 }
 
-Result<geometry::VolumeDemand> demand_at(const Json& json, const geometry::Domain& domain, const std::string& place) {
+Result<geometry::VolumeDemand> demand_at(const Json& json, const SiteCase& c, const std::string& place) {
   geometry::VolumeDemand demand;
   if (!json.is_number() && !json.is_object())
     return Error{ErrorCode::wrong_kind, place, std::string("expects ") + kDemandForms + ", found " + excerpt(json)};
   if (!json.is_object() || !(json.contains("floor_area") || json.contains("storey_height"))) {
-    if (auto read = read_bounds(json, domain, place, demand); !read) return read.error();
+    if (auto read = read_bounds(json, c, place, demand); !read) return read.error();
     return demand;
   }
   if (auto checked = check_keys(json, {"floor_area", "storey_height"}, place); !checked) return checked.error();
   if (!json.contains("floor_area"))
     return Error{ErrorCode::missing, slash(place, "floor_area"), "`floor_area` is missing beside `storey_height`"};
   demand.kind = geometry::VolumeDemand::Kind::floor_area;
+  if (!c.standing.empty()) demand.storey_height = c.standing.front().storey_height;
   if (json.contains("storey_height")) {
     const std::string here = slash(place, "storey_height");
     const auto height = number_at(json["storey_height"], here);
     if (!height) return height.error();
+    if (!c.standing.empty() && *height != demand.storey_height)
+      return Error{ErrorCode::conflict, here,
+                   "is " + excerpt(json["storey_height"]) + " here and " + shortest(demand.storey_height) +
+                       " in `form`: leave it out here"};
+    const geometry::Domain& domain = c.boundary.domain;
     const double least = (domain.maximum.z - domain.minimum.z) / geometry::kMostStoreys;
     if (!(*height > 0) || *height < least || *height > 2 * geometry::kLargestCoordinate)
       return Error{ErrorCode::out_of_range, here,
@@ -84,7 +95,7 @@ Result<geometry::VolumeDemand> demand_at(const Json& json, const geometry::Domai
                        excerpt(json["storey_height"])};
     demand.storey_height = *height;
   }
-  if (auto read = read_bounds(json["floor_area"], domain, slash(place, "floor_area"), demand); !read) return read.error();
+  if (auto read = read_bounds(json["floor_area"], c, slash(place, "floor_area"), demand); !read) return read.error();
   return demand;
 }
 
@@ -132,7 +143,7 @@ Result<void> read_group_demands(const Json& json, const Json& demands, const std
         ErrorCode::conflict, place,
         "expects one demand for each group: " + counted(groups->size(), "group") + ", " + counted(demands.size(), "demand")};
   for (std::size_t g = 0; g < groups->size(); ++g) {
-    auto demand = demand_at(demands[g], into.boundary.domain, slash(place, g));
+    auto demand = demand_at(demands[g], into, slash(place, g));
     if (!demand) return demand.error();
     demand->sites = std::move((*groups)[g]);
     into.problem.demands.push_back(std::move(*demand));
@@ -153,7 +164,7 @@ Result<void> read_single_demands(const Json& demands, const std::vector<bool>& l
       return Error{ErrorCode::missing, here,
                    "null stands for a site that keeps its weight: list site " + std::to_string(site) + " in `locked`, or give " +
                        kDemandForms};
-    auto demand = demand_at(demands[site], into.boundary.domain, here);
+    auto demand = demand_at(demands[site], into, here);
     if (!demand) return demand.error();
     demand->sites = {site};
     if (!locked[site]) into.problem.demands.push_back(std::move(*demand));
@@ -183,7 +194,7 @@ std::string line_place(std::size_t line) { return "line " + std::to_string(line)
 
 bool has_demand(const importing::SiteRow& row) { return row.demand || row.demand_min || row.demand_max; }
 
-Result<geometry::VolumeDemand> demand_of(const importing::SiteRow& row, const geometry::Domain& domain) {
+Result<geometry::VolumeDemand> demand_of(const importing::SiteRow& row, const SiteCase& c) {
   if (row.demand && (row.demand_min || row.demand_max))
     return Error{ErrorCode::conflict, line_place(row.line),
                  "has both a demand and bounds of it: keep `demand`, or `demand_min` and `demand_max`"};
@@ -191,14 +202,14 @@ Result<geometry::VolumeDemand> demand_of(const importing::SiteRow& row, const ge
   if (row.demand) json = *row.demand;
   if (row.demand_min) json["min"] = *row.demand_min;
   if (row.demand_max) json["max"] = *row.demand_max;
-  return demand_at(json, domain, line_place(row.line));
+  return demand_at(json, c, line_place(row.line));
 }
 
 // A row joins the group of its text; the demand of a group stands in one of its rows, or alike in several.
 Result<void> join_group(const importing::SiteRow& row, const importing::SiteRow& first, geometry::VolumeDemand& group,
                         SiteCase& into) {
   if (!has_demand(row)) return {};
-  auto demand = demand_of(row, into.boundary.domain);
+  auto demand = demand_of(row, into);
   if (!demand) return demand.error();
   if (has_demand(first) && (demand->least != group.least || demand->most != group.most))
     return Error{ErrorCode::conflict, line_place(row.line),
@@ -245,8 +256,7 @@ Result<void> read_demands(const importing::SiteTable& table, SiteCase& into) {
       if (row.weight) continue;
       return Error{ErrorCode::missing, line_place(row.line), "has neither a demand nor a weight to keep: give one of them"};
     }
-    auto demand =
-        has_demand(row) ? demand_of(row, into.boundary.domain) : Result<geometry::VolumeDemand>(geometry::VolumeDemand{});
+    auto demand = has_demand(row) ? demand_of(row, into) : Result<geometry::VolumeDemand>(geometry::VolumeDemand{});
     if (!demand) return demand.error();
     demand->sites = {site};
     if (!row.group.empty()) groups[row.group] = {into.problem.demands.size(), &row};

@@ -18,6 +18,7 @@
 #include "ui/cli/json_fields.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/site_case.h"
+#include "ui/cli/standing_fit.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -34,31 +35,48 @@ std::string amount(double number) {
 
 Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-Json fit_json(const geometry::VolumeFit& fit, const geometry::FitProblem& problem) {
+// One object for each volume that stands; without floors where an interrupt left no time to measure them.
+Json sites_json(const CaseFit& done, const SiteCase& c) {
+  Json sites = Json::array();
+  for (std::size_t i = 0; i < c.standing.size(); ++i) {
+    const bool is_known = i < done.footprints.size();
+    sites.push_back({{"weight", done.fit.weights[i]},
+                     {"floor_area", is_known ? Json(done.footprints[i].floor_area) : Json()},
+                     {"plates", is_known ? Json(plates_of(c.standing[i], done.footprints[i])) : Json::array()}});
+  }
+  return sites;
+}
+
+Json fit_json(const CaseFit& done, const SiteCase& c) {
+  const geometry::VolumeFit& fit = done.fit;
   Json losses = Json::array();
   for (const geometry::VolumeLoss& loss : fit.losses)
     losses.push_back({{"demand", loss.demand},
-                      {"sites", problem.demands[loss.demand].sites},
+                      {"sites", c.problem.demands[loss.demand].sites},
                       {"wanted", number_or_null(loss.wanted)},
                       {"had", number_or_null(loss.had)}});
-  return {{"weights", fit.weights},
-          {"volumes", fit.volumes},
-          {"iterations", fit.iterations},
-          {"evaluations", fit.evaluations},
-          {"max_relative_error", number_or_null(fit.max_relative_error)},
-          {"status", std::string(name_of(fit.status))},
-          {"reasons", fit.reasons},
-          {"losses", std::move(losses)}};
+  Json json = {{"weights", fit.weights},
+               {"volumes", fit.volumes},
+               {"iterations", fit.iterations},
+               {"evaluations", fit.evaluations},
+               {"max_relative_error", number_or_null(fit.max_relative_error)},
+               {"status", std::string(name_of(fit.status))},
+               {"reasons", fit.reasons},
+               {"losses", std::move(losses)}};
+  if (c.standing.empty()) return json;
+  json["sites"] = sites_json(done, c);
+  json["notes"] = done.notes;
+  return json;
 }
 
 // What is said of cases that an interrupt left no time for: they keep what they came with.
-geometry::VolumeFit not_begun(const geometry::FitProblem& problem) {
-  geometry::VolumeFit fit;
-  for (const geometry::PowerSite& site : problem.sites) fit.weights.push_back(site.weight);
-  fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // nobody knows
-  fit.status = geometry::FitStatus::cancelled;
-  fit.reasons.emplace_back("was not begun");
-  return fit;
+CaseFit not_begun(const geometry::FitProblem& problem) {
+  CaseFit done;
+  for (const geometry::PowerSite& site : problem.sites) done.fit.weights.push_back(site.weight);
+  done.fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // nobody knows
+  done.fit.status = geometry::FitStatus::cancelled;
+  done.fit.reasons.emplace_back("was not begun");
+  return done;
 }
 
 // "2, 5, 7": the sites of a demand by number or name.
@@ -78,12 +96,12 @@ class FitRun {
   int execute() {
     if (!are_options_sound()) return kBadInput;
     const auto input = load_site_cases({options_.input, options_.boundary, options_.json}, CasePurpose::fit);
-    if (!input) return kBadInput;
+    if (!input || !is_method_sound(*input)) return kBadInput;
     catch_interrupts();
     ThreadPool pool(options_.threads);
     pool_ = &pool;
     if (!fit_all(*input) || !write(*input)) return kBadInput;
-    for (std::size_t i = 0; i < fits_.size(); ++i) tell(input->cases[i], fits_[i]);
+    for (std::size_t i = 0; i < fits_.size(); ++i) tell(input->cases[i], fits_[i].fit, fits_[i].notes);
     summarise();
     if (is_interrupted()) return interrupt_exit_code();
     return met_ == fits_.size() ? kDone : kNotMet;
@@ -97,14 +115,25 @@ class FitRun {
     return false;
   }
 
+  bool is_method_sound(const SiteCases& input) const {
+    if (options_.method == "newton") return true;
+    for (const SiteCase& c : input.cases) {
+      if (c.standing.empty()) continue;
+      print_error(options_.input,
+                  {ErrorCode::conflict, slash(c.place, "form"),
+                   "volumes that stand are fitted by Newton's method only: leave out --method " + options_.method});
+      return false;
+    }
+    return true;
+  }
+
   bool fit_all(const SiteCases& input) {
     bool is_all_well = true;
     Progress progress;
     for (std::size_t i = 0; i < input.cases.size(); ++i) {
       const std::string label =
           input.is_list ? "case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()) + ", " : "";
-      auto fit = is_interrupted() ? Result<geometry::VolumeFit>(not_begun(input.cases[i].problem))
-                                  : fit_one(input.cases[i], label, progress);
+      auto fit = is_interrupted() ? Result<CaseFit>(not_begun(input.cases[i].problem)) : fit_one(input.cases[i], label, progress);
       if (!fit) {
         progress.clear();
         print_error(options_.input, fit.error().within(input.cases[i].place));
@@ -115,7 +144,7 @@ class FitRun {
     return is_all_well;
   }
 
-  Result<geometry::VolumeFit> fit_one(const SiteCase& c, const std::string& label, Progress& progress) const {
+  Result<CaseFit> fit_one(const SiteCase& c, const std::string& label, Progress& progress) const {
     geometry::VolumeFitOptions how;
     how.method = options_.method == "feedback" ? geometry::FitMethod::feedback : geometry::FitMethod::newton;
     how.tolerance = options_.tolerance;
@@ -127,12 +156,15 @@ class FitRun {
       return !is_interrupted();
     };
     const StopScope scope(is_interrupted);
-    return fit_volumes(c.boundary.domain, c.problem, how);
+    if (!c.standing.empty()) return fit_standing(c, how);
+    auto fit = fit_volumes(c.boundary.domain, c.problem, how);
+    if (!fit) return fit.error();
+    return CaseFit{std::move(*fit), {}, {}};
   }
 
   bool write(const SiteCases& input) const {
     Json results = Json::array();
-    for (std::size_t i = 0; i < fits_.size(); ++i) results.push_back(fit_json(fits_[i], input.cases[i].problem));
+    for (std::size_t i = 0; i < fits_.size(); ++i) results.push_back(fit_json(fits_[i], input.cases[i]));
     const Json output = input.is_list ? Json{{"cases", std::move(results)}} : std::move(results.front());
     const auto written = write_file(options_.json, write_json(output) + "\n");
     if (!written) print_error(options_.json, written.error());
@@ -140,7 +172,11 @@ class FitRun {
   }
 
   // Why a case is not met, and who goes without.
-  void tell(const SiteCase& c, const geometry::VolumeFit& fit) {
+  void tell(const SiteCase& c, const geometry::VolumeFit& fit, const std::vector<std::string>& notes) {
+    for (std::size_t i = 0; i < notes.size() && i < kMostLines; ++i)
+      print_line("note: " + options_.input + ": " + (c.place.empty() ? "" : c.place + ": ") + notes[i]);
+    if (notes.size() > kMostLines)
+      print_line("and " + std::to_string(notes.size() - kMostLines) + " more notes, all in " + options_.json);
     // Of cases that were stopped nobody may know it: then there is no largest one.
     is_error_known_ = is_error_known_ && std::isfinite(fit.max_relative_error);
     worst_error_ = std::max(worst_error_, fit.max_relative_error);
@@ -200,14 +236,14 @@ class FitRun {
                                counted(static_cast<std::size_t>(evaluations_), "evaluation") +
                                (is_error_known_ ? ", largest relative error " + rough(worst_error_) : "");
     const bool is_met = met_ == fits_.size();
-    const std::string head = fits_.size() == 1 ? std::string(name_of(fits_.front().status))
+    const std::string head = fits_.size() == 1 ? std::string(name_of(fits_.front().fit.status))
                                                : std::to_string(met_) + " of " + counted(fits_.size(), "case") + " met";
     print_line(head + " after " + effort, is_met ? Colour::green : Colour::red);
   }
 
   const FitFileOptions& options_;
   ThreadPool* pool_ = nullptr;
-  std::vector<geometry::VolumeFit> fits_;
+  std::vector<CaseFit> fits_;
   std::size_t met_ = 0;
   long long iterations_ = 0, evaluations_ = 0;
   double worst_error_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "ui/cli/demand_fields.h"
 #include "ui/cli/json_fields.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/standing_fields.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -50,7 +52,7 @@ Result<void> check_site(const geometry::PowerSite& site, const std::string& plac
 
 // Where a demanding case names an optional list otherwise, leaving that out would fit something else than was meant.
 Result<void> check_optional_lists(const Json& json, const std::string& place) {
-  const std::vector<std::string> optional{"weights", "groups", "locked"};
+  const std::vector<std::string> optional{"weights", "groups", "locked", "form"};
   for (const auto& [key, value] : json.items()) {
     const std::string near = nearest_name(key, optional);
     if (near.empty() || near == key || near.front() != key.front() || json.contains(near)) continue;
@@ -117,8 +119,12 @@ class Reader {
     const std::size_t count = content.is_list ? (*input)["cases"].size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
       auto read = content.is_list ? case_of((*input)["cases"][i], slash("cases", i)) : case_of(*input, "");
-      if (read) content.cases.push_back(std::move(*read));
-      else fail(read.error());
+      if (!read) {
+        fail(read.error());
+        continue;
+      }
+      std::move(read->notes.begin(), read->notes.end(), std::back_inserter(result_.notes));
+      content.cases.push_back(std::move(*read));
     }
   }
 
@@ -147,6 +153,8 @@ class Reader {
     if (result.problem.sites.empty())
       return Error{ErrorCode::missing, slash(place, "sites"), "there are no sites: a fit needs at least one"};
     if (auto checked = check_optional_lists(json, place); !checked) return checked.error();
+    if (json.contains("form"))
+      if (auto read = read_form(json, result); !read) return read.error();
     if (auto read = read_demands(json, result); !read) return read.error();
     return result;
   }

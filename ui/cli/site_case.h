@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/footprint.h"
 #include "core/geometry/volume_fit.h"
 #include "ui/cli/boundary_fields.h"
 
@@ -15,8 +16,10 @@ enum class CasePurpose { cells, fit };
 struct SiteCase {
   std::string place;  ///< "cases/3" in a list, else empty
   BoundaryReading boundary;
-  geometry::FitProblem problem;    ///< without demands where only cells are wanted
-  std::vector<std::string> names;  ///< names of the sites; empty: they have numbers only
+  geometry::FitProblem problem;                  ///< without demands where only cells are wanted
+  std::vector<geometry::StandingSite> standing;  ///< one for each site where the volumes stand; empty: they are balls
+  std::vector<std::string> names;                ///< names of the sites; empty: they have numbers only
+  std::vector<std::string> notes;                ///< what may surprise, one sentence each, with its place
 };
 
 struct SiteCases {

@@ -86,6 +86,7 @@ void PlanGrid::near(std::uint32_t i, std::span<const StandingSite> sites, double
   const auto column = static_cast<std::ptrdiff_t>(column_of(at.x)), row = static_cast<std::ptrdiff_t>(row_of(at.y));
   // Without a form, what is left of the box after the bisectors so far says how far to look.
   const bool is_open = std::isinf(reach);
+  bool is_hidden = false;  // those found so far leave nothing of the box
   PlanPolygon rest, spare;
   if (is_open) {
     rest.corners = {{{low.x - at.x, low.y - at.y}},
@@ -97,7 +98,7 @@ void PlanGrid::near(std::uint32_t i, std::span<const StandingSite> sites, double
   // A site at the distance d with the weight v cuts what lies within the reach R where (d² + w - v) / 2d < R.
   const auto limit = [&](double other) { return reach + std::sqrt(std::max(0.0, reach * reach - weight + other)); };
   const auto see = [&](std::size_t square) {
-    for (std::uint32_t k = starts_[square]; k < starts_[square + 1]; ++k) {
+    for (std::uint32_t k = starts_[square]; k < starts_[square + 1] && !is_hidden; ++k) {
       const std::uint32_t j = sites_[k];
       const double dx = sites[j].site.position.x - at.x, dy = sites[j].site.position.y - at.y;
       const double squared = dx * dx + dy * dy;
@@ -106,11 +107,13 @@ void PlanGrid::near(std::uint32_t i, std::span<const StandingSite> sites, double
       const double offset = 0.5 * (squared + weight - other) / distance;
       if (!(offset < reach)) continue;
       found.push_back({j, distance, {dx / distance, dy / distance, offset}});
-      if (is_open && clip(rest, found.back().half_plane, 0, spare)) reach = std::sqrt(rest.farthest_squared());
+      if (!is_open || !clip(rest, found.back().half_plane, 0, spare)) continue;
+      is_hidden = rest.is_empty();
+      if (!is_hidden) reach = std::sqrt(rest.farthest_squared());
     }
   };
   const auto most = static_cast<std::ptrdiff_t>(std::max(columns_, rows_));
-  for (std::ptrdiff_t ring = 0; ring <= most; ++ring) {
+  for (std::ptrdiff_t ring = 0; ring <= most && !is_hidden; ++ring) {
     // All sites of this ring and beyond are at least so far away.
     if (ring > 1 && static_cast<double>(ring - 1) * width_ > limit(largest_weight_)) break;
     for (std::ptrdiff_t r = row - ring; r <= row + ring; ++r) {

@@ -1,4 +1,4 @@
-// Takes the plot from a domain and erodes it: a convex one by its half-planes, another one by the Clipper library's offsets.
+// Takes the plot from a domain and erodes it: a convex one by its half-planes, another one by strips along its border.
 #include "core/geometry/inside/plan_plot.h"
 
 #include <algorithm>
@@ -9,14 +9,18 @@
 
 #include <clipper.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/geometry/inside/plan_pieces.h"
+#include "core/geometry/polygon_triangles.h"
 
 namespace bl::geometry {
 
 namespace {
 
-constexpr double kGrid = 1e6;           // steps of the Clipper library's integers in a metre
-constexpr double kArcTolerance = 2e-5;  // largest distance of a chord from its arc [m]
+constexpr double kGrid = 1e8;           // steps of the Clipper library's integers in a metre
+constexpr double kArcTolerance = 5e-5;  // about the largest distance of a chord from its arc [m]
+constexpr ClipperLib::cInt kSameStep = 4;
+constexpr double kOver = 1e-6;  // [m]
 // The section is taken at this share of the height: at the bottom itself planes of several pieces meet.
 constexpr double kSectionShare = 1e-3;
 
@@ -61,41 +65,112 @@ PlanPlot::Piece piece_of(PlanPolygon polygon) {
   return piece;
 }
 
-ClipperLib::cInt to_grid(double metres) { return static_cast<ClipperLib::cInt>(std::llround(metres * kGrid)); }
+// Places on the grid. Corners of several pieces at one place get the same numbers, whichever way each was rounded.
+class PlotGrid {
+ public:
+  explicit PlotGrid(const PlanPoint& origin) : origin_(origin) {}
 
-// The border of a union of polygons.
-ClipperLib::Paths border_of(const PlanPlot::Pieces& pieces) {
-  ClipperLib::Clipper clipper;
-  for (const PlanPlot::Piece& piece : pieces) {
-    ClipperLib::Path path;
-    for (const PlanPolygon::Corner& c : piece.polygon.corners) path.emplace_back(to_grid(c.at.x), to_grid(c.at.y));
-    clipper.AddPath(path, ClipperLib::ptSubject, true);
+  ClipperLib::IntPoint of(const PlanPoint& p) {
+    const ClipperLib::IntPoint at = exactly(p);
+    for (const ClipperLib::IntPoint& known : known_)
+      if (std::abs(known.X - at.X) <= kSameStep && std::abs(known.Y - at.Y) <= kSameStep) return known;
+    known_.push_back(at);
+    return at;
   }
-  ClipperLib::Paths border;
-  clipper.Execute(ClipperLib::ctUnion, border, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  return border;
+  ClipperLib::IntPoint exactly(const PlanPoint& p) const { return {step(p.x - origin_.x), step(p.y - origin_.y)}; }
+  PlanCorner back(const ClipperLib::IntPoint& p, std::size_t number) const {
+    return {origin_.x + static_cast<double>(p.X) / kGrid, origin_.y + static_cast<double>(p.Y) / kGrid, number};
+  }
+
+ private:
+  static ClipperLib::cInt step(double metres) { return static_cast<ClipperLib::cInt>(std::llround(metres * kGrid)); }
+
+  PlanPoint origin_;
+  std::vector<ClipperLib::IntPoint> known_;
+};
+
+// A side of the border, with the inside on its left; `normal` points inwards.
+struct BorderSide {
+  PlanPoint from, to, normal;
+};
+
+std::vector<BorderSide> border_of(const PlanPlot::Pieces& pieces) {
+  std::vector<BorderSide> sides;
+  for (const PlanPlot::Piece& piece : pieces)
+    for (std::size_t k = 0; k < piece.polygon.corners.size(); ++k) {
+      const PlanPolygon::Corner& a = piece.polygon.corners[k];
+      const PlanPoint& b = piece.polygon.corners[(k + 1) % piece.polygon.corners.size()].at;
+      const double x = b.x - a.at.x, y = b.y - a.at.y, length = std::sqrt(x * x + y * y);
+      if (a.beyond == PlanSide::kPlot && length > 0) sides.push_back({a.at, b, {-y / length, x / length}});
+    }
+  return sides;
+}
+
+// All that lies nearer than `by` to an inner corner between the feet of its two sides. The chords of the arc cut as much away
+// from it as they add, so that the area is that of the sector.
+ClipperLib::Path fan_of(const BorderSide& before, const BorderSide& after, double by, PlotGrid& grid) {
+  const PlanPoint &n = before.normal, &m = after.normal, &at = after.from;
+  // From one normal clockwise to the other.
+  const double angle = mathematics::arc_tangent(n.y * m.x - n.x * m.y, n.x * m.x + n.y * m.y);
+  const double widest = 2 * std::sqrt(2 * kArcTolerance / by);
+  const int count = std::clamp(static_cast<int>(std::ceil(angle / widest)), 3, 4096);
+  const double step = angle / count, inner = count - 2.0;
+  const double radius = by * (std::sqrt(1 + inner * angle / mathematics::sine(step)) - 1) / inner;
+  ClipperLib::Path path{grid.of(at), grid.exactly({at.x + by * n.x, at.y + by * n.y})};
+  for (int k = 1; k < count; ++k) {
+    const double x = mathematics::cosine(k * step), y = -mathematics::sine(k * step);
+    path.push_back(grid.exactly({at.x + radius * (n.x * x - n.y * y), at.y + radius * (n.x * y + n.y * x)}));
+  }
+  path.push_back(grid.exactly({at.x + by * m.x, at.y + by * m.y}));
+  return path;
+}
+
+// Convex pieces of rings; where these are not simple, triangles.
+std::vector<PlanPiece> convex_pieces(const std::vector<std::vector<PlanCorner>>& rings) {
+  if (auto pieces = plan_pieces(rings)) return std::move(*pieces);
+  std::vector<Ring> plain;
+  std::vector<PlanCorner> corners;
+  std::vector<std::uint32_t> next;
+  for (const std::vector<PlanCorner>& ring : rings) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    plain.emplace_back();
+    for (std::uint32_t k = 0; k < ring.size(); ++k) {
+      plain.back().push_back({ring[k].x, ring[k].y, 0});
+      corners.push_back(ring[k]);
+      next.push_back(k + 1 < ring.size() ? first + k + 1 : first);
+    }
+  }
+  std::vector<PlanPiece> pieces;
+  for (const auto& triangle : polygon_triangles(plain)) {
+    PlanPiece& piece = pieces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+      piece.corners.push_back(corners[from]);
+      piece.walls.push_back(next[from] == to ? from : PlanPiece::kNoWall);
+    }
+    if (!(turn(piece.corners[0], piece.corners[1], piece.corners[2]) > 0)) pieces.pop_back();
+  }
+  return pieces;
 }
 
 // An outer ring and its holes, as plan_pieces takes them.
-void add_pieces(const ClipperLib::PolyNode& outer, PlanPlot::Pieces& pieces) {
+void add_pieces(const ClipperLib::PolyNode& outer, const PlotGrid& grid, PlanPlot::Pieces& pieces) {
   std::vector<std::vector<PlanCorner>> rings;
-  const auto add = [&rings](const ClipperLib::Path& path) {
+  const auto add = [&](const ClipperLib::Path& path) {
     std::vector<PlanCorner>& ring = rings.emplace_back();
-    for (const ClipperLib::IntPoint& p : path)
-      ring.push_back({static_cast<double>(p.X) / kGrid, static_cast<double>(p.Y) / kGrid, ring.size()});
+    for (const ClipperLib::IntPoint& p : path) ring.push_back(grid.back(p, ring.size()));
   };
   add(outer.Contour);
   for (const ClipperLib::PolyNode* hole : outer.Childs) add(hole->Contour);
-  if (const auto parts = plan_pieces(rings))
-    for (const PlanPiece& part : *parts) {
-      PlanPolygon polygon;
-      for (std::size_t k = 0; k < part.corners.size(); ++k)
-        polygon.corners.push_back(
-            {{part.corners[k].x, part.corners[k].y}, part.walls[k] == PlanPiece::kNoWall ? PlanSide::kInner : PlanSide::kPlot});
-      pieces.push_back(piece_of(std::move(polygon)));
-    }
+  for (const PlanPiece& part : convex_pieces(rings)) {
+    PlanPolygon polygon;
+    for (std::size_t k = 0; k < part.corners.size(); ++k)
+      polygon.corners.push_back(
+          {{part.corners[k].x, part.corners[k].y}, part.walls[k] == PlanPiece::kNoWall ? PlanSide::kInner : PlanSide::kPlot});
+    pieces.push_back(piece_of(std::move(polygon)));
+  }
   for (const ClipperLib::PolyNode* hole : outer.Childs)
-    for (const ClipperLib::PolyNode* island : hole->Childs) add_pieces(*island, pieces);
+    for (const ClipperLib::PolyNode* island : hole->Childs) add_pieces(*island, grid, pieces);
 }
 
 }  // namespace
@@ -150,12 +225,38 @@ PlanPlot::Pieces PlanPlot::erode_convex(double by) const {
 }
 
 PlanPlot::Pieces PlanPlot::erode_rings(double by) const {
-  ClipperLib::ClipperOffset offset(2, kArcTolerance * kGrid);
-  offset.AddPaths(border_of(pieces_), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
+  PlotGrid grid(low_);
+  ClipperLib::Clipper clipper;
+  clipper.StrictlySimple(true);
+  for (const Piece& piece : pieces_) {
+    ClipperLib::Path path;
+    for (const PlanPolygon::Corner& c : piece.polygon.corners) path.push_back(grid.of(c.at));
+    clipper.AddPath(path, ClipperLib::ptSubject, true);
+  }
+  // A strip along each side, and at inner corners what the strips of both sides leave out.
+  const std::vector<BorderSide> border = border_of(pieces_);
+  for (const BorderSide& side : border) {
+    const PlanPoint& n = side.normal;
+    // Longer and wider by next to nothing, so that strips, sectors and the border have no sides in common.
+    const PlanPoint a{side.from.x - kOver * n.y, side.from.y + kOver * n.x}, b{side.to.x + kOver * n.y, side.to.y - kOver * n.x};
+    const ClipperLib::Path strip{grid.exactly({a.x - kOver * n.x, a.y - kOver * n.y}),
+                                 grid.exactly({b.x - kOver * n.x, b.y - kOver * n.y}),
+                                 grid.exactly({b.x + by * n.x, b.y + by * n.y}), grid.exactly({a.x + by * n.x, a.y + by * n.y})};
+    clipper.AddPath(strip, ClipperLib::ptClip, true);
+    for (const BorderSide& next : border) {
+      if (!(grid.of(next.from) == grid.of(side.to))) continue;
+      // To the right of the way, by more than rounding does.
+      if (n.x * next.normal.y - n.y * next.normal.x < -1e-9) {
+        ClipperLib::Path fan = fan_of(side, next, by, grid);
+        if (!ClipperLib::Orientation(fan)) ClipperLib::ReversePath(fan);
+        clipper.AddPath(fan, ClipperLib::ptClip, true);
+      }
+    }
+  }
   ClipperLib::PolyTree tree;
-  offset.Execute(tree, -by * kGrid);
+  clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   Pieces pieces;
-  for (const ClipperLib::PolyNode* outer : tree.Childs) add_pieces(*outer, pieces);
+  for (const ClipperLib::PolyNode* outer : tree.Childs) add_pieces(*outer, grid, pieces);
   return pieces;
 }
 

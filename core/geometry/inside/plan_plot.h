@@ -22,8 +22,8 @@ class PlanPlot {
   static Result<PlanPlot> section(const Domain& domain);
 
   /// All points of the plot that lie at least so far [m] inside its border. Exact for a convex plot. Of another one, arcs about
-  /// its reflex corners are chords on a grid of a micrometre. Kept: distances are few, because set-backs are rules of a whole
-  /// plot.
+  /// its reflex corners are chords with the area of their sectors, on a grid of ten nanometres. Kept: distances are few, because
+  /// set-backs are rules of a whole plot.
   const Pieces& eroded(double by);
   /// The same where it has been asked for before, else nullptr.
   const Pieces* made(double by) const;

@@ -1,0 +1,186 @@
+// Outlines and meshes of standing volumes, against their measures and the rules that make them.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/plates.h"
+#include "tests/core/geometry/geometry_support.h"
+#include "tests/core/geometry/standing_zoo.h"
+
+namespace bl::test {
+namespace {
+
+using geometry::FootprintForm;
+using geometry::PlateRing;
+using geometry::StandingSite;
+
+// Counter-clockwise from one end of an arc to the other; a whole turn where they are the same.
+double turn_of(const Point3& from, const Point3& to, const Point3& centre) {
+  const double angle = std::atan2(to.y - centre.y, to.x - centre.x) - std::atan2(from.y - centre.y, from.x - centre.x);
+  return angle > 1e-15 ? angle : angle + 2 * kUnitDisc;
+}
+
+// The area inside a ring: its polygon, and the segments between its chords and arcs.
+double area_of(const PlateRing& ring, const Point3& centre) {
+  double twice = 0;
+  for (std::size_t k = 0; k < ring.corners.size(); ++k) {
+    const Point3 &a = ring.corners[k].at, &b = ring.corners[(k + 1) % ring.corners.size()].at;
+    twice += (a.x - centre.x) * (b.y - centre.y) - (b.x - centre.x) * (a.y - centre.y);
+    if (!ring.corners[k].is_arc) continue;
+    const double angle = turn_of(a, b, centre);
+    twice += ring.radius * ring.radius * (angle - std::sin(angle));
+  }
+  return 0.5 * twice;
+}
+
+double area_of(const std::vector<PlateRing>& rings, const Point3& centre) {
+  double sum = 0;
+  for (const PlateRing& ring : rings) sum += area_of(ring, centre);
+  return sum;
+}
+
+// Corners, and places halfway along the sides.
+std::vector<Point3> places_on(const PlateRing& ring, const Point3& centre) {
+  std::vector<Point3> places;
+  for (std::size_t k = 0; k < ring.corners.size(); ++k) {
+    const Point3 &a = ring.corners[k].at, &b = ring.corners[(k + 1) % ring.corners.size()].at;
+    places.push_back(a);
+    places.push_back({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0});
+    if (!ring.corners[k].is_arc) continue;
+    const double start = std::atan2(a.y - centre.y, a.x - centre.x), half = 0.5 * turn_of(a, b, centre);
+    places.back() = {centre.x + ring.radius * std::cos(start + half), centre.y + ring.radius * std::sin(start + half), 0};
+  }
+  return places;
+}
+
+double volume_of(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6;
+  return sum;
+}
+
+struct Made {
+  geometry::Domain plot;
+  std::vector<StandingSite> sites;
+  geometry::FootprintDiagram diagram;
+};
+
+template <class See>
+void for_random_sets(See&& see) {
+  for (const PlotShape shape : kPlotShapes)
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      Made made{plot_of(shape), random_standing(18, seed), {}};
+      ASSERT_TRUE(made.diagram.set_domain(made.plot));
+      ASSERT_TRUE(made.diagram.update(made.sites));
+      SCOPED_TRACE("plot " + std::to_string(static_cast<int>(shape)) + ", seed " + std::to_string(seed));
+      see(made);
+    }
+}
+
+TEST(Plates, ADiscHasOneArcAndItsCourtyardAnother) {
+  geometry::FootprintDiagram diagram;
+  StandingSite site;
+  site.site = {{40, 40, 2}, 100};
+  site.runs = {{2, 0}, {1, 3}};
+  site.depth = 5;
+  ASSERT_TRUE(diagram.set_domain(plot_of(PlotShape::square)));
+  ASSERT_TRUE(diagram.update(std::vector{site}));
+  const geometry::StandingBody body = body_of(diagram, 0);
+  ASSERT_EQ(body.stacks.size(), 2u);
+  EXPECT_EQ(body.stacks[0].bottom, 2);
+  EXPECT_EQ(body.stacks[1].bottom, 8);
+  EXPECT_EQ(body.stacks[1].top(), 11);
+  for (std::size_t r = 0; r < 2; ++r) {
+    ASSERT_EQ(body.stacks[r].outlines.size(), 1u);
+    EXPECT_EQ(body.stacks[r].outlines[0].corners.size(), 1u);
+    ASSERT_EQ(body.stacks[r].courtyards.size(), 1u);
+    const double radius = r == 0 ? 10 : 7;
+    EXPECT_NEAR(length_of(body.stacks[r].outlines[0], body.centre, PlateRing::kFree), 2 * kUnitDisc * radius, 1e-12);
+    EXPECT_NEAR(length_of(body.stacks[r].courtyards[0], body.centre, PlateRing::kFree), 2 * kUnitDisc * (radius - 5), 1e-12);
+  }
+}
+
+TEST(Plates, SidesKnowWhatIsBeyondThem) {
+  geometry::FootprintDiagram diagram;
+  std::vector<StandingSite> sites(2);
+  sites[0].site = {{10, 3, 0}, 25};
+  sites[1].site = {{16, 3, 0}, 25};
+  for (StandingSite& site : sites) site.runs = {{1, 0}};
+  ASSERT_TRUE(diagram.set_domain(plot_of(PlotShape::square)));
+  ASSERT_TRUE(diagram.update(sites));
+  const geometry::StandingBody body = body_of(diagram, 0);
+  const PlateRing& ring = body.stacks.at(0).outlines.at(0);
+  EXPECT_NEAR(length_of(ring, body.centre, 1), 3 + 4, 1e-12) << "from the border up to where both circles meet";
+  EXPECT_NEAR(length_of(ring, body.centre, PlateRing::kPlot), 3 + 4, 1e-12);
+  const double arc = 2 * kUnitDisc - (kUnitDisc / 2 + 2 * std::acos(0.6));
+  EXPECT_NEAR(length_of(ring, body.centre, PlateRing::kFree), 5 * arc, 1e-11);
+}
+
+TEST(PlatesLaws, OutlinesEncloseTheAreas) {
+  for_random_sets([](const Made& made) {
+    for (std::uint32_t i = 0; i < made.sites.size(); ++i) {
+      const geometry::StandingBody body = body_of(made.diagram, i);
+      std::size_t run = 0;
+      for (const geometry::PlateStack& stack : body.stacks) {
+        while (!(made.diagram.footprints()[i].plates[run] > 0)) ++run;
+        const double plate = made.diagram.footprints()[i].plates[run++];
+        EXPECT_EQ(stack.area, plate);
+        const double found = area_of(stack.outlines, body.centre) - area_of(stack.courtyards, body.centre);
+        // Of plots that are not convex, pieces meet on a grid of a micrometre.
+        EXPECT_NEAR(found, plate, 1e-9 * plate + (made.plot.is_convex() ? 1e-9 : 1e-3)) << "site " << i;
+      }
+    }
+  });
+}
+
+TEST(PlatesLaws, PlatesStayInPlotCellAndForm) {
+  std::size_t places = 0;
+  for_random_sets([&](const Made& made) {
+    for (std::uint32_t i = 0; i < made.sites.size(); ++i) {
+      const StandingSite& own = made.sites[i];
+      const geometry::StandingBody body = body_of(made.diagram, i);
+      for (const geometry::PlateStack& stack : body.stacks)
+        for (const PlateRing& ring : stack.outlines)
+          for (Point3 at : places_on(ring, body.centre)) {
+            ++places;
+            const auto power = [&](const StandingSite& s) {
+              const double x = at.x - s.site.position.x, y = at.y - s.site.position.y;
+              return x * x + y * y - s.site.weight;
+            };
+            // In its own cell: two plates of one storey then have no place in common but walls.
+            for (const StandingSite& other : made.sites) EXPECT_LE(power(own), power(other) + 1e-6);
+            if (own.form == FootprintForm::round) { EXPECT_LE(power(own), 1e-8); }
+            at.z = 1;
+            EXPECT_TRUE(made.plot.contains(at, 1e-5)) << "site " << i << " at " << at.x << ", " << at.y;
+          }
+    }
+  });
+  EXPECT_GT(places, 5000u);
+}
+
+TEST(PlatesLaws, MeshesAreClosedAndEncloseTheVolume) {
+  for_random_sets([](const Made& made) {
+    for (std::uint32_t i = 0; i < made.sites.size(); ++i) {
+      const geometry::StandingBody body = body_of(made.diagram, i);
+      const Mesh mesh = mesh_of(body, 1e-3);
+      EXPECT_TRUE(is_closed(mesh)) << "site " << i;
+      double chords = 0;
+      for (const geometry::PlateStack& stack : body.stacks)
+        for (const geometry::PlateFace& face : faces_of(stack, body.centre, 1e-3)) {
+          chords += geometry::signed_area(face.outer) * (stack.top() - stack.bottom);
+          for (const geometry::Ring& hole : face.holes) {
+            EXPECT_LT(geometry::signed_area(hole), 0);
+            chords += geometry::signed_area(hole) * (stack.top() - stack.bottom);
+          }
+        }
+      const double volume = made.diagram.footprints()[i].volume;
+      EXPECT_NEAR(volume_of(mesh), chords, 1e-6 * (1 + volume));
+      // A chord is at most a millimetre off its arc: that much of the sides of all storeys.
+      EXPECT_NEAR(volume_of(mesh), volume, 5e-3 * volume + 1e-2) << "site " << i;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace bl::test
