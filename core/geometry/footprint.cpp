@@ -61,7 +61,7 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   Workshop& w = *workshop_;
   if (auto sound = check(sites); !sound) return sound.error();
   w.find_made(sites);
-  if (w.made.empty()) return std::span<const FootprintMeasure>(w.measures);
+  if (w.made.empty() && !sites.empty()) return std::span<const FootprintMeasure>(w.measures);
   for (const std::uint32_t i : w.made)
     for (const StoreyRun& run : sites[i].runs) {
       w.plot.eroded(outer_offset(sites[i], run).own);

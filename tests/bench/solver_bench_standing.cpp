@@ -19,7 +19,7 @@ using geometry::FloorDemand;
 using geometry::FootprintFit;
 using geometry::StandingSite;
 
-constexpr double kSpacing = 40, kCover = 0.5, kSetback = 1.5, kDepth = 7;  // [m]; the share of the plot
+constexpr double kPlotSpacing = 40, kPlotCover = 0.5, kTopSetback = 1.5, kCourtDepth = 7;  // [m]; the share of the plot
 constexpr double kDragTolerance = 1e-3, kShareOfSpacing = 0.01;
 
 struct StandingCase {
@@ -32,13 +32,13 @@ struct StandingCase {
 double floor_of_disc(double radius, int storeys, double depth) {
   const auto disc = [](double r) { return r > 0 ? std::numbers::pi * r * r : 0.0; };
   const auto plate = [&](double r) { return disc(r) - disc(r - depth); };
-  return (storeys - 1) * plate(radius) + plate(radius - kSetback);
+  return (storeys - 1) * plate(radius) + plate(radius - kTopSetback);
 }
 
 // Free discs of these floors would cover half of the plot; two to seven storeys, footprints over a factor of 8.
 StandingCase standing_case(int count, double depth) {
   StandingCase made;
-  const double side = kSpacing * std::sqrt(static_cast<double>(count));
+  const double side = kPlotSpacing * std::sqrt(static_cast<double>(count));
   const std::vector<Point3> plan{{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}};
   made.plot = *geometry::extrude(plan, 0, 60);
   Random random(20070);
@@ -49,13 +49,13 @@ StandingCase standing_case(int count, double depth) {
     site.site.position.x = side * random.uniform();
     site.site.position.y = side * random.uniform();
     const int storeys = 2 + static_cast<int>(random.below(6));
-    site.runs = {{storeys - 1, 0}, {1, kSetback}};
+    site.runs = {{storeys - 1, 0}, {1, kTopSetback}};
     site.depth = depth;
     shares.push_back(random.uniform(1, 8));
     sum += shares.back();
   }
   for (std::uint32_t i = 0; i < made.sites.size(); ++i) {
-    const double radius = std::sqrt(shares[i] / sum * kCover * side * side / std::numbers::pi);
+    const double radius = std::sqrt(shares[i] / sum * kPlotCover * side * side / std::numbers::pi);
     const double floor = floor_of_disc(radius, made.sites[i].storeys(), depth);
     made.demands.push_back({{i}, floor, floor});
   }
@@ -88,7 +88,7 @@ Result<void> add_cold(const SolverBench& bench, int count, double depth, BenchTa
   const auto made = fitted(standing);
   if (!made) return made.error();
   const geometry::Domain cube = unit_cube();
-  const geometry::FitProblem balls = fit_problem(count, kCover);
+  const geometry::FitProblem balls = fit_problem(count, kPlotCover);
   std::vector<Contender> contenders = {{[&] { (void)fitted(standing); }, {}, {}},
                                        {[&] { (void)fit_volumes(cube, balls); }, {}, {}}};
   const std::string name = std::isinf(depth) ? "cold" : "cold, courtyards";
@@ -122,8 +122,8 @@ Result<Dragged> drag_standing(const StandingCase& standing, Fitted made, int fra
     // Round a circle of 16 corners, so that it stays among the same others.
     constexpr double kX[] = {1, 0.9, 0.7, 0.4, 0, -0.4, -0.7, -0.9, -1, -0.9, -0.7, -0.4, 0, 0.4, 0.7, 0.9};
     Point3& at = made.sites[made.sites.size() / 2].site.position;
-    at.x += kShareOfSpacing * kSpacing * kX[frame / 4 % 16];
-    at.y += kShareOfSpacing * kSpacing * kX[(frame / 4 + 12) % 16];
+    at.x += kShareOfSpacing * kPlotSpacing * kX[frame / 4 % 16];
+    at.y += kShareOfSpacing * kPlotSpacing * kX[(frame / 4 + 12) % 16];
     const double before = processor_time();
     const auto report = fit_footprints(made.diagram, made.sites, standing.demands, options);
     run.seconds.push_back(processor_time() - before);
@@ -142,7 +142,7 @@ Result<Dragged> drag_standing(const StandingCase& standing, Fitted made, int fra
 // As many balls, of which one moves by the same share of the distance between neighbours.
 Result<double> drag_balls(int count, int frames) {
   geometry::VolumeSolver solver;
-  if (auto started = solver.start(unit_cube(), without_weights(random_sites(count)), random_demands(count, kCover)); !started)
+  if (auto started = solver.start(unit_cube(), without_weights(random_sites(count)), random_demands(count, kPlotCover)); !started)
     return started.error();
   if (auto solved = solver.solve(); !solved) return solved.error();
   const auto dragged = static_cast<std::uint32_t>(count / 2);
@@ -208,7 +208,7 @@ BenchTables bench_standing(const SolverBench& bench) {
                     {"met", "is_met", true},
                     {"hash", "hash", true}});
   for (const int count : bench.sites({1000}, {100})) {
-    for (const double depth : {StandingSite::kAnyDepth, kDepth})
+    for (const double depth : {StandingSite::kAnyDepth, kCourtDepth})
       if (auto done = add_cold(bench, count, depth, table); !done) return done.error();
     if (auto done = add_drag(bench, count, table); !done) return done.error();
   }

@@ -68,6 +68,7 @@ Result<void> read_bounds(const Json& json, const SiteCase& c, const std::string&
 
 Result<geometry::VolumeDemand> demand_at(const Json& json, const SiteCase& c, const std::string& place) {
   geometry::VolumeDemand demand;
+  if (!c.standing.empty()) demand.storey_height = c.standing.front().storey_height;
   if (!json.is_number() && !json.is_object())
     return Error{ErrorCode::wrong_kind, place, std::string("expects ") + kDemandForms + ", found " + excerpt(json)};
   if (!json.is_object() || !(json.contains("floor_area") || json.contains("storey_height"))) {
@@ -78,7 +79,6 @@ Result<geometry::VolumeDemand> demand_at(const Json& json, const SiteCase& c, co
   if (!json.contains("floor_area"))
     return Error{ErrorCode::missing, slash(place, "floor_area"), "`floor_area` is missing beside `storey_height`"};
   demand.kind = geometry::VolumeDemand::Kind::floor_area;
-  if (!c.standing.empty()) demand.storey_height = c.standing.front().storey_height;
   if (json.contains("storey_height")) {
     const std::string here = slash(place, "storey_height");
     const auto height = number_at(json["storey_height"], here);

@@ -18,9 +18,9 @@ namespace bl::geometry {
 namespace {
 
 constexpr double kGrid = 1e8;           // steps of the Clipper library's integers in a metre
-constexpr double kArcTolerance = 5e-5;  // about the largest distance of a chord from its arc [m]
+constexpr double kArcTolerance = 1e-4;  // about the largest distance of a chord from its arc [m]
 constexpr ClipperLib::cInt kSameStep = 4;
-constexpr double kOver = 1e-6;  // [m]
+constexpr double kStripMargin = 1e-6;  // [m]
 // The section is taken at this share of the height: at the bottom itself planes of several pieces meet.
 constexpr double kSectionShare = 1e-3;
 
@@ -238,9 +238,10 @@ PlanPlot::Pieces PlanPlot::erode_rings(double by) const {
   for (const BorderSide& side : border) {
     const PlanPoint& n = side.normal;
     // Longer and wider by next to nothing, so that strips, sectors and the border have no sides in common.
-    const PlanPoint a{side.from.x - kOver * n.y, side.from.y + kOver * n.x}, b{side.to.x + kOver * n.y, side.to.y - kOver * n.x};
-    const ClipperLib::Path strip{grid.exactly({a.x - kOver * n.x, a.y - kOver * n.y}),
-                                 grid.exactly({b.x - kOver * n.x, b.y - kOver * n.y}),
+    const PlanPoint a{side.from.x - kStripMargin * n.y, side.from.y + kStripMargin * n.x},
+        b{side.to.x + kStripMargin * n.y, side.to.y - kStripMargin * n.x};
+    const ClipperLib::Path strip{grid.exactly({a.x - kStripMargin * n.x, a.y - kStripMargin * n.y}),
+                                 grid.exactly({b.x - kStripMargin * n.x, b.y - kStripMargin * n.y}),
                                  grid.exactly({b.x + by * n.x, b.y + by * n.y}), grid.exactly({a.x + by * n.x, a.y + by * n.y})};
     clipper.AddPath(strip, ClipperLib::ptClip, true);
     for (const BorderSide& next : border) {

@@ -69,7 +69,7 @@ struct Made {
 template <class See>
 void for_random_sets(See&& see) {
   for (const PlotShape shape : kPlotShapes)
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       Made made{plot_of(shape), random_standing(18, seed), {}};
       ASSERT_TRUE(made.diagram.set_domain(made.plot));
       ASSERT_TRUE(made.diagram.update(made.sites));
@@ -127,8 +127,8 @@ TEST(PlatesLaws, OutlinesEncloseTheAreas) {
         const double plate = made.diagram.footprints()[i].plates[run++];
         EXPECT_EQ(stack.area, plate);
         const double found = area_of(stack.outlines, body.centre) - area_of(stack.courtyards, body.centre);
-        // Of plots that are not convex, pieces meet on a grid of a micrometre.
-        EXPECT_NEAR(found, plate, 1e-9 * plate + (made.plot.is_convex() ? 1e-9 : 1e-3)) << "site " << i;
+        // Of plots that are not convex, pieces meet on a grid of ten nanometres.
+        EXPECT_NEAR(found, plate, 1e-9 * plate + (made.plot.is_convex() ? 1e-9 : 1e-4)) << "site " << i;
       }
     }
   });
@@ -156,7 +156,7 @@ TEST(PlatesLaws, PlatesStayInPlotCellAndForm) {
           }
     }
   });
-  EXPECT_GT(places, 5000u);
+  EXPECT_GT(places, 2000u);
 }
 
 TEST(PlatesLaws, MeshesAreClosedAndEncloseTheVolume) {

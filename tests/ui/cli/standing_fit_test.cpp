@@ -99,10 +99,6 @@ TEST(StandingFit, AStoreyThatIsEatenHasASentence) {
   const nlohmann::json fit = place.json("o.json");
   EXPECT_EQ(fit["notes"][0], said);
   EXPECT_EQ(fit["sites"][0]["plates"][2], 0.0);
-  place.write("i.json", standing_case("[[30,30,0],[30,30,0]]", "[300, 300]", R"("kind": "round", "storeys": [1, 1])"));
-  const Outcome same = place.run({"fit", "i.json", "--json", "o.json"});
-  EXPECT_EQ(same.code, 3);
-  EXPECT_NE(same.err.find("another one stands in the same place"), std::string::npos) << same.err;
 }
 
 TEST(StandingFit, ADemandForNothingNeedsNoWeight) {
