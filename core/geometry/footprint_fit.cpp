@@ -28,7 +28,8 @@ class Fit {
         demands_(demands),
         options_(options),
         report_(report),
-        demand_of_(sites.size(), kNoDemand) {
+        demand_of_(sites.size(), kNoDemand),
+        is_out_(demands.size(), 0) {
     for (std::uint32_t g = 0; g < demands.size(); ++g)
       for (const std::uint32_t i : demands[g].sites) {
         demand_of_[i] = g;
@@ -44,6 +45,7 @@ class Fit {
   Result<bool> run(double factor) {
     factor_ = factor;
     if (auto done = evaluate(); !done) return done.error();
+    leave_doubled();
     if (auto done = repair(); !done) return done.error();
     least_ratio_ = 0.5 * std::min(1.0, smallest_ratio());
     int small_steps = 0;
@@ -93,7 +95,18 @@ class Fit {
 
  private:
   double wanted(std::uint32_t g) const { return std::clamp(floors_[g], factor_ * demands_[g].least, factor_ * demands_[g].most); }
-  bool counts(std::uint32_t g) const { return !demands_[g].sites.empty() && demands_[g].most > 0; }
+  bool counts(std::uint32_t g) const { return is_out_[g] == 0 && !demands_[g].sites.empty() && demands_[g].most > 0; }
+
+  // Of sites in one place only the heaviest has a footprint. The others have no weight with which they could get one.
+  void leave_doubled() {
+    const auto is_doubled = [this](std::uint32_t i) { return diagram_.footprints()[i].state == SiteState::coincident; };
+    for (std::uint32_t g = 0; g < demands_.size(); ++g) {
+      const std::vector<std::uint32_t>& sites = demands_[g].sites;
+      if (!counts(g) || floors_[g] > 0 || !std::all_of(sites.begin(), sites.end(), is_doubled)) continue;
+      is_out_[g] = 1;
+      for (const std::uint32_t i : sites) sites_[i].site.weight = 0;
+    }
+  }
 
   double error() const {
     double largest = 0;
@@ -219,7 +232,7 @@ class Fit {
     double share = 1;
     for (int halving = 0; halving <= kMostHalvings; ++halving, share *= 0.5) {
       for (std::size_t i = 0; i < sites_.size(); ++i) {
-        if (demand_of_[i] == kNoDemand) continue;
+        if (demand_of_[i] == kNoDemand || is_out_[demand_of_[i]] != 0) continue;
         const double to = before[i] + share * move[demand_of_[i]];
         // A nearly singular matrix asks for moves without an end.
         const double most = 4 * std::abs(before[i]) + diagram_.plot_area();
@@ -243,6 +256,7 @@ class Fit {
   const FootprintFitOptions& options_;
   FootprintFit& report_;
   std::vector<std::uint32_t> demand_of_;
+  std::vector<std::uint8_t> is_out_;  // per demand: it cannot have anything
   std::vector<double> floors_;
   double factor_ = 1, least_ratio_ = 0;
   double share_ = 1;  // of the last full step, that was taken
@@ -266,6 +280,8 @@ void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, st
   const double equal = is_fresh ? equal_footprint_weight(diagram, sites, demands) : 0;
   for (const FloorDemand& demand : demands)
     for (const std::uint32_t i : demand.sites) {
+      // Who wants nothing has no form, and so light a cell that there is none of it.
+      if (!(demand.most > 0)) sites[i].site.weight = sites[i].form == FootprintForm::cell ? -4 * diagram.plot_area() : 0;
       if (has_weight(sites[i]) || !(demand.most > 0)) continue;
       // Newcomers among others start with half of what they need, so that they hide nobody.
       const double own = 0.5 * demand.least / (kPi * std::max(1, sites[i].storeys()) * static_cast<double>(demand.sites.size()));
@@ -300,7 +316,7 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
   const std::vector<StandingSite> initial = sites;
   Fit fit(diagram, sites, demands, options, report);
   const double needed = needed_plot(sites, demands);
-  const double most = !fit.fills_plot() && needed > diagram.plot_area() ? diagram.plot_area() / needed : 1;
+  const double most = !fit.fills_plot() && needed > (1 + 1e-9) * diagram.plot_area() ? diagram.plot_area() / needed : 1;
   Result<bool> met = most < 1 ? Result<bool>(false) : fit.run(1);
   if (!met) return met.error();
   if (fit.fills_plot()) {

@@ -155,7 +155,8 @@ Ring chords_of(const PlateRing& ring, const Point3& centre, double tolerance) {
   const std::size_t count = ring.corners.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Point3 &from = ring.corners[k].at, &to = ring.corners[(k + 1) % count].at;
-    line.push_back(from);
+    // A side that is shorter than what is one place has no chord of its own.
+    if (line.empty() || !is_same({line.back().x, line.back().y}, {from.x, from.y})) line.push_back(from);
     if (!ring.corners[k].is_arc) continue;
     const double angle = angle_of(from, to, centre);
     const double step = 2 * mathematics::arc_cosine(std::clamp(1 - tolerance / ring.radius, 0.0, 1.0));
@@ -166,6 +167,7 @@ Ring chords_of(const PlateRing& ring, const Point3& centre, double tolerance) {
       line.push_back({centre.x + ring.radius * mathematics::cosine(at), centre.y + ring.radius * mathematics::sine(at), 0});
     }
   }
+  while (line.size() > 1 && is_same({line.back().x, line.back().y}, {line.front().x, line.front().y})) line.pop_back();
   return line;
 }
 

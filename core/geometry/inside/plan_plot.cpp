@@ -214,7 +214,7 @@ PlanPlot::Pieces PlanPlot::erode_convex(double by) const {
   PlanPolygon rest = whole, spare;
   for (std::size_t k = 0; k < whole.corners.size(); ++k) {
     const PlanPoint &a = whole.corners[k].at, &b = whole.corners[(k + 1) % whole.corners.size()].at;
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double length = mathematics::hypotenuse(b.x - a.x, b.y - a.y);
     if (!(length > 0)) continue;
     const double x = (b.y - a.y) / length, y = (a.x - b.x) / length;
     clip(rest, {x, y, x * a.x + y * a.y - by}, PlanSide::kPlot, spare);
