@@ -78,8 +78,9 @@ Result<std::vector<Order>> orders_of(const ExportOptions& options) {
 
 // An existing file of another kind is somebody's work.
 Result<void> may_replace(const std::string& path, const exporting::FormatDefinition& format) {
+  // Devices and pipes take what they are given.
+  if (std::error_code none; !fs::is_regular_file(path, none)) return {};
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
   std::string begin(256, '\0');
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
