@@ -95,7 +95,10 @@ Result<void> may_write_order(const Order& order) {
   const fs::path path(order.out), folder = path.parent_path();
   std::error_code none;
   if (order.is_folder) {
-    if (fs::exists(path, none) && !fs::is_directory(path, none)) return bad(order.out, "is a file, not a folder", ErrorCode::io);
+    // The name without its stroke at the end: a file has none.
+    const fs::path plain = path.has_filename() ? path : folder;
+    if (fs::exists(plain, none) && !fs::is_directory(plain, none))
+      return bad(order.out, "is a file, not a folder; choose another name", ErrorCode::io);
     return {};
   }
   if (!folder.empty() && !fs::is_directory(folder, none))
