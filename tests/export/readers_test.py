@@ -349,6 +349,23 @@ class Export(unittest.TestCase):
         about = dict(row[:2] for row in values["About"].iter_rows(min_row=2, values_only=True))
         self.assertEqual(about["hash"], self.rows[0]["hash"])
 
+    @needs("ssconvert")
+    @needs_module("openpyxl")
+    def test_xlsx_formulas_give_their_values(self):
+        import openpyxl
+        again = self.path("again.xlsx")
+        self.assertEqual(run("ssconvert", "--recalc", self.path("a.xlsx"), again).returncode, 0)
+        formulas = openpyxl.load_workbook(self.path("a.xlsx"))
+        written = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
+        found = openpyxl.load_workbook(again, data_only=True)
+        count = 0
+        for sheet in formulas.sheetnames:
+            for cell in (cell for row in formulas[sheet].iter_rows() for cell in row):
+                if isinstance(cell.value, str) and cell.value.startswith("="):
+                    count += 1
+                    self.near(found[sheet][cell.coordinate].value, written[sheet][cell.coordinate].value, 1e-9)
+        self.assertGreater(count, len(self.buildings))
+
     @needs("qpdf")
     def test_pdf_is_sound(self):
         done = run("qpdf", "--check", self.path("a.pdf"))

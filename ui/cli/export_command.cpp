@@ -78,8 +78,9 @@ Result<std::vector<Order>> orders_of(const ExportOptions& options) {
 
 // An existing file of another kind is somebody's work.
 Result<void> may_replace(const std::string& path, const exporting::FormatDefinition& format) {
+  // Devices and pipes take what they are given.
+  if (std::error_code none; !fs::is_regular_file(path, none)) return {};
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
   std::string begin(256, '\0');
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
@@ -94,7 +95,10 @@ Result<void> may_write_order(const Order& order) {
   const fs::path path(order.out), folder = path.parent_path();
   std::error_code none;
   if (order.is_folder) {
-    if (fs::exists(path, none) && !fs::is_directory(path, none)) return bad(order.out, "is a file, not a folder", ErrorCode::io);
+    // The name without its stroke at the end: a file has none.
+    const fs::path plain = path.has_filename() ? path : folder;
+    if (fs::exists(plain, none) && !fs::is_directory(plain, none))
+      return bad(order.out, "is a file, not a folder; choose another name", ErrorCode::io);
     return {};
   }
   if (!folder.empty() && !fs::is_directory(folder, none))

@@ -88,7 +88,7 @@ struct XlsxFormat {
         area += sum, asked += one.asked_area, volume += one.volume, asked_volume += one.asked_volume, footprint += one.footprint;
       };
       for (const Building& one : proposal.buildings) {
-        const std::string of_storeys = "SUMPRODUCT(EXACT(" + range("Storeys", 'A', last_storey) + ",A" +
+        const std::string of_storeys = "SUMPRODUCT((" + range("Storeys", 'A', last_storey) + "=A" +
                                        std::to_string(sheet.rows.size() + 1) + ")*" + range("Storeys", 'H', last_storey) + ")";
         add(one, one.is_standing ? "standing" : "rounded", f(of_storeys, sum_of_storeys(one)));
       }
@@ -116,7 +116,7 @@ struct XlsxFormat {
       for (const UseRow& use : proposal.uses) {
         const std::string row = std::to_string(sheet.rows.size() + 1);
         const auto sum_of = [&](char column) {
-          return "SUMPRODUCT(EXACT(" + range("Buildings", 'C', last_building) + ",A" + row + ")*" +
+          return "SUMPRODUCT((" + range("Buildings", 'C', last_building) + "=A" + row + ")*" +
                  range("Buildings", column, last_building) + ")";
         };
         double got = 0, got_volume = 0;

@@ -64,6 +64,7 @@ TEST(Export, MistakesAreNamedAndWriteNothing) {
       {{"--format", "csv", "--out", "a.json"}, "is read as SCENE"},
       {{"--format", "csv", "--out", "mine.csv"}, "was not exported as csv"},
       {{"--format", "csv", "--out", "folder"}, "is a folder, but csv makes one file"},
+      {{"--format", "svg", "--out", "mine.csv/"}, "is a file, not a folder"},
       {{"--format", "csv", "--out", "nowhere/x.csv"}, "there is no folder nowhere"},
       {{"--format", "stl", "--out", "x", "--option", "scael=3"}, "did you mean `scale`?"},
       {{"--format", "stl", "--out", "x", "--option", "scale=0"}, "scale"},
