@@ -226,13 +226,18 @@ PlanPlot::Pieces PlanPlot::erode_convex(double by) const {
 
 PlanPlot::Pieces PlanPlot::erode_rings(double by) const {
   PlotGrid grid(low_);
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
+  ClipperLib::Clipper joiner;
   for (const Piece& piece : pieces_) {
     ClipperLib::Path path;
     for (const PlanPolygon::Corner& c : piece.polygon.corners) path.push_back(grid.of(c.at));
-    clipper.AddPath(path, ClipperLib::ptSubject, true);
+    joiner.AddPath(path, ClipperLib::ptSubject, true);
   }
+  // Joined first: of pieces side by side, a difference can leave the side between them as a border.
+  ClipperLib::Paths whole;
+  joiner.Execute(ClipperLib::ctUnion, whole, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  ClipperLib::Clipper clipper;
+  clipper.StrictlySimple(true);
+  clipper.AddPaths(whole, ClipperLib::ptSubject, true);
   // A strip along each side, and at inner corners what the strips of both sides leave out.
   const std::vector<BorderSide> border = border_of(pieces_);
   for (const BorderSide& side : border) {
