@@ -93,7 +93,7 @@ TEST(StandingSolver, WithoutABoundaryItSaysSo) {
       R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [{"id": "solver", "types": {"standing_solver": {}}}]})");
   world.tick();
   EXPECT_EQ(world.node_error("solver", "standing_solver"),
-            "boundary: a boundary is needed and none was found: add one, or choose one here");
+            "nodes/solver/standing_solver/boundary: a boundary is needed and none was found: add one, or choose one here");
 }
 
 }  // namespace

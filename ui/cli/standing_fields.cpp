@@ -11,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "ui/cli/json_fields.h"
+#include "ui/cli/scene_loading.h"
 
 namespace bl::cli {
 
