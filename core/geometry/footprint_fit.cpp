@@ -275,7 +275,10 @@ double needed_plot(std::span<const StandingSite> sites, std::span<const FloorDem
 }
 
 void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, std::span<const FloorDemand> demands) {
-  const auto has_weight = [](const StandingSite& s) { return s.site.weight > 0; };
+  // A cell without a form may well have a weight below zero; one that has none yet has exactly zero.
+  const auto has_weight = [](const StandingSite& s) {
+    return s.form == FootprintForm::cell ? s.site.weight != 0 : s.site.weight > 0;
+  };
   const bool is_fresh = std::none_of(sites.begin(), sites.end(), has_weight);
   const double equal = is_fresh ? equal_footprint_weight(diagram, sites, demands) : 0;
   for (const FloorDemand& demand : demands)

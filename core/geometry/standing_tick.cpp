@@ -91,7 +91,8 @@ StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& si
 
 // The sites of the wishes, with the storeys that they may have.
 std::vector<StandingSite> sites_of(const Domain& domain, std::span<const StandingWish> wishes) {
-  const double bottom = domain.minimum.z, highest = domain.maximum.z - bottom;
+  // Corners of a boundary are where its planes meet, and off by rounding: a ground at -4e-15 m is one at 0.
+  const double bottom = 1e-9 * std::round(1e9 * domain.minimum.z), highest = domain.maximum.z - bottom;
   std::vector<StandingSite> sites;
   for (const StandingWish& wish : wishes) {
     StandingSite& site = sites.emplace_back(wish.site);
