@@ -72,9 +72,10 @@ VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account, co
   const bool has_last = before != nullptr && before->cell && !before->is_ball && before->id == facts.id;
   if (!is_awaited) facts.cell = coarse_of(facts.figures.mesh);
   else if (has_last) facts.cell = before->cell;
-  // A body that comes without a wrapped cell, such as one that stands, is drawn as it is.
+  // A body that comes without a wrapped cell, such as one that stands, is drawn as it is. One that is still to be made is not:
+  // where its cell found no memory, it would find none either.
   const MeshPointer& mesh = facts.figures.mesh;
-  if (!is_awaited && !facts.cell && mesh && !mesh->triangles.empty())
+  if (!is_awaited && !facts.cell && mesh && !mesh.has_recipe() && !mesh->triangles.empty())
     facts.cell = has_last && before->figures.mesh == mesh ? before->cell : as_cell(*mesh);
   const bool is_usable =
       facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
