@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSmallShare = 0.02;
-constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kRings = 2;
+constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kStepsOfATry = 30, kRings = 2;
 constexpr std::uint32_t kNoDemand = 0xffffffffu;
 
 class Fit {
@@ -40,24 +40,30 @@ class Fit {
   // All footprints are whole cells: together they take the plot whatever the weights are, and demands are met by proportion only.
   bool fills_plot() const { return fills_plot_; }
   double factor() const { return factor_; }
+  bool is_stalled() const { return is_stalled_; }
+  std::size_t doubled() const { return static_cast<std::size_t>(std::count(is_out_.begin(), is_out_.end(), std::uint8_t{1})); }
 
-  // Steps until the demands, times `factor`, are met. False: they are not.
-  Result<bool> run(double factor) {
+  // Steps until the demands, times `factor`, are met. False: they are not, because no step brings them nearer (`is_stalled`), or
+  // because `most_steps` were not enough.
+  Result<bool> run(double factor, int most_steps) {
     factor_ = factor;
+    is_stalled_ = false;
     if (auto done = evaluate(); !done) return done.error();
     leave_doubled();
     if (auto done = repair(); !done) return done.error();
     least_ratio_ = 0.5 * std::min(1.0, smallest_ratio());
     int small_steps = 0;
-    for (int step = 0; step < options_.most_steps; ++step) {
+    for (int step = 0; step < most_steps; ++step) {
       if (error() <= options_.tolerance) return true;
       const std::vector<double> move = newton_move();
       const auto taken = take(move);
       if (!taken) return taken.error();
-      if (!*taken) return false;
+      is_stalled_ = !*taken;
+      if (is_stalled_) return false;
       // Demands that cannot be met are approached by ever smaller steps.
       small_steps = share_ < kSmallShare ? small_steps + 1 : 0;
-      if (small_steps >= kMostSmallSteps) return false;
+      is_stalled_ = small_steps >= kMostSmallSteps;
+      if (is_stalled_) return false;
       ++report_.steps;
       if (options_.progress && !options_.progress(report_.evaluations, error())) report_.is_stopped = true;
       if (report_.is_stopped) return false;
@@ -260,7 +266,7 @@ class Fit {
   std::vector<double> floors_;
   double factor_ = 1, least_ratio_ = 0;
   double share_ = 1;  // of the last full step, that was taken
-  bool fills_plot_ = true;
+  bool fills_plot_ = true, is_stalled_ = false;
 };
 
 // The plot that all demands need at the least: each plate is a whole footprint.
@@ -320,7 +326,7 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
   Fit fit(diagram, sites, demands, options, report);
   const double needed = needed_plot(sites, demands);
   const double most = !fit.fills_plot() && needed > (1 + 1e-9) * diagram.plot_area() ? diagram.plot_area() / needed : 1;
-  Result<bool> met = most < 1 ? Result<bool>(false) : fit.run(1);
+  Result<bool> met = most < 1 ? Result<bool>(false) : fit.run(1, options.most_steps);
   if (!met) return met.error();
   if (fit.fills_plot()) {
     report.factor = fit.factor();
@@ -329,14 +335,14 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
       report.infeasible = "all footprints are whole cells, which share the plot: each volume has " +
                           fixed(100 * report.factor, 1) + " % of the floor area that it asks for";
     }
-  } else if (!*met && !report.is_stopped && options.is_final) {
+  } else if (!*met && !report.is_stopped && options.is_final && (most < 1 || fit.is_stalled())) {
     // The largest share of all demands that can be met, by halving: each try starts from the best so far.
     double low = 0, high = most;
     std::vector<StandingSite> best = initial;
     for (int k = 0; k < kScalings && !report.is_stopped; ++k) {
       const double middle = k == 0 ? 0.9 * most : 0.5 * (low + high);
       sites = best;
-      met = fit.run(middle);
+      met = fit.run(middle, std::max(options.most_steps, kStepsOfATry));
       if (!met) return met.error();
       (*met ? low : high) = middle;
       if (*met) best = sites;
@@ -347,7 +353,10 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
     report.infeasible = "the demands cannot be met together: " + fixed(100 * low, 1) + " % of each can";
     met = false;
   }
-  report.is_met = *met;
+  if (fit.doubled() > 0)
+    report.infeasible += (report.infeasible.empty() ? "" : "; ") + std::to_string(fit.doubled()) +
+                         " of the demands can have nothing, because their sites stand in the place of others";
+  report.is_met = *met && fit.doubled() == 0;
   for (std::uint32_t g = 0; g < demands.size(); ++g) {
     const double error = fit.error_of(g, 1);
     if (error > report.error) {

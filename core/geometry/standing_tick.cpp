@@ -129,7 +129,8 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     auto fit = fit_footprints(kept.diagram, sites, demands,
                               {.tolerance = tolerance, .most_steps = steps, .is_local = true, .pool = pool, .progress = {}});
     if (!fit) return fit.error();
-    outcome.losses = std::move(fit->losses);
+    // Where only the steps of a tick did not suffice, nobody goes without: the next tick goes on.
+    if (!fit->infeasible.empty()) outcome.losses = std::move(fit->losses);
     outcome.message = std::move(fit->infeasible);
   } else if (auto made = kept.diagram.update(sites, pool); !made) {
     return made.error();

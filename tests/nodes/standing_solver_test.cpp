@@ -62,6 +62,16 @@ TEST(StandingSolver, ASavedStateGoesOnAlike) {
   EXPECT_EQ(first.state().hash, second.state().hash);
 }
 
+// Steps that did not suffice in one tick are no reason to say that demands cannot be met.
+TEST(StandingSolver, FewStepsInATickOnlyTakeMoreTicks) {
+  World world = World::from_text(crowd(40, 0.5, 7, R"("tolerance": 1e-7, "steps": 1)"));
+  for (int tick = 0; tick < 12; ++tick) {
+    world.tick();
+    EXPECT_EQ(world.text("solver", "standing_solver.message"), "") << "tick " << tick;
+  }
+  EXPECT_LE(world.number("solver", "standing_solver.largest_error"), 1e-7);
+}
+
 TEST(StandingSolver, TooMuchIsScaledAndSaid) {
   World world = World::from_text(crowd(12, 1.4, 5));
   world.settle();
