@@ -226,6 +226,7 @@ class RoomGuest final : public host::Running {
   // Of the room.
   std::string role_, mode_, end_;
   std::int64_t seat_ = 0, epoch_ = 0;
+  std::int64_t told_to_ = 0;  // the last entry that the log and the history have been told
   bool has_scene_ = false, is_stale_ = false, wants_resync_ = false, can_store_ = true;
   std::map<std::string, std::map<std::string, JsonValue>> views_;
   std::uint64_t views_revision_ = 0;

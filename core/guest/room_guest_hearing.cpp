@@ -145,6 +145,8 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
         "does "
         "not compute them itself.");
   mode_ = welcome.mode;
+  // A server that has taken over may lack the last entries of the one before; their numbers mean others then.
+  if (epoch_ != welcome.epoch) told_to_ = std::min(told_to_, welcome.seq);
   epoch_ = welcome.epoch;
   people_.rate = welcome.rate;
   find_page(welcome.addresses);
@@ -222,10 +224,14 @@ void RoomGuest::hear_entries(const wire::Ops& ops) {
       miss("entry", entry ? entry->tick : follower_.tick());
       break;
     }
+    // A snapshot holds what the last tick has read: behind it entries come again that are in the log already.
+    const bool is_new = entry->seq > told_to_;
+    told_to_ = std::max(told_to_, entry->seq);
     if (!entry->is_command()) continue;
     has_changed = true;
     placed.insert(change->placed.begin(), change->placed.end());
     if (change->is_logic_changed && mode_ != "values") follower_.set_scene(entry->tick, fold_.confirmed(), change->placed);
+    if (!is_new) continue;
     history_.take(*entry, fold_.confirmed());
     entry_ticks_.emplace_back(entry->tick, entry->seq);
     log_.push_back(std::move(*entry));
