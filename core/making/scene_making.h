@@ -11,9 +11,16 @@
 
 namespace bl::making {
 
+/// What the volumes of a new scene can be; the first is the default.
+struct VolumeForm {
+  const char* id;
+  const char* words;
+};
+inline constexpr VolumeForm kVolumeForms[] = {{"standing", "whole storeys on footprints"}, {"rounded", "cells cut to balls"}};
+
 struct NewOptions {
   std::string boundary, programme, out, feature, crs, title;
-  std::string form = "rounded";  ///< of the volumes: `rounded` or `standing`
+  std::string form = kVolumeForms[0].id;  ///< of the volumes
   double height = 0;           ///< [m]
   double storey_height = 3.2;  ///< [m]
   double margin = 1;           ///< [m]

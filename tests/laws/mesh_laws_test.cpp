@@ -10,6 +10,7 @@
 #include "core/file/scene_file.h"
 #include "core/reading/changes.h"
 #include "core/reading/report_model.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/world.h"
 
@@ -179,7 +180,7 @@ TEST(MeshLaws, AFailingSolverMakesNone) {
   EXPECT_GT(unseen, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MeshLaws, testing::ValuesIn(shipped_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, MeshLaws, testing::ValuesIn(test::kIsSanitized ? small_scenes() : shipped_scenes()),
                          scene_test_name<testing::TestParamInfo<std::string>>);
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "tests/support/random_commands.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scene_differences.h"
 #include "tests/support/world.h"
 
@@ -152,7 +153,7 @@ TEST_P(ThreePeople, NobodysUndoChangesWhatSomebodyElseWrote) {
     past.brought_back(ledger.scene(), person);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, ThreePeople, ::testing::Range(0, 40));
+INSTANTIATE_TEST_SUITE_P(Seeds, ThreePeople, ::testing::Range(0, test::kIsSanitized ? 8 : 40));
 
 // Who takes back all that is to be taken back, and brings it back, has the same scene; and so has a replay of the log.
 TEST_P(ThreePeople, UndoingAndRedoingAllOfMineLeavesTheScene) {

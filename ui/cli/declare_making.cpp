@@ -49,10 +49,15 @@ void declare_new(CLI::App& app, making::NewOptions& o) {
   c.add_option("--storey-height", o.storey_height, "Storey height of rows that give none, in m. Default: 3.2.")
       ->type_name("METRES");
   c.add_option("--margin", o.margin, "Least distance of positions from the boundary, in m. Default: 1.")->type_name("METRES");
-  c.add_option("--form", o.form,
-               "What volumes are: `rounded`, cells cut to balls, or `standing`, whole storeys on footprints. Default: rounded.")
+  std::vector<std::string> forms;
+  std::string form_words;
+  for (const making::VolumeForm& form : making::kVolumeForms) {
+    form_words += (forms.empty() ? "`" : ", or `") + std::string(form.id) + "`, " + form.words;
+    forms.emplace_back(form.id);
+  }
+  c.add_option("--form", o.form, "What volumes are: " + form_words + ". Default: " + forms.front() + ".")
       ->type_name("FORM")
-      ->check(CLI::IsMember({"rounded", "standing"}));
+      ->check(CLI::IsMember(forms));
   c.add_option("--seed", o.seed, "Seed of the first positions. Default: 1.")->type_name("N");
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
 }

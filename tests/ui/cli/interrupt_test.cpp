@@ -117,6 +117,7 @@ TEST(Interrupt, EndsARunAndWritesAllThatWasAskedFor) {
 
 // A run of so many ticks that has settled long before its end was still stopped, and says so.
 TEST(Interrupt, ASettledRunSaysThatItWasStopped) {
+  if (test::kIsSanitized) GTEST_SKIP() << "others of these tests end the same way";
   const Workplace place;
   place.write("s.json", moving_scene());
   const auto found = interrupt(place, "run s.json --ticks 100000000", 3);
@@ -206,6 +207,7 @@ TEST(Interrupt, EndsAScriptInTheMiddleOfATick) {
 }
 
 TEST(Interrupt, EndsAFitAndWritesAllCases) {
+  if (test::kIsSanitized) GTEST_SKIP() << "others of these tests end the same way";
   const Workplace place;
   place.write("s.json", endless_fits(16));
   const auto found = interrupt(place, "fit s.json --json out.json --method feedback --tolerance 1e-16 --steps 100000", 3);
@@ -217,6 +219,7 @@ TEST(Interrupt, EndsAFitAndWritesAllCases) {
 }
 
 TEST(Interrupt, EndsAnAssignmentAndWritesHowFarItHasCome) {
+  if (test::kIsSanitized) GTEST_SKIP() << "others of these tests end the same way";
   const Workplace place;
   constexpr int kZones = 160, kAside = 3;
   std::string links, trips;
@@ -306,6 +309,7 @@ TEST(Interrupt, EndsAnImportAndLeavesTheSceneAlone) {
 }
 
 TEST(Interrupt, EndsAComparisonAndWritesThePage) {
+  if (test::kIsSanitized) GTEST_SKIP() << "others of these tests end the same way";
   const Workplace place;
   place.write("a.json", moving_scene());
   place.write("b.json", moving_scene());

@@ -93,8 +93,8 @@ TEST_F(New, KeepsTheStandingOfEachUse) {
 }
 
 // Wishes that cannot all be had: a hub with fourteen neighbours, a chain, and one use that is a hundred times as large as others.
-// Every seed settles; no centre comes near another one, and nothing is left in the air. A script of more seeds and sites says the
-// same.
+// Every seed settles, in both forms; no centre of a ball comes near another one, and nothing is left in the air. A script of more
+// seeds and sites says the same.
 TEST_F(New, SettlesWhateverIsWantedBesideWhat) {
   std::string star = "use,floor_area_m2,count,storey_height_m,adjacent_to,standing\nhub,300,1,4,,ground\n", chain = star;
   for (int i = 1; i <= 14; ++i) star += "spoke " + std::to_string(i) + "," + std::to_string(100 + 20 * i) + ",1,3,hub,\n";
@@ -116,7 +116,8 @@ TEST_F(New, SettlesWhateverIsWantedBesideWhat) {
       place.write("brief.csv", brief);
       const std::string& site = sites[round++ % 3];
       SCOPED_TRACE(brief.substr(70, 20) + " seed " + seed + " on " + site);
-      ASSERT_EQ(make({"--seed", seed, "--force"}, site).code, 0);
+      const bool is_standing = *seed == '2';
+      ASSERT_EQ(make({"--seed", seed, "--form", is_standing ? "standing" : "rounded", "--force"}, site).code, 0);
       const Outcome run = place.run({"run", "scene.json", "--json", "r.json"});
       EXPECT_EQ(run.code, 0) << run.last_line();
       const nlohmann::json result = place.json("r.json");
@@ -125,6 +126,7 @@ TEST_F(New, SettlesWhateverIsWantedBesideWhat) {
         const auto message = problem["message"].get<std::string>();
         EXPECT_NE(message.find(" do not touch: "), std::string::npos) << message;
       }
+      if (is_standing) continue;
       const auto& volumes = result["volumes"];
       const auto radius = [&](std::size_t i) { return std::cbrt(volumes[i]["demand"].get<double>() / 4.18879); };
       for (std::size_t i = 0; i < volumes.size(); ++i)

@@ -36,12 +36,17 @@ void Dialogs::draw_file_field(const char* label, std::string& path, std::vector<
 }
 
 void Dialogs::draw_new_scene() {
-  if (!begin("New scene from boundary and programme", 760, 470)) return;
+  if (!begin("New scene from boundary and programme", 760, 505)) return;
   const Theme& theme = editor_->theme;
   if (is_fresh_) ImGui::SetKeyboardFocusHere();
   draw_file_field("Boundary (GeoJSON)", fresh_.boundary, {".geojson", ".json"});
   draw_file_field("Programme (CSV)", fresh_.programme, {".csv", ".txt"});
   ImGui::Dummy({0, theme.px(4)});
+  ImGui::TextUnformatted("Volumes are");
+  for (const making::VolumeForm& form : making::kVolumeForms) {
+    ImGui::SameLine(0, theme.px(16));
+    if (ImGui::RadioButton(form.words, fresh_.form == form.id)) fresh_.form = form.id;
+  }
   number_field("Height of the boundary", fresh_.height, "m");
   number_field("Storey height where none is given", fresh_.storey_height, "m");
   number_field("Distance of positions from the boundary", fresh_.margin, "m");
