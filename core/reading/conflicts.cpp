@@ -213,6 +213,8 @@ std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::u
     if (!solver->figures.message.empty()) add({"node " + plan.nodes[n].name, solver->figures.message, id, "", true});
     ++solver;
   }
+  for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
+    if (!figures.message.empty()) add({"node " + plan.nodes[node].name, figures.message, plan.nodes[node].id, "", true});
   for (const std::uint32_t l : links) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
     add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});

@@ -101,6 +101,9 @@ std::vector<Error> problems_of(const State& state) {
         const std::string prefix = "nodes/" + id + "/" + state.plan->nodes[n].types[t].definition->id;
         problems.push_back(error->place.starts_with("nodes/" + id) ? *error : error->within(prefix));
       }
+  for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
+    if (!figures.message.empty())
+      problems.push_back({ErrorCode::infeasible, "nodes/" + state.plan->nodes[node].id, figures.message});
   for (std::size_t l = 0; l < state.links.size(); ++l)
     if (const auto& error = state.links[l].error) {
       const std::string prefix = "links/" + state.plan->links[l].id;

@@ -73,6 +73,28 @@ TEST(Storeys, CompareTellsWhatTheGardenTakes) {
   EXPECT_NE(page.find("Tower has 8 of 10 storeys"), std::string::npos);
 }
 
+// What cannot stand where it should is named with its reason, and stands all the same where it can.
+TEST(Storeys, RoofsThatAreNotThereAreNamed) {
+  const Workplace place;
+  const auto volume = [](const std::string& id, int x, const std::string& base, int demand) {
+    return R"({"id": ")" + id + R"(", "position": [)" + std::to_string(x) + R"(, 20, 0], "types": {"smart_volume": {"demand": )" +
+           std::to_string(demand) + R"(, "storey_height": 3}, "footprint": {"storeys": 3, "bases": [)" + base + "]}}}";
+  };
+  place.write("a.json", R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {}}},)" +
+                            volume("alone", 30, "\"alone\"", 900) + "," + volume("lost", 10, "\"nobody\"", 900) + "," +
+                            volume("podium", 50, "", 900) + "," + volume("tower", 50, "\"podium\"", 9000) + "]}");
+  const Outcome outcome = place.run({"run", "a.json", "--max-ticks", "60", "--json", "run.json"});
+  EXPECT_EQ(outcome.code, 3) << outcome.out;
+  for (const char* words : {"on the roof of `podium` the demands cannot be met together", "`tower` has ",
+                            "`lost` stands on the ground, because `nobody` is no volume of this solver",
+                            "`alone` stands on the ground, because it would stand upon itself: change its `bases`"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
+  for (const auto& found : place.json("run.json")["volumes"])
+    if (found["id"] != "tower") { EXPECT_NEAR(found["floor_area"].get<double>(), 300, 0.1) << found["id"]; }
+}
+
 }  // namespace
 
 }  // namespace bl::test
