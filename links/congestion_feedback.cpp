@@ -9,6 +9,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
+#include "core/demand/storey_limit.h"
 
 namespace bl {
 
@@ -24,9 +25,11 @@ struct CongestionFeedback {
     std::vector<std::string> access;
     double demand = 0, demand_limit = 0, wanted = 0, volume = 0, served = 0, lost = 0;
     bool is_locked = false;
+    double storey_height = 0;
+    std::optional<double> built, wished, least_storeys, height_limit;
   };
   struct Out {
-    std::optional<double> demand_limit;
+    std::optional<double> demand_limit, height_limit;
   };
 
   static void declare(LinkBuilder<CongestionFeedback>& l) {
@@ -34,7 +37,8 @@ struct CongestionFeedback {
     l.doc(
         "Lowers the demand limit of a volume while a street at its access carries more than a share of its capacity, or while "
         "most of its trips find no way. The limit rises again when there is room. Together with `request_traffic` this is a "
-        "feedback loop: the streets limit the size of the volume.");
+        "feedback loop: the streets limit the size of the volume. A volume that stands gives up whole storeys with its demand, "
+        "one for each part of the demand that filled one, and keeps about its footprint.");
     l.family(LinkFamily::traffic);
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
@@ -70,7 +74,13 @@ struct CongestionFeedback {
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
     l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.reads_lock(&Ends::is_locked, End::to, "smart_volume.demand_limit");
+    l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
+    l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
     l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes_if_there(&Out::height_limit, End::to, "footprint.height_limit", Unit::metre);
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
@@ -85,11 +95,24 @@ struct CongestionFeedback {
     if (ends.lost > ends.served || load > in.limit) tell(in, ends, load, tick);
     const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, demand::answer_within(in.limit, load, in.tolerance));
     const double answer = 1 + in.gain * (room - 1);
-    const double share = demand::granted_share(ends.demand, ends.demand_limit) * answer;
-    return Out{demand::limit_that_grants(ends.demand, std::max(share, in.least))};
+    const double share = std::max(demand::granted_share(ends.demand, ends.demand_limit) * answer, in.least);
+    return Out{demand::limit_that_grants(ends.demand, share), height_for(in, ends, share, tick)};
   }
 
  private:
+  // Storeys follow the share of the demand that is left, rounded: by less than half a storey the footprint changes.
+  static std::optional<double> height_for(const In& in, const Ends& ends, double share, const Tick& tick) {
+    if (!ends.built || share >= 1) return std::nullopt;
+    const demand::StandingVolume volume{*ends.built, *ends.wished, *ends.least_storeys, ends.storey_height, *ends.height_limit};
+    const auto limit = demand::limit_at(volume, (share * volume.wished + 0.5) * volume.storey_height, in.least);
+    if (limit && volume.built < volume.wished && demand::takes_storeys(volume, *limit))
+      remark(tick, LinkRemark::short_of,
+             {ErrorCode::infeasible, "limit",
+              "`" + ends.id + "` has " + demand::storeys_left(volume, *limit) + ", for the streets leave it " +
+                  fixed(100 * share, 0) + " % of its demand"});
+    return limit;
+  }
+
   // Reports a load that is too high: as being worked on, or as unmet where the volume cannot be limited further. Drivers never
   // stop trying other ways, so a load within the tolerance of the limit does not keep the scene from settling.
   static void tell(const In& in, const Ends& ends, double load, const Tick& tick) {

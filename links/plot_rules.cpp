@@ -9,6 +9,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
+#include "core/demand/storey_limit.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl {
@@ -27,9 +28,12 @@ struct PlotRules {
     All<Point3> centroids;
     All<double> demands, limits, wanted, volumes, bottoms, heights;
     All<bool> locked;
+    All<double> storey_heights;
+    All<std::optional<double>> built, wished, least_storeys, height_limits;
+    All<std::optional<bool>> heights_locked;
   };
   struct Out {
-    All<std::optional<double>> limits;
+    All<std::optional<double>> limits, height_limits;
   };
 
   static void declare(LinkBuilder<PlotRules>& l) {
@@ -38,13 +42,13 @@ struct PlotRules {
         .doc(
             "Limits the demands of the volumes on a plot until its rules are kept. FSI and GSI limit all volumes in one "
             "proportion; a volume above the largest height is limited by itself. When there is room again, the limits rise in "
-            "the same way, up to what each volume wants. Just below the allowed figure they stay as they are. The limits appear "
-            "as tension on the demands.");
+            "the same way, up to what each volume wants. Just below the allowed figure they stay as they are. Volumes that stand "
+            "keep the largest height by fewer storeys, and their demands for it.");
     l.family(LinkFamily::ground);
     l.param(&In::hold_fsi, "hold_fsi").doc("When on, floor area beyond the largest FSI limits all volumes on the plot.");
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
     l.param(&In::hold_height, "hold_height")
-        .doc("When on, a volume that reaches beyond the largest height is limited by itself.");
+        .doc("When on, a volume that reaches beyond the largest height is limited by itself: one that stands in its storeys.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -63,7 +67,15 @@ struct PlotRules {
         .unit(Unit::ratio)
         .range(0.001, 1)
         .doc(
-            "Share of a demand that no rule takes away. Where that is not enough, the link reports that the rule cannot be met.");
+            "Share of a demand, or of wished storeys, that no rule takes away. Where that is not enough, the link reports that "
+            "the "
+            "rule cannot be met.");
+    read_ends(l);
+    l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes_if_there(&Out::height_limits, End::to, "footprint.height_limit", Unit::metre);
+  }
+
+  static void read_ends(LinkBuilder<PlotRules>& l) {
     l.reads(&Ends::polygon, End::from, "plot.polygon", Unit::metre);
     l.reads(&Ends::ground, End::from, "plot.ground", Unit::metre)
         .reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
@@ -77,12 +89,25 @@ struct PlotRules {
     l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre)
         .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
     l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
-    l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
+    l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
+    l.reads_lock_if_there(&Ends::heights_locked, End::to, "footprint.height_limit");
+  }
+
+  // As one that keeps the largest height by its storeys; nothing for a rounded volume.
+  static std::optional<demand::StandingVolume> standing(const Ends& ends, std::size_t i) {
+    if (!ends.built.values[i]) return std::nullopt;
+    return demand::StandingVolume{*ends.built.values[i],         *ends.wished.values[i],        *ends.least_storeys.values[i],
+                                  ends.storey_heights.values[i], *ends.height_limits.values[i], *ends.heights_locked.values[i]};
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Out out;
     out.limits.values.resize(ends.demands.values.size());
+    out.height_limits.values.resize(ends.demands.values.size());
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
@@ -96,7 +121,10 @@ struct PlotRules {
     for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
-      if (in.hold_height)
+      const auto volume = standing(ends, i);
+      if (in.hold_height && volume)
+        out.height_limits.values[i] = demand::limit_at(*volume, ends.height_max + ends.ground - ends.bottoms.values[i], in.least);
+      else if (in.hold_height)
         limit = std::min(
             limit, granted(ends, i) * (1 + in.gain * (demand::answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
@@ -143,22 +171,42 @@ struct PlotRules {
     return listed(all) + ", " + by + "; " + listed(heights) + ", " + heights_by;
   }
 
+  // Names the storeys that volumes that stand have given up for the largest height.
+  static void tell_storeys(const In& in, const Ends& ends, const std::vector<std::size_t>& on_plot, const Tick& tick) {
+    std::string lost;
+    for (const std::size_t i : on_plot) {
+      const auto volume = standing(ends, i);
+      const double height = ends.height_max + ends.ground - ends.bottoms.values[i];
+      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height))
+        lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, height);
+    }
+    if (!lost.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "from", lost + " by the rules of the plot"});
+  }
+
   // Reports every broken rule: as being worked on, or as unmet where the volumes cannot be limited further.
   static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
+    std::string low;  // volumes that stand and can be no lower
     if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + demand::found_of_allowed(ends.fsi, ends.fsi_max, 2));
     if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + demand::found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
       if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max) {
-        Broken& height = is_at_least(held, i, in.least) ? stuck : sinking;
-        height.found.push_back("height " + demand::found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" +
-                               ends.ids.values[i] + "`");
+        const std::string found =
+            "height " + demand::found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" + ends.ids.values[i] + "`";
+        const auto volume = standing(ends, i);
+        if (volume && demand::is_at_least(*volume, in.least)) {
+          low = joined(low, found + ", " + demand::held_at_least(ends.ids.values[i], *volume, in.least), "; ");
+          continue;
+        }
+        Broken& height = !volume && is_at_least(held, i, in.least) ? stuck : sinking;
+        height.found.push_back(found);
         height.who.push_back(i);
       }
+    tell_storeys(in, ends, on_plot, tick);
     const Broken none;
     const bool is_all_stuck = is_exhausted(held, on_plot, in.least);
-    const std::string found = unmet(held, is_all_stuck ? all : none, stuck, in.least);
+    const std::string found = joined(unmet(held, is_all_stuck ? all : none, stuck, in.least), low, "; ");
     const std::string work = joined(is_all_stuck ? "" : listed(all), listed(sinking), ", ");
     if (!found.empty()) {
       const std::string unlock = unlocking(held, is_all_stuck && !all.found.empty() ? on_plot : stuck.who, in.least);

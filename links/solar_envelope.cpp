@@ -11,6 +11,9 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
+#include "core/demand/storey_limit.h"
+#include "core/geometry/plates_table.h"
+#include "core/sun/body_reach.h"
 #include "core/sun/moment_table.h"
 #include "core/sun/shadow_shape.h"
 
@@ -31,10 +34,14 @@ struct SolarEnvelope {
     double radius = 0, bottom = 0, height = 0, demand = 0, limit = 0, wanted = 0, volume = 0;
     std::string id;
     bool is_limit_locked = false, is_position_locked = false;
+    double storey_height = 0;
+    std::optional<double> built, wished, least_storeys, height_limit;
+    std::optional<Shared<Table>> plates;
+    std::optional<bool> is_height_locked;
   };
   struct Out {
     std::optional<Vector3> move;
-    std::optional<double> limit;
+    std::optional<double> limit, height_limit;
   };
 
   static void declare(LinkBuilder<SolarEnvelope>& l) {
@@ -43,7 +50,7 @@ struct SolarEnvelope {
         .doc(
             "Limits how high volumes stand, so that a neighbour's edge keeps its sun at all moments of the sun's period. Each "
             "moment gives a plane that rises from the edge towards the sun. A volume that reaches through a plane is moved back "
-            "or made smaller.");
+            "or made smaller. Of a volume that stands the storeys go that reach through, and its footprint grows.");
     l.family(LinkFamily::sun);
     l.param(&In::edge, "edge")
         .unit(Unit::metre)
@@ -52,7 +59,7 @@ struct SolarEnvelope {
     l.param(&In::mode, "mode",
             {{Mode::move, "move", "The volume's position moves back under the plane by the shortest way."},
              {Mode::shave, "shave", "The volume's demand limit falls until it fits under the planes; then it may rise again."}})
-        .doc("How a volume gives way.");
+        .doc("How a volume gives way. In the mode `shave` one that stands loses storeys, and keeps its demand.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -75,7 +82,16 @@ struct SolarEnvelope {
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of the demand that is never shaved off. If that is not enough, the link reports that the rule is not met.");
+        .doc(
+            "Share of the demand, or of wished storeys, that is never taken away. If that is not enough, the link reports that "
+            "the rule is not met.");
+    read_ends(l);
+    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes_if_there(&Out::height_limit, End::to, "footprint.height_limit", Unit::metre);
+  }
+
+  static void read_ends(LinkBuilder<SolarEnvelope>& l) {
     l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
@@ -88,8 +104,13 @@ struct SolarEnvelope {
     l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
-    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
-    l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
+    l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
+    l.reads_if_there(&Ends::plates, End::to, "footprint.plates");
+    l.reads_lock_if_there(&Ends::is_height_locked, End::to, "footprint.height_limit");
   }
 
   // The planes through each part of the edge, for volumes on either side of it. They are the same for all volumes of a tick.
@@ -127,6 +148,7 @@ struct SolarEnvelope {
     Planes own;
     Planes& planes = tick.memo != nullptr ? tick.memo->of<Planes>() : own;
     planes.make(in.edge, ends.moments);
+    if (ends.built) return evaluate_standing(in, ends, planes, tick);
     double worst = -ends.radius;
     Vector3 normal;
     // Most planes are far above the whole ball, with a small margin for rounding.
@@ -145,20 +167,59 @@ struct SolarEnvelope {
     }
     const double beyond = worst / ends.radius - in.tolerance;
     if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
-    if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
+    if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}, {}} : Out{};
     // The limit stays as it is from half the tolerance to a little beyond it; below that the volume may grow again. Without that
     // little, the last of the excess would be shaved off without end.
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
     const double excess = beyond > in.play * in.tolerance ? std::min(beyond, 0.5) : 0.0;
     const double answer = (1 - in.gain * excess) * (1 + in.gain * room);
     return Out{
-        {}, demand::limit_that_grants(ends.demand, std::max(in.least, demand::granted_share(ends.demand, ends.limit) * answer))};
+        {},
+        demand::limit_that_grants(ends.demand, std::max(in.least, demand::granted_share(ends.demand, ends.limit) * answer)),
+        {}};
   }
 
  private:
+  // The height up to which the plates stay below the planes. With fewer storeys plates are larger and may be no higher still, so
+  // storeys do not come and go.
+  static Result<Out> evaluate_standing(const In& in, const Ends& ends, const Planes& planes, const Tick& tick) {
+    std::vector<sun::SunPlane> above;
+    for (std::size_t i = 0; i + 1 < in.edge.size(); ++i) {
+      const double side = dot(Planes::across(in.edge, i), ends.position - in.edge[i]);
+      if (side == 0) continue;
+      const auto& part = planes.parts[i][side > 0 ? 1 : 0];
+      above.insert(above.end(), part.begin(), part.end());
+    }
+    const sun::BodyReach reach = sun::reach_of(geometry::read_body(**ends.plates, ends.position), above);
+    const demand::StandingVolume volume{*ends.built,        *ends.wished,       *ends.least_storeys,
+                                        ends.storey_height, *ends.height_limit, *ends.is_height_locked};
+    const double beyond = reach.excess / ends.radius - in.tolerance;
+    if (in.mode == Mode::move) {
+      if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
+      return beyond > 0 ? Out{reach.back * (in.gain * beyond * ends.radius), {}, {}} : Out{};
+    }
+    Out out;
+    out.height_limit = demand::limit_at(volume, reach.allowed, in.least);
+    if (reach.allowed < ends.height && demand::is_at_least(volume, in.least))
+      remark(tick, LinkRemark::unmet,
+             {ErrorCode::infeasible, "edge",
+              "cannot be met: " + through(ends, reach.excess) + ", " + demand::held_at_least(ends.id, volume, in.least) +
+                  "; move the edge or the volume, or lower `least` or `storeys_min`"});
+    else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit))
+      remark(
+          tick, LinkRemark::short_of,
+          {ErrorCode::infeasible, "edge",
+           "`" + ends.id + "` has " + demand::storeys_left(volume, *out.height_limit) + " to stay below the planes of the sun"});
+    return out;
+  }
+
+  static std::string through(const Ends& ends, double metres) {
+    return "`" + ends.id + "` reaches " + fixed(metres, 2) + " m through the planes of the sun";
+  }
+
   // Reports a volume that reaches through the planes: as being worked on, or as unmet where something holds it.
-  static void tell(const In& in, const Ends& ends, double through, const Tick& tick) {
-    const std::string found = "`" + ends.id + "` reaches " + fixed(through * ends.radius, 2) + " m through the planes of the sun";
+  static void tell(const In& in, const Ends& ends, double share, const Tick& tick) {
+    const std::string found = through(ends, share * ends.radius);
     const std::vector<bool> locked = {ends.is_limit_locked};
     const demand::LimitedVolumes held{{&ends.id, 1},     {&ends.demand, 1}, {&ends.limit, 1},
                                       {&ends.wanted, 1}, {&ends.volume, 1}, locked};

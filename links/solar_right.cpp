@@ -10,6 +10,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
+#include "core/demand/storey_limit.h"
 #include "core/sun/loss_table.h"
 
 namespace bl {
@@ -20,7 +21,7 @@ struct SolarRight {
   enum class Mode { lower, move, shave };
   struct In {
     Mode mode = Mode::shave;
-    double gain = 0.2, tolerance = 0.02, play = 0.125, least = 0.2;
+    double gain = 0.2, tolerance = 0.02, play = 0.125, storey_room = 0.5, least = 0.2;
   };
   struct Ends {
     std::string receiver;
@@ -30,11 +31,14 @@ struct SolarRight {
     All<std::string> ids;
     All<Point3> positions;
     All<double> demands, limits, wanted, volumes, radii, bottoms;
+    All<double> storey_heights;
+    All<std::optional<double>> built, wished, least_storeys, height_limits;
     All<bool> are_limits_locked, are_positions_locked;
+    All<std::optional<bool>> are_heights_locked;
   };
   struct Out {
     All<std::optional<Vector3>> moves;
-    All<std::optional<double>> limits;
+    All<std::optional<double>> limits, height_limits;
   };
 
   static void declare(LinkBuilder<SolarRight>& l) {
@@ -42,13 +46,14 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Protects the sun that a receiver needs. While it has less, the volumes that shade it give way, each in proportion "
-            "to the sun that it takes. A volume that takes next to nothing is not limited.");
+            "to the sun that it takes. A volume that takes next to nothing is not limited. A volume that stands loses storeys: "
+            "its height limit falls by a tenth of a storey in a tick, and its footprint grows.");
     l.family(LinkFamily::sun);
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks to the foot of its shape at most; the volume gets wider."},
              {Mode::move, "move", "The volume moves away in plan."},
              {Mode::shave, "shave", "The volume's demand limit falls until the receiver has its sun; then it may rise again."}})
-        .doc("How a volume gives way.");
+        .doc("How a volume gives way. One that stands loses storeys in the modes `lower` and `shave`, and keeps its demand.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -64,10 +69,26 @@ struct SolarRight {
         .range(0, 1)
         .soft(0, 0.5)
         .doc("How much more may be missing before volumes are shaved, as a share of the tolerance.");
+    l.param(&In::storey_room, "storey_room")
+        .unit(Unit::ratio)
+        .range(0, 10)
+        .soft(0, 2)
+        .doc(
+            "A storey comes back when the worst point of the receiver has this share of the required sun beyond it. Smaller than "
+            "what a storey takes, storeys would come and go.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of a demand that is never shaved off. If that is not enough, the link reports that the rule is not met.");
+        .doc(
+            "Share of a demand, or of wished storeys, that is never taken away. If that is not enough, the link reports that the "
+            "rule is not met.");
+    read_ends(l);
+    l.proposes(&Out::moves, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes_if_there(&Out::height_limits, End::to, "footprint.height_limit", Unit::metre);
+  }
+
+  static void read_ends(LinkBuilder<SolarRight>& l) {
     l.reads(&Ends::receiver, End::from, "node.id").reads(&Ends::place, End::from, "node.position", Unit::metre);
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
@@ -81,10 +102,22 @@ struct SolarRight {
     l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
         .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
+    l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
+    l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
     l.reads_lock(&Ends::are_limits_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::are_positions_locked, End::to, "node.position");
-    l.proposes(&Out::moves, End::to, "node.position", Unit::metre);
-    l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads_lock_if_there(&Ends::are_heights_locked, End::to, "footprint.height_limit");
+  }
+
+  // As one that stands and loses storeys; nothing for a rounded volume, and in the mode `move`.
+  static std::optional<demand::StandingVolume> standing(const In& in, const Ends& ends, std::size_t i) {
+    if (in.mode == Mode::move || !ends.built.values[i]) return std::nullopt;
+    return demand::StandingVolume{*ends.built.values[i],         *ends.wished.values[i],
+                                  *ends.least_storeys.values[i], ends.storey_heights.values[i],
+                                  *ends.height_limits.values[i], *ends.are_heights_locked.values[i]};
   }
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
@@ -96,7 +129,7 @@ struct SolarRight {
   }
 
   // What the worst point has beyond its need, as a share of the need.
-  static double surplus(const Ends& ends) { return std::clamp((ends.least - ends.required) / ends.required, 0.0, 1.0); }
+  static double surplus_of(const Ends& ends) { return std::max(0.0, (ends.least - ends.required) / ends.required); }
 
   // Direction in plan away from the receiver. Where both lie on one point, their ids give the direction.
   static Vector3 away(const Ends& ends, std::size_t i) {
@@ -111,20 +144,31 @@ struct SolarRight {
   }
 
   // Why the volumes that take the sun cannot give way any further; empty while one of them can.
-  static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& who) {
+  static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& all) {
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
     const std::string advice = "; lower `required_sun`";
-    if (who.empty()) return held_by(held, who, in.least) + advice + ", or add them to the end of the link";
-    if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
-    if (in.mode == Mode::shave)
-      return held_by(held, who, in.least) + advice + " or `least`," + unlocking(held, who, in.least) + " or move the volume";
+    if (all.empty()) return held_by(held, all, in.least) + advice + ", or add them to the end of the link";
     std::string holders;
+    const auto add = [&](const std::string& holder) { holders += (holders.empty() ? "" : ", ") + holder; };
+    std::vector<std::size_t> who;
+    for (const std::size_t i : all) {
+      const auto volume = standing(in, ends, i);
+      if (!volume) who.push_back(i);
+      else if (demand::is_at_least(*volume, in.least)) add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
+      else return "";
+    }
+    if (who.empty()) return holders + advice + ", `least` or `storeys_min`, or move the volume";
+    if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
+    if (in.mode == Mode::shave) {
+      add(held_by(held, who, in.least));
+      return holders + advice + " or `least`," + unlocking(held, who, in.least) + " or move the volume";
+    }
     for (const std::size_t i : who) {
       const bool is_locked = ends.are_positions_locked.values[i];
       if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * ends.radii.values[i])) return "";
-      holders += (holders.empty() ? "held by `" : ", `") + ends.ids.values[i] +
-                 (is_locked ? "` (its position is locked)" : "` (it has sunk as far as it can)");
+      add((i == who.front() ? "held by `" : "`") + ends.ids.values[i] +
+          (is_locked ? "` (its position is locked)" : "` (it has sunk as far as it can)"));
     }
     return holders + advice + ", or let them be shaved";
   }
@@ -146,12 +190,21 @@ struct SolarRight {
     const std::vector<double> shares = sun::loss_shares(*ends.losses, ends.ids.values);
     out.moves.values.resize(shares.size());
     out.limits.values.resize(shares.size());
+    out.height_limits.values.resize(shares.size());
+    std::string lost;
     const double missing = shortage(in, ends);
     const bool is_kept = missing <= in.play * in.tolerance;
     if (!is_kept) tell(in, ends, shares, tick);
     for (std::size_t i = 0; i < shares.size(); ++i) {
       if (ends.ids.values[i] == ends.receiver) continue;
       const double answer = in.gain * std::max(0.0, missing) * shares[i];
+      if (const auto volume = standing(in, ends, i)) {
+        const auto limit = height_of(in, ends, *volume, is_kept, shares[i]);
+        if (limit && demand::takes_storeys(*volume, *limit))
+          lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, *limit);
+        out.height_limits.values[i] = limit;
+        continue;
+      }
       if (in.mode == Mode::lower) {
         if (const double fall = answer * fall_left(ends, i); fall > 0) out.moves.values[i] = Vector3{0, 0, -fall};
       } else if (in.mode == Mode::move) {
@@ -160,14 +213,23 @@ struct SolarRight {
         out.limits.values[i] = limit_of(in, ends, i, missing, is_kept ? 0 : answer, shares[i]);
       }
     }
+    if (is_kept && !lost.empty())
+      remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", so that `" + ends.receiver + "` keeps its sun"});
     return out;
+  }
+
+  // Nobody knows beforehand how much sun a storey takes: it comes back only where there is much more than enough.
+  static std::optional<double> height_of(const In& in, const Ends& ends, const demand::StandingVolume& volume, bool is_kept,
+                                         double share) {
+    if (!is_kept && share > kLittle) return demand::lower_limit(volume, share * demand::kStoreyPace, in.least);
+    return is_kept && surplus_of(ends) > in.storey_room ? demand::higher_limit(volume) : demand::kept_limit(volume);
   }
 
   // The limit stays as it is from half the tolerance to a little beyond it, or the last moments of sun would be shaved off
   // without end. A volume that takes little may grow nevertheless: this link does not hold limits that others set.
   static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, double missing, double answer,
                                         double share) {
-    const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
+    const double room = std::max({0.0, -missing - 0.5 * in.tolerance, std::min(1.0, surplus_of(ends)), 1 - share / kLittle});
     const double kept =
         demand::granted_share(ends.demands.values[i], ends.limits.values[i]) * (1 - answer) * (1 + in.gain * room);
     return demand::limit_that_grants(ends.demands.values[i], std::max(in.least, kept));

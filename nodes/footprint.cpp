@@ -16,6 +16,7 @@ struct Footprint {
     double height_limit = 1e6, setback = 0, depth = 1000;
     int full_storeys = 0;
     bool has_party_walls = true;
+    std::vector<std::string> bases;
   };
 
   struct Out {
@@ -81,9 +82,15 @@ struct Footprint {
         .soft(0, 100)
         .combine(CombineRule::min)
         .doc(
-            "Greatest height above the ground. Links that set limits propose here. A storey that it has taken away comes back "
-            "when "
-            "the limit leaves room for 1.15 storeys.");
+            "Greatest height above the ground or roof that it stands on. Links that set limits propose here. A storey that it "
+            "has "
+            "taken away comes back when the limit leaves room for 1.15 storeys.");
+    t.in(&In::bases, "bases")
+        .collect()
+        .doc(
+            "Id of the volume on whose roof it stands; empty for the ground. Its footprint is clipped to the plate of the "
+            "highest "
+            "storeys there, and its own storeys begin on it. Links of the kind `stack` add to it; of several the first counts.");
     t.in(&In::setback, "setback")
         .unit(Unit::metre)
         .range(0, 100)

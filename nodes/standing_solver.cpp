@@ -30,6 +30,7 @@ struct StandingSolver {
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0;
     bool has_party_walls = true, was_limited = false;
+    std::vector<std::string> bases;
   };
   struct Plot {
     std::string id;
@@ -70,7 +71,7 @@ struct StandingSolver {
         "storeys "
         "under all limits, and adapts weights until the plates of each volume add up to the floor area that it wants. Where a "
         "limit "
-        "takes a storey away, the footprint grows.");
+        "takes a storey away, the footprint grows. Those that stand on the roof of another divide that roof among themselves.");
     t.in(&In::members, "members").doc("The volumes with footprints that this solver takes care of.");
     t.in(&In::boundary, "boundary").doc("The boundary whose ground is divided. The selection must give exactly one node.");
     t.in(&In::steps, "steps").range(1, 60).soft(1, 20).doc("Steps of Newton's method in one tick, at most.");
@@ -110,6 +111,7 @@ struct StandingSolver {
     set.reads(&Member::setback, "footprint.setback").reads(&Member::depth, "footprint.depth");
     set.reads(&Member::storeys, "footprint.storeys").reads(&Member::storeys_min, "footprint.storeys_min");
     set.reads(&Member::full_storeys, "footprint.full_storeys").reads(&Member::has_party_walls, "footprint.party_walls");
+    set.reads(&Member::bases, "footprint.bases");
     set.reads(&Member::built, "footprint.storeys_built").writes(&Reply::storeys_built, "footprint.storeys_built");
     set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::radius, "smart_volume.radius");
@@ -156,10 +158,14 @@ struct StandingSolver {
     return wish.volume > 0 ? std::abs(volume - wish.volume) / wish.volume : 0;
   }
 
-  static std::string reason_of(const geometry::StandingWish& wish, const geometry::StandingResult& result) {
+  static std::string reason_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
+                               std::span<const std::string> names) {
     if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
     if (result.state == geometry::SiteState::coincident) return "stands in the place of a heavier volume: move one of them";
     if (result.floor_area > 0) return "";
+    if (wish.base >= 0)
+      return "has no footprint: `" + names[static_cast<std::size_t>(wish.base)] +
+             "`, on which it stands, its neighbours and its " + "set-back leave it no roof where it stands";
     return "has no footprint: its neighbours, its set-back and the plot leave it nothing where it stands";
   }
 
@@ -182,8 +188,10 @@ struct StandingSolver {
             .bottom = result.bottom,
             .error = error_of(wish, result.volume),
             .state = std::string(name_of(result.state)),
-            .reason = reason_of(wish, result),
-            .stands_on = result.floor_area > 0 ? "the ground" : "",
+            .reason = reason_of(wish, result, names),
+            .stands_on = !(result.floor_area > 0) ? ""
+                         : wish.base < 0          ? "the ground"
+                                                  : names[static_cast<std::size_t>(wish.base)],
             .neighbours = std::move(neighbours),
             .plates = std::move(plates),
             .centroid = result.centroid,
@@ -194,11 +202,28 @@ struct StandingSolver {
             .roof_area = result.roof_area};
   }
 
+  // On whom each volume stands. Returns what is wrong with that, sentences after semicolons.
+  static std::string find_bases(std::span<const Member> members, Kept& kept) {
+    std::string words;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i].bases.empty()) continue;
+      const std::string& base = members[i].bases.front();
+      const auto found = std::lower_bound(kept.names.begin(), kept.names.end(), base);
+      const bool is_there = found != kept.names.end() && *found == base;
+      if (is_there) kept.wishes[i].base = static_cast<std::int32_t>(found - kept.names.begin());
+      else words += "; `" + kept.names[i] + "` stands on the ground, because `" + base + "` is no volume of this solver";
+      if (members[i].bases.size() > 1)
+        words += "; `" + kept.names[i] + "` stands on `" + base + "` alone of the " + std::to_string(members[i].bases.size()) +
+                 " that its `bases` name";
+    }
+    return words;
+  }
+
   static void add_up(const Kept& kept, std::span<const geometry::StandingResult> results, Out& out) {
     for (std::size_t i = 0; i < results.size(); ++i) {
       out.count += results[i].volume > 0 ? 1 : 0;
       out.total_floor_area += results[i].floor_area;
-      out.covered += results[i].footprint;
+      out.covered += kept.wishes[i].base < 0 ? results[i].footprint : 0;
       const double error = error_of(kept.wishes[i], results[i].volume);
       if (error <= out.largest_error) continue;
       out.largest_error = error;
@@ -232,6 +257,7 @@ struct StandingSolver {
       kept.names.push_back(member.id);
       kept.wishes.push_back(wish_of(member));
     }
+    std::string words = find_bases(sets.members.all, kept);
     const geometry::StandingTick now{.steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
     if (!done) return Error{done.error().code, "members", done.error().message};
@@ -242,10 +268,21 @@ struct StandingSolver {
       answered.clear();
       for (std::uint32_t i = 0; i < kept.names.size(); ++i) answered.push_back(i);
     }
-    out.plot_area = kept.cache.diagram.plot_area();
+    out.plot_area = kept.cache.plot_area;
+    for (const std::uint32_t i : done->in_circles) {
+      kept.wishes[i].base = geometry::StandingWish::kGround;
+      words += "; `" + kept.names[i] + "` stands on the ground, because it would stand upon itself: change its `bases`";
+    }
     add_up(kept, done->results, out);
     for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(kept.wishes[i], done->results[i], kept.names));
     out.message = done->message;
+    for (const auto& [base, text] : done->on_roofs) {
+      const std::string& name = kept.names[static_cast<std::size_t>(base)];
+      words += text.starts_with("has ") || text.starts_with("fills ")
+                   ? "; `" + name + "` " + text + ", so that nothing stands on it"
+                   : "; on the roof of `" + name + "` " + text;
+    }
+    out.message += words;
     for (std::size_t k = 0; k < done->losses.size() && k < 3; ++k)
       out.message += "; " + kept.names[done->losses[k].demand] + " has " + fixed(done->losses[k].had, 0) + " of " +
                      fixed(done->losses[k].wanted, 0) + " m²";

@@ -168,6 +168,34 @@ void bind_read(ReadDefinition& read, M Owner::*member) {
     static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
   };
 }
+/// A read of a port that nodes may lack: nothing where there is none.
+template <class M>
+std::optional<M> read_if_there(const Value* value) {
+  return value == nullptr ? std::nullopt : std::optional<M>(Binding<M>::from_value(*value));
+}
+template <class Owner, class M>
+void bind_optional_read(ReadDefinition& read, std::optional<M> Owner::*member) {
+  read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
+  read.assign = [member](void* owner, std::span<const Value* const> values) {
+    static_cast<Owner*>(owner)->*member = read_if_there<M>(values.front());
+  };
+}
+template <class Owner, class M>
+void bind_optional_read(ReadDefinition& read, All<std::optional<M>> Owner::*member) {
+  read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
+  read.is_whole = true;
+  read.assign = [member](void* owner, std::span<const Value* const> values) {
+    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    all.clear();
+    for (const Value* value : values) all.push_back(read_if_there<M>(value));
+  };
+  read.assign_some = [member](void* owner, std::span<const Value* const> values, std::span<const std::uint32_t> places) {
+    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    for (const std::uint32_t place : places) all[place] = read_if_there<M>(values[place]);
+  };
+}
 template <class Owner, class M>
 void bind_read(ReadDefinition& read, All<M> Owner::*member) {
   read.kind = Binding<M>::kKind;

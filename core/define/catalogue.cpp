@@ -126,11 +126,13 @@ std::string catalogue_page(const LinkDefinition& kind, const Registry& registry)
     for (const LinkRead& read : kind.reads)
       if (read.end == end)
         reads += (reads.empty() ? "" : ", ") +
-                 (read.is_lock ? "whether " + path_text(read.path) + " is locked" : path_text(read.path));
+                 (read.is_lock ? "whether " + path_text(read.path) + " is locked" : path_text(read.path)) +
+                 (read.is_optional ? " where there is one" : "");
     for (const LinkWrite& write : kind.proposes)
       if (write.end == end) {
         proposes += (proposes.empty() ? "" : ", ") + path_text(write.path);
         if (const auto port = registry.port(write.path)) proposes += " (" + std::string(name_of((*port)->rule)) + ")";
+        if (write.is_optional) proposes += " where there is one";
       }
     page += "| " + std::string(name_of(end)) + (kind.is_whole(end) ? " (the whole set at once)" : "") + " | " + reads + " | " +
             proposes + " |\n";

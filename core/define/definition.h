@@ -217,10 +217,12 @@ std::string_view name_of(End end);
 
 struct LinkRead : ReadDefinition {
   End end = End::from;
-  bool is_lock = false;  ///< reads whether people have locked the port, not its value
+  bool is_lock = false;      ///< reads whether people have locked the port, not its value
+  bool is_optional = false;  ///< nodes without the port fit the end all the same: nothing is read there
 };
 struct LinkWrite : WriteDefinition {
   End end = End::to;
+  bool is_optional = false;  ///< nodes without the port fit the end all the same: what is proposed there is left out
 };
 
 /// What an evaluation keeps of the reads of whole ends until the next one, so that it takes over only what differs.
@@ -230,7 +232,8 @@ struct LoadedEnds {
   std::array<std::vector<std::uint32_t>, 2> changed;  ///< by end: places of nodes that may read otherwise since
 };
 
-/// The values for a link evaluation: one pointer per declared read, or one for each node of a whole end.
+/// The values for a link evaluation: one pointer per declared read, or one for each node of a whole end. Of an optional read,
+/// nullptr where the node has no such port.
 struct LinkReads {
   std::vector<std::vector<const Value*>> values;
   LoadedEnds* loaded = nullptr;  ///< nullptr: nothing is kept

@@ -46,6 +46,17 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     bind_read(read, member);
     return *this;
   }
+  /// Reads `path` where a node has it: `member` is a std::optional<X>, or an All of them. A node without it fits the end too.
+  template <class M>
+  LinkBuilder& reads_if_there(M Ends::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+    LinkRead& read = definition_->reads.emplace_back();
+    read.end = end;
+    read.path = parse_port_path(path).value();
+    read.unit = unit;
+    read.is_optional = true;
+    bind_optional_read(read, member);
+    return *this;
+  }
   /// Reads the port that is chosen in `parameter`.
   template <class M>
   LinkBuilder& reads_chosen(M Ends::*member, End end, std::string parameter) {
@@ -63,12 +74,25 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     return *this;
   }
   template <class M>
+  LinkBuilder& reads_lock_if_there(M Ends::*member, End end, std::string_view path) {
+    reads_if_there(member, end, path);
+    definition_->reads.back().is_lock = true;
+    return *this;
+  }
+  template <class M>
   LinkBuilder& proposes(M Out::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkWrite& write = definition_->proposes.emplace_back();
     write.end = end;
     write.path = parse_port_path(path).value();
     write.unit = unit;
     bind_write(write, member);
+    return *this;
+  }
+  /// Proposes to `path` where a node has it. A node without it fits the end too, and what is proposed there is left out.
+  template <class M>
+  LinkBuilder& proposes_if_there(M Out::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+    proposes(member, end, path, unit);
+    definition_->proposes.back().is_optional = true;
     return *this;
   }
   template <class M>

@@ -46,7 +46,7 @@ StandingBody read_body(const Table& table, const Point3& centre) {
   body.centre = {centre.x, centre.y, 0};
   double last = -1;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (const double number = table.number(row, "stack"); number != last) {
+    if (const double number = table.number(row, "stack"); body.stacks.empty() || number != last) {
       body.stacks.push_back({static_cast<int>(table.number(row, "storeys")),
                              table.number(row, "bottom"),
                              table.number(row, "storey_height"),

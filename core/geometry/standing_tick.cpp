@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+
+#include "core/geometry/domain_makers.h"
 
 namespace bl::geometry {
 
@@ -89,17 +92,78 @@ StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& si
   return result;
 }
 
-// The sites of the wishes, with the storeys that they may have.
-std::vector<StandingSite> sites_of(const Domain& domain, std::span<const StandingWish> wishes) {
-  // Corners of a boundary are where its planes meet, and off by rounding: a ground at -4e-15 m is one at 0.
-  const double bottom = 1e-9 * std::round(1e9 * domain.minimum.z), highest = domain.maximum.z - bottom;
+// The sites of a level, with the storeys that they may have below `highest`.
+std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const StandingTick::Level& level, double bottom,
+                                   double highest) {
   std::vector<StandingSite> sites;
-  for (const StandingWish& wish : wishes) {
-    StandingSite& site = sites.emplace_back(wish.site);
+  for (const std::uint32_t i : level.members) {
+    StandingSite& site = sites.emplace_back(wishes[i].site);
     site.site.position.z = bottom;
-    site.runs = runs_of(wish, storeys_of(wish, highest).count);
+    site.runs = runs_of(wishes[i], storeys_of(wishes[i], highest - bottom).count);
   }
   return sites;
+}
+
+// Corners of a boundary are where its planes meet, and off by rounding: a ground at -4e-15 m is one at 0.
+double ground_of(const Domain& domain) { return 1e-9 * std::round(1e9 * domain.minimum.z); }
+
+// On whom each wish stands, without circles: each member of one stands on the ground.
+std::vector<std::int32_t> bases_of(std::span<const StandingWish> wishes, std::vector<std::uint32_t>& in_circles) {
+  std::vector<std::int32_t> bases;
+  for (std::uint32_t i = 0; i < wishes.size(); ++i) {
+    std::int32_t below = wishes[i].base;
+    for (std::size_t step = 0; step < wishes.size() && below >= 0 && below != static_cast<std::int32_t>(i); ++step)
+      below = wishes[static_cast<std::size_t>(below)].base;
+    const bool is_in_circle = below == static_cast<std::int32_t>(i);
+    if (is_in_circle) in_circles.push_back(i);
+    bases.push_back(is_in_circle ? StandingWish::kGround : wishes[i].base);
+  }
+  return bases;
+}
+
+// The levels, each after that of its base. What is known of a level is kept where it has the same members.
+std::vector<StandingTick::Level> levels_of(std::span<const std::int32_t> bases, std::vector<StandingTick::Level> kept) {
+  std::map<std::int32_t, std::vector<std::uint32_t>> members;
+  for (std::uint32_t i = 0; i < bases.size(); ++i) members[bases[i]].push_back(i);
+  std::vector<StandingTick::Level> levels;
+  const auto add = [&](std::int32_t base) {
+    const auto found = members.find(base);
+    if (found == members.end()) return;
+    const auto known =
+        std::find_if(kept.begin(), kept.end(), [&](const auto& k) { return k.base == base && k.members == found->second; });
+    if (known != kept.end()) levels.push_back(std::move(*known));
+    else levels.push_back({base, std::move(found->second), {}, {}});
+  };
+  add(StandingWish::kGround);
+  for (std::size_t k = 0; members.size() > levels.size() && k < levels.size(); ++k)
+    for (const std::uint32_t i : std::vector(levels[k].members)) add(static_cast<std::int32_t>(i));
+  return levels;
+}
+
+// The roof of a body up to the height `top`, as a domain on which others stand.
+Result<Domain> roof_of(const StandingBody& body, double top) {
+  if (body.stacks.empty()) return Error{ErrorCode::infeasible, "", "has no roof, because it has no footprint"};
+  const PlateStack& highest = body.stacks.back();
+  if (!(top > highest.top())) return Error{ErrorCode::infeasible, "", "fills the whole height of the boundary"};
+  std::vector<Domain> parts;
+  for (const PlateFace& face : faces_of(highest, body.centre, StandingTick::kRoofTolerance)) {
+    auto part = extrude_plan(face.outer, face.holes, highest.top(), top);
+    if (!part) return Error{part.error().code, "", "has a roof that nothing can stand on: " + part.error().message};
+    parts.push_back(std::move(*part));
+  }
+  if (parts.size() == 1) return std::move(parts.front());
+  return unite(parts);
+}
+
+// At the edge of a roof there is air, not the border of the plot.
+void free_edges(StandingResult& result) {
+  StandingBody body = *result.body;
+  for (PlateStack& stack : body.stacks)
+    for (std::vector<PlateRing>* rings : {&stack.outlines, &stack.courtyards})
+      for (PlateRing& ring : *rings)
+        for (PlateRing::Corner& corner : ring.corners)
+          if (corner.beyond == PlateRing::kPlot) corner.beyond = PlateRing::kFree;
+  result.body = std::make_shared<const StandingBody>(std::move(body));
 }
 
 }  // namespace
@@ -116,34 +180,88 @@ Storeys storeys_of(const StandingWish& wish, double highest) {
   return {std::max({1, wish.least, std::min(wished, allowed)}), allowed < wished};
 }
 
-Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const {
-  if (auto set = kept.diagram.set_domain(domain); !set) return set.error();
-  std::vector<StandingSite> sites = sites_of(domain, wishes);
+Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level,
+                                     Cache& kept, Outcome& outcome) const {
+  const bool is_roof = level.base >= 0;
+  if (auto set = level.diagram.set_domain(is_roof ? level.domain : ground); !set) return set.error();
+  std::vector<StandingSite> sites = sites_of(wishes, level, bottom, ground.maximum.z);
   std::vector<FloorDemand> demands;
-  for (std::uint32_t i = 0; i < wishes.size(); ++i) {
-    const double area = wishes[i].volume / wishes[i].site.storey_height;
-    demands.push_back({{i}, area, area});
+  for (std::uint32_t k = 0; k < sites.size(); ++k) {
+    const StandingWish& wish = wishes[level.members[k]];
+    const double area = wish.volume / wish.site.storey_height;
+    demands.push_back({{k}, area, area});
   }
-  Outcome outcome;
   if (steps > 0) {
-    auto fit = fit_footprints(kept.diagram, sites, demands,
+    auto fit = fit_footprints(level.diagram, sites, demands,
                               {.tolerance = tolerance, .most_steps = steps, .is_local = true, .pool = pool, .progress = {}});
     if (!fit) return fit.error();
     // Where only the steps of a tick did not suffice, nobody goes without: the next tick goes on.
-    if (!fit->infeasible.empty()) outcome.losses = std::move(fit->losses);
-    outcome.message = std::move(fit->infeasible);
-  } else if (auto made = kept.diagram.update(sites, pool); !made) {
+    if (!fit->infeasible.empty())
+      for (const FloorLoss& loss : fit->losses) outcome.losses.push_back({level.members[loss.demand], loss.wanted, loss.had});
+    if (is_roof && !fit->infeasible.empty()) outcome.on_roofs.push_back({level.base, std::move(fit->infeasible)});
+    else if (!is_roof) outcome.message = std::move(fit->infeasible);
+  } else if (auto made = level.diagram.update(sites, pool); !made) {
     return made.error();
   }
-  kept.results.resize(sites.size());
-  std::vector<std::uint32_t> touched = kept.diagram.take_touched();
-  for (const std::uint32_t i : touched) kept.results[i] = result_of(kept.diagram, sites[i], i);
-  for (std::uint32_t i = 0; i < sites.size(); ++i) {
-    const Storeys storeys = storeys_of(wishes[i], domain.maximum.z - domain.minimum.z);
-    const bool is_touched = std::binary_search(touched.begin(), touched.end(), i);
+  const std::vector<std::uint32_t> touched = level.diagram.take_touched();
+  for (const std::uint32_t k : touched) {
+    StandingResult& result = kept.results[level.members[k]];
+    result = result_of(level.diagram, sites[k], k);
+    for (auto& [site, area] : result.walls) site = level.members[site];
+    if (is_roof) free_edges(result);
+  }
+  for (std::uint32_t k = 0; k < sites.size(); ++k) {
+    const std::uint32_t i = level.members[k];
+    const Storeys storeys = storeys_of(wishes[i], ground.maximum.z - bottom);
+    const bool is_touched = std::binary_search(touched.begin(), touched.end(), k);
     if (is_touched || !(storeys == kept.results[i].storeys)) outcome.differing.push_back(i);
     kept.results[i].storeys = storeys;
   }
+  return {};
+}
+
+// Where a roof carries nothing, those who stand on it have nothing, and keep the weights with which they come back.
+Result<void> StandingTick::run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
+                                    Outcome& outcome) const {
+  const auto base = static_cast<std::size_t>(level.base);
+  auto roof = kept.results[base].body ? roof_of(*kept.results[base].body, ground.maximum.z)
+                                      : Result<Domain>(Error{ErrorCode::infeasible, "", "has no roof"});
+  const double bottom = kept.results[base].bottom + kept.results[base].height;
+  if (roof) {
+    level.domain = std::move(*roof);
+    auto done = run_level(ground, bottom, wishes, level, kept, outcome);
+    if (done) return done;
+    roof = done.error();
+  }
+  outcome.on_roofs.push_back({level.base, roof.error().message});
+  level.diagram = FootprintDiagram();
+  for (const std::uint32_t i : level.members) {
+    StandingResult none;
+    none.state = SiteState::starved;
+    none.weight = wishes[i].site.site.weight;
+    none.storeys = storeys_of(wishes[i], ground.maximum.z - bottom);
+    none.bottom = bottom;
+    none.centroid = wishes[i].site.site.position;
+    none.body = std::make_shared<const StandingBody>();
+    kept.results[i] = std::move(none);
+    outcome.differing.push_back(i);
+  }
+  return {};
+}
+
+Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const {
+  Outcome outcome;
+  const std::vector<std::int32_t> bases = bases_of(wishes, outcome.in_circles);
+  kept.levels = levels_of(bases, std::move(kept.levels));
+  kept.results.resize(wishes.size());
+  for (Level& level : kept.levels) {
+    const bool is_roof = level.base >= 0;
+    auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
+                        : run_level(domain, ground_of(domain), wishes, level, kept, outcome);
+    if (!done) return done.error();
+    if (!is_roof) kept.plot_area = level.diagram.plot_area();
+  }
+  std::sort(outcome.differing.begin(), outcome.differing.end());
   outcome.results = kept.results;
   return outcome;
 }

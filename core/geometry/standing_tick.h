@@ -1,4 +1,5 @@
-// One tick of a solver of standing volumes: whole storeys first, then weights, then plates and what people read of them.
+// One tick of a solver of standing volumes: whole storeys first, then weights, then plates and what people read of them; level by
+// level where volumes stand on the roofs of others.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +15,17 @@ namespace bl::geometry {
 
 /// What one volume asks for.
 struct StandingWish {
+  static constexpr std::int32_t kGround = -1;
+
   StandingSite site;           ///< without runs; its position's height does not count
   double volume = 0;           ///< [m³]; over the storey height it is a floor area
   int storeys = 1, least = 1;  ///< wished, and insisted on
-  double height_limit = 1e9;   ///< [m] above the ground
+  double height_limit = 1e9;   ///< [m] above its lowest floor
   int built = 0;               ///< storeys of the last tick; 0: none yet
   bool was_limited = false;    ///< by the height limit, in the last tick
   double setback = 0;          ///< [m], of the storeys above the first `full_storeys`
   int full_storeys = 0;
+  std::int32_t base = kGround;  ///< the wish on whose roof it stands
   bool operator==(const StandingWish&) const = default;
 };
 
@@ -34,7 +38,7 @@ struct Storeys {
   bool is_limited = false;  ///< fewer than wished, by the height limit
   bool operator==(const Storeys&) const = default;
 };
-/// `highest`: the height of the boundary [m].
+/// `highest`: the height of the boundary above the lowest floor [m].
 Storeys storeys_of(const StandingWish& wish, double highest);
 
 /// What one volume has got.
@@ -50,22 +54,48 @@ struct StandingResult {
   MeshPointer mesh;
 };
 
+/// One tick. Volumes on one roof divide its plate among themselves as those on the ground divide the plot, and never compete with
+/// what carries them. A volume below does not depend on those above it, so levels are fitted one after the other, and demands are
+/// met as exactly on roofs as on the ground. Of a round roof they get the chords within `kRoofTolerance`.
 struct StandingTick {
+  static constexpr double kRoofTolerance = 1e-4;  // [m]
+
   int steps = 4;  ///< at most so many steps; 0: the plates of the present weights
   double tolerance = 0.005;
   ThreadPool* pool = nullptr;
 
-  struct Cache {
+  /// Those who stand on the ground, or on one roof.
+  struct Level {
+    std::int32_t base = StandingWish::kGround;
+    std::vector<std::uint32_t> members;  ///< numbers of wishes, ascending
     FootprintDiagram diagram;
+    Domain domain;  ///< of a roof
+  };
+  struct Cache {
+    std::vector<Level> levels;  ///< those on the ground first; each after that of its base
     std::vector<StandingResult> results;
+    double plot_area = 0;  ///< [m²]
+  };
+  /// What cannot be met on one level.
+  struct LevelWord {
+    std::int32_t base = StandingWish::kGround;
+    std::string text;
   };
   struct Outcome {
     std::span<const StandingResult> results;  ///< in the cache, valid until its next use
     std::vector<std::uint32_t> differing;     ///< ascending: those whose result may differ from the last one in the cache
     std::vector<FloorLoss> losses;            ///< by site
-    std::string message;                      ///< a sentence where the demands cannot be met together
+    std::string message;                      ///< a sentence where the demands on the ground cannot be met together
+    std::vector<LevelWord> on_roofs;          ///< the same of roofs, by their bases, and why a roof carries nothing
+    std::vector<std::uint32_t> in_circles;    ///< those that would stand upon themselves: they are put on the ground
   };
   Result<Outcome> run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const;
+
+ private:
+  Result<void> run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level, Cache& kept,
+                         Outcome& outcome) const;
+  Result<void> run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
+                        Outcome& outcome) const;
 };
 
 }  // namespace bl::geometry

@@ -2,6 +2,7 @@
 #include "core/graph/link_compiler.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/text.h"
@@ -104,13 +105,14 @@ std::vector<LinkCompiler::Wanted> LinkCompiler::wanted_at(const LinkDefinition& 
                                                           std::span<const Value> values) const {
   std::vector<Wanted> list;
   for (const LinkRead& read : definition.reads)
-    if (read.end == end) list.push_back({actual_path(definition, read.path, values), &read.unit});
+    if (read.end == end) list.push_back({actual_path(definition, read.path, values), &read.unit, read.is_optional});
   for (const LinkWrite& write : definition.proposes)
-    if (write.end == end) list.push_back({actual_path(definition, write.path, values), &write.unit});
+    if (write.end == end) list.push_back({actual_path(definition, write.path, values), &write.unit, write.is_optional});
   return list;
 }
 
-// The nodes of an end that have all the ports. A query leaves out those that lack one; a named node must have them.
+// The nodes of an end that have all the ports but for optional ones. A query leaves out those that lack one; a named node must
+// have them.
 Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link, const Selection& selection, End end,
                                                            std::span<const Value> values) const {
   const std::vector<Wanted> wanted = wanted_at(*link.definition, end, values);
@@ -123,8 +125,8 @@ Result<std::vector<std::uint32_t>> LinkCompiler::end_nodes(const LinkPlan& link,
   for (const std::uint32_t node : nodes) {
     Fit& fit = fits[plan_.forms->of[node]];
     if (fit == Fit::unknown || fit == Fit::fits_by_unit) {
-      const auto missing =
-          std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& one) { return !plan_.find(node, one.path); });
+      const auto missing = std::find_if(wanted.begin(), wanted.end(),
+                                        [&](const Wanted& one) { return !one.is_optional && !plan_.find(node, one.path); });
       if (missing == wanted.end()) {
         const auto unit = check_units(node, wanted);
         if (!unit) return unit.error().within(name_of(end));
@@ -169,9 +171,10 @@ std::string LinkCompiler::nearest_port(const PortPath& path) const {
 
 Result<bool> LinkCompiler::check_units(std::uint32_t node, std::span<const Wanted> wanted) const {
   bool depends_on_node = false;
-  for (const auto& [path, unit] : wanted) {
+  for (const auto& [path, unit, is_optional] : wanted) {
     if (!unit->has_value()) continue;
     const auto ref = plan_.find(node, path);
+    if (!ref && is_optional) continue;
     const Unit found = unit_at(ref);
     depends_on_node |= ref->type != PortRef::kNodeId && !plan_.port(*ref).unit_from.empty();
     if (same_dimension(found, **unit)) continue;
@@ -223,7 +226,7 @@ Result<void> LinkCompiler::resolve_ports(LinkPlan& link, std::span<const Value> 
   if (auto units = check_same_units(link, values); !units) return units;
   for (const LinkRead& read : definition.reads) {
     auto refs = ports_at(plan_, link.nodes[static_cast<int>(read.end)], actual_path(definition, read.path, values),
-                         [&](PortRef ref) -> Result<void> {
+                         read.is_optional, [&](PortRef ref) -> Result<void> {
                            if (ref.type == PortRef::kNodeId || read.is_lock) return {};
                            return check_kind(plan_, ref, read.kind, read.made, "link reads");
                          });
@@ -233,13 +236,14 @@ Result<void> LinkCompiler::resolve_ports(LinkPlan& link, std::span<const Value> 
   std::vector<std::vector<PortRef>> write_refs;
   for (const LinkWrite& write : definition.proposes) {
     auto refs = ports_at(plan_, link.nodes[static_cast<int>(write.end)], actual_path(definition, write.path, values),
-                         [&](PortRef ref) -> Result<void> {
+                         write.is_optional, [&](PortRef ref) -> Result<void> {
                            if (ref.type == PortRef::kNodeId || plan_.port(ref).rule == CombineRule::none)
                              return Error{ErrorCode::conflict, "", "`" + plan_.path_text(ref) + "` cannot be changed by links"};
                            return check_kind(plan_, ref, write.kind, {}, "link proposes");
                          });
     if (!refs) return refs.error();
-    link.targets.insert(link.targets.end(), refs->begin(), refs->end());
+    std::copy_if(refs->begin(), refs->end(), std::back_inserter(link.targets),
+                 [](const PortRef& ref) { return ref.type != PortRef::kNodeId; });
     write_refs.push_back(std::move(*refs));
   }
   if (!std::is_sorted(link.targets.begin(), link.targets.end())) std::sort(link.targets.begin(), link.targets.end());
@@ -250,6 +254,10 @@ Result<void> LinkCompiler::resolve_ports(LinkPlan& link, std::span<const Value> 
     // The nodes of an end ascend, and so do their ports.
     std::uint32_t at = 0;
     for (const PortRef& ref : refs) {
+      if (ref.type == PortRef::kNodeId) {
+        indices.push_back(LinkPlan::kNoTarget);
+        continue;
+      }
       while (link.targets[at] < ref) ++at;
       indices.push_back(at);
     }

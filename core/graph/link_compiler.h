@@ -27,6 +27,7 @@ class LinkCompiler {
   struct Wanted {
     PortPath path;
     const std::optional<Unit>* unit = nullptr;
+    bool is_optional = false;
   };
 
   std::string why_it_rests(const std::string& kind) const;

@@ -93,7 +93,8 @@ std::optional<DuePairs> single_pairs(const LinkPlan& plan, End many, const std::
     if (node == alone) return std::nullopt;
     const auto place = static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
     due.pairs.push_back(many == End::to ? LinkReach::Pair{0, place} : LinkReach::Pair{place, 0});
-    for (const auto& writes : plan.writes) due.targets.push_back(writes[place]);
+    for (const auto& writes : plan.writes)
+      if (writes[place] != LinkPlan::kNoTarget) due.targets.push_back(writes[place]);
   }
   if (2 * due.pairs.size() > nodes.size()) return std::nullopt;
   return due;
@@ -108,7 +109,8 @@ std::optional<DuePairs> near_pairs(const State& frozen, const LinkPlan& plan, Li
   for (const std::uint32_t node : *concerned)
     for (std::size_t w = 0; w < plan.writes.size(); ++w) {
       const auto& nodes = plan.nodes[static_cast<std::size_t>(plan.definition->proposes[w].end)];
-      if (const auto at = place_in(nodes, node)) due.targets.push_back(plan.writes[w][*at]);
+      if (const auto at = place_in(nodes, node); at && plan.writes[w][*at] != LinkPlan::kNoTarget)
+        due.targets.push_back(plan.writes[w][*at]);
     }
   return due;
 }

@@ -18,10 +18,11 @@ std::optional<std::uint32_t> place_in(const std::vector<std::uint32_t>& nodes, s
   return static_cast<std::uint32_t>(at - nodes.begin());
 }
 
-const Value& value_read(const State& frozen, const LinkRead& read, PortRef ref) {
+const Value* value_read(const State& frozen, const LinkRead& read, PortRef ref) {
   static const Value locked = true, open = false;
-  if (!read.is_lock) return frozen.value(ref);
-  return frozen.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? locked : open;
+  if (read.is_optional && ref.type == PortRef::kNodeId) return nullptr;
+  if (!read.is_lock) return &frozen.value(ref);
+  return frozen.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? &locked : &open;
 }
 
 LinkRun::LinkRun(const State& frozen, const LinkPlan& plan, LinkReads* whole)
@@ -97,6 +98,7 @@ std::vector<Voice> LinkRun::voices(const std::vector<Voice>& last) {
 }
 
 std::size_t LinkRun::slot_of(std::uint32_t target) const {
+  if (target == LinkPlan::kNoTarget) return kNone;
   if (targets_.empty()) return target;
   const auto at = std::lower_bound(targets_.begin(), targets_.end(), target);
   return at != targets_.end() && *at == target ? static_cast<std::size_t>(at - targets_.begin()) : kNone;
@@ -145,7 +147,7 @@ Result<void> LinkRun::read(std::size_t f, std::size_t t) {
     if (read.is_whole && reads_ != &own_reads_) continue;
     const std::size_t first = read.is_whole ? 0 : (read.end == End::from ? f : t);
     auto& values = reads_->values[r];
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = &value_read(frozen_, read, plan_.reads[r][first + i]);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_read(frozen_, read, plan_.reads[r][first + i]);
     if (!read.is_whole && is_out_of_date(plan_.reads[r][first]))
       return Error{ErrorCode::missing, "",
                    "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
@@ -164,7 +166,8 @@ Result<void> LinkRun::evaluate(std::size_t f, std::size_t t, const Tick& tick) {
     const LinkWrite& write = definition_.proposes[w];
     const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
     for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
-      if (auto& value = writes_.values[w][i]; value && !make_storable(*value))
+      if (auto& value = writes_.values[w][i];
+          value && plan_.writes[w][first + i] != LinkPlan::kNoTarget && !make_storable(*value))
         return Error{ErrorCode::not_finite, "",
                      "proposed a value that is not a finite number for `" +
                          frozen_.plan->nodes[plan_.targets[plan_.writes[w][first + i]].node].id + "`"};

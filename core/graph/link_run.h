@@ -16,8 +16,8 @@ Voice held_voice(const Voice& voice, const LinkPlan& plan);
 /// Where a node stands among the nodes of an end, which ascend; nothing where it is none of them.
 std::optional<std::uint32_t> place_in(const std::vector<std::uint32_t>& nodes, std::uint32_t node);
 
-/// What a link reads there: the value, or whether people have locked it.
-const Value& value_read(const State& frozen, const LinkRead& read, PortRef ref);
+/// What a link reads there: the value, or whether people have locked it; nullptr where an optional port is lacking.
+const Value* value_read(const State& frozen, const LinkRead& read, PortRef ref);
 
 class LinkRun {
  public:

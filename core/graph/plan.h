@@ -37,17 +37,19 @@ struct NodeForms {
 };
 
 struct LinkPlan {
+  static constexpr std::uint32_t kNoTarget = ~std::uint32_t{0};
   std::string id;
   const LinkDefinition* definition = nullptr;  ///< nullptr for ghosts
   bool is_enabled = true, is_muted = false;
   double strength = 1;
   std::shared_ptr<const void> parameters;
-  std::vector<std::uint32_t> nodes[2];             ///< node indices of the ends, ascending
-  bool is_symmetric = false;                       ///< both ends are the same nodes: each unordered pair once
-  std::vector<std::vector<PortRef>> reads;         ///< per declared read: one for each node of its end
-  std::vector<PortRef> targets;                    ///< distinct ports proposed to, ascending
-  std::vector<std::vector<std::uint32_t>> writes;  ///< per declared proposal: index into `targets` for each node of its end
-  std::optional<Error> error;                      ///< why the link cannot run
+  std::vector<std::uint32_t> nodes[2];      ///< node indices of the ends, ascending
+  bool is_symmetric = false;                ///< both ends are the same nodes: each unordered pair once
+  std::vector<std::vector<PortRef>> reads;  ///< per declared read: one for each node of its end
+  std::vector<PortRef> targets;             ///< distinct ports proposed to, ascending
+  /// Per declared proposal: index into `targets` for each node of its end; kNoTarget where it is optional and the node lacks it.
+  std::vector<std::vector<std::uint32_t>> writes;
+  std::optional<Error> error;  ///< why the link cannot run
 };
 
 struct SetPlan {

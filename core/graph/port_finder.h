@@ -10,11 +10,11 @@
 
 namespace bl {
 
-/// Where a path leads at each of the nodes, all of which have such a port. `check(ref)`, a Result<void>, is asked once for each
-/// of their forms.
+/// Where a path leads at each of the nodes. All of them have such a port, unless it is optional: then PortRef::kNodeId stands for
+/// one that is lacking. `check(ref)`, a Result<void>, is asked once for each form of the nodes that have it.
 template <class Check>
 Result<std::vector<PortRef>> ports_at(const Plan& plan, std::span<const std::uint32_t> nodes, const PortPath& path,
-                                      const Check& check) {
+                                      bool is_optional, const Check& check) {
   std::vector<std::optional<PortRef>> found(plan.forms->types.size());
   std::vector<PortRef> ports;
   ports.reserve(nodes.size());
@@ -22,7 +22,8 @@ Result<std::vector<PortRef>> ports_at(const Plan& plan, std::span<const std::uin
     std::optional<PortRef>& port = found[plan.forms->of[node]];
     if (!port) {
       port = plan.find(node, path);
-      if (auto done = check(*port); !done) return done.error();
+      if (!port && is_optional) port = PortRef{node, PortRef::kNodeId, 0};
+      else if (auto done = check(*port); !done) return done.error();
     }
     port->node = node;
     ports.push_back(*port);

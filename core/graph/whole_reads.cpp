@@ -24,7 +24,7 @@ void WholeReads::read_all(const State& frozen, const LinkPlan& plan) {
   for (std::size_t r = 0; r < reads.size(); ++r) {
     reads_.values[r].resize(reads[r].is_whole ? plan.reads[r].size() : 1);
     for (std::size_t i = 0; reads[r].is_whole && i < plan.reads[r].size(); ++i)
-      reads_.values[r][i] = &value_read(frozen, reads[r], plan.reads[r][i]);
+      reads_.values[r][i] = value_read(frozen, reads[r], plan.reads[r][i]);
   }
   reads_.loaded = &loaded_;
   nodes_ = frozen.nodes;

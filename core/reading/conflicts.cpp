@@ -11,6 +11,7 @@
 #include "core/reading/figures.h"
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
+#include "core/reading/storeys.h"
 #include "core/reading/views/solver.h"
 
 namespace bl::reading {
@@ -43,13 +44,22 @@ std::string speaker(const LinkPlan& link) {
   return link.id + " (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
 }
 
-// What people say themselves: a lock, or a value that has a voice among the others.
-std::string own_word(const TypePlan& type, std::uint16_t p) {
+// What people say themselves: a lock, a wish that the port withholds, or a value that has a voice among the others.
+std::string own_word(const TypePlan& type, std::uint16_t p, const std::string& wish) {
   const PortDefinition& port = type.definition->ports[p];
   if (type.is_locked[p]) return "locked by hand";
+  if (!wish.empty()) return wish;
   if (type.is_set[p] && port.rule == CombineRule::blend && !std::holds_alternative<Vector3>(type.set_values[p]))
     return "set by hand to " + quantity(as_number(type.set_values[p]), port.unit);
   return "";
+}
+
+// The storeys that are wished, at the limit that withholds some of them.
+std::string wish_at(const State& state, PortRef ref) {
+  const auto withheld = withheld_height(state, ref.node);
+  if (!withheld || withheld->limit != ref) return "";
+  return quantity(static_cast<double>(reading::read<&StoreyFigures::storeys>(state, ref.node)), Unit::none) +
+         " storeys are wished";
 }
 
 }  // namespace
@@ -82,6 +92,9 @@ void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePo
     for (std::uint16_t p = 0; p < tension.size(); ++p)
       if (const PortRef ref{node, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
   }
+  // A limit alone contradicts no other limit; it contradicts the storeys that are wished.
+  if (const auto withheld = withheld_height(state, node))
+    tense.push_back({withheld->limit, withheld->height, severity_of(state, withheld->limit, withheld->height)});
 }
 
 std::vector<TensePort> tense_ports(const State& state) {
@@ -113,7 +126,7 @@ ConflictRow conflict_row(const State& state, const TensePort& tense) {
       row.links.push_back(link.id);
     }
   }
-  if (std::string own = own_word(state.plan->nodes[ref.node].types[ref.type], ref.port); !own.empty()) {
+  if (std::string own = own_word(state.plan->nodes[ref.node].types[ref.type], ref.port, wish_at(state, ref)); !own.empty()) {
     row.pulls.push_back(std::move(own));
     row.links.emplace_back();
   }
@@ -200,6 +213,8 @@ std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::u
     if (!solver->figures.message.empty()) add({"node " + plan.nodes[n].name, solver->figures.message, id, "", true});
     ++solver;
   }
+  for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
+    if (!figures.message.empty()) add({"node " + plan.nodes[node].name, figures.message, plan.nodes[node].id, "", true});
   for (const std::uint32_t l : links) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
     add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});

@@ -135,11 +135,15 @@ PlaceProblem hanging_volume(const State& state, std::uint32_t node, const Volume
 
 }  // namespace
 
-VolumePlaces::Volume VolumePlaces::volume_of(std::uint32_t node, const VolumePlace& place) {
-  return {node, place.position, geometry::ball_radius(place.wanted), place.hang};
+VolumePlaces::Volume VolumePlaces::volume_of(const State& state, std::uint32_t node, const VolumePlace& place) {
+  const bool has_storeys = reading::port_of<&StoreyFigures::storeys>(*state.plan, node).has_value();
+  return {node, place.position, geometry::ball_radius(place.wanted), place.hang,
+          has_storeys ? std::optional(place.bottom) : std::nullopt};
 }
 
 void VolumePlaces::join(std::size_t a, std::size_t b) {
+  // One upon another they share a place in plan, and are no less separate bodies.
+  if (volumes_[a].level && volumes_[b].level && *volumes_[a].level != *volumes_[b].level) return;
   if (distance(volumes_[a].position, volumes_[b].position) > kOnePoint * std::min(volumes_[a].radius, volumes_[b].radius)) return;
   on_one_point_.emplace(a, b);
   on_one_point_.emplace(b, a);
@@ -174,8 +178,8 @@ void VolumePlaces::read_changed(const State& state, const std::vector<std::uint3
     const auto at =
         std::lower_bound(volumes_.begin(), volumes_.end(), node, [](const Volume& v, std::uint32_t n) { return v.node < n; });
     if (at == volumes_.end() || at->node != node) continue;
-    const Volume now = volume_of(node, *reading::row_of<VolumePlace>(state, node));
-    if (now.position != at->position || now.radius != at->radius)
+    const Volume now = volume_of(state, node, *reading::row_of<VolumePlace>(state, node));
+    if (now.position != at->position || now.radius != at->radius || now.level != at->level)
       moved.push_back(static_cast<std::size_t>(at - volumes_.begin()));
     *at = now;
     read_hanging(state, now);
@@ -202,7 +206,7 @@ void VolumePlaces::read(const State& state, const std::optional<std::vector<std:
     if (says_the_same) return;
   } else {
     volumes_.clear();
-    for (const auto& [node, place] : reading::rows<VolumePlace>(state)) volumes_.push_back(volume_of(node, place));
+    for (const auto& [node, place] : reading::rows<VolumePlace>(state)) volumes_.push_back(volume_of(state, node, place));
     find_all_pairs();
   }
   hanging_.clear();

@@ -48,12 +48,13 @@ class VolumePlaces {
   struct Volume {
     std::uint32_t node = 0;
     Point3 position;
-    double radius = 0;  // of a ball of the wanted volume [m]
-    double hang = 0;    // [m]
+    double radius = 0;            // of a ball of the wanted volume [m]
+    double hang = 0;              // [m]
+    std::optional<double> level;  // of its lowest floor, where it has storeys [m]
   };
   using Pair = std::pair<std::size_t, std::size_t>;
 
-  static Volume volume_of(std::uint32_t node, const VolumePlace& place);
+  static Volume volume_of(const State& state, std::uint32_t node, const VolumePlace& place);
   void join(std::size_t a, std::size_t b);
   void part(std::size_t row);
   void find_all_pairs();

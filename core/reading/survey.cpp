@@ -8,6 +8,7 @@
 #include "core/geometry/fit_text.h"
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
+#include "core/reading/storeys.h"
 
 namespace bl::reading {
 
@@ -45,15 +46,18 @@ std::vector<Pull> pulls_on(const State& state, PortRef target) {
 
 std::vector<TensionRow> tensions_of(const State& state) {
   std::vector<TensionRow> rows;
-  for (std::uint32_t n = 0; n < count_of(state); ++n)
+  const auto add = [&](PortRef ref, double tension) {
+    const std::string unit(info(state.plan->port(ref).unit).pretty);
+    rows.push_back({state.plan->nodes[ref.node].id, state.plan->path_text(ref), unit, tension, pulls_on(state, ref)});
+  };
+  for (std::uint32_t n = 0; n < count_of(state); ++n) {
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t)
       for (std::uint16_t p = 0; p < state.nodes[n].types[t].tension.size(); ++p) {
-        const double tension = state.nodes[n].types[t].tension[p];
-        if (!(tension > 1e-3)) continue;  // a millimetre, a litre: nothing that anybody feels
-        const PortRef ref{n, t, p};
-        const std::string unit(info(state.plan->port(ref).unit).pretty);
-        rows.push_back({state.plan->nodes[n].id, state.plan->path_text(ref), unit, tension, pulls_on(state, ref)});
+        // A millimetre, a litre: nothing that anybody feels.
+        if (const double tension = state.nodes[n].types[t].tension[p]; tension > 1e-3) add({n, t, p}, tension);
       }
+    if (const auto withheld = withheld_height(state, n)) add(withheld->limit, withheld->height);
+  }
   std::stable_sort(rows.begin(), rows.end(), [](const TensionRow& a, const TensionRow& b) { return a.tension > b.tension; });
   return rows;
 }
@@ -97,6 +101,9 @@ std::vector<Error> problems_of(const State& state) {
         const std::string prefix = "nodes/" + id + "/" + state.plan->nodes[n].types[t].definition->id;
         problems.push_back(error->place.starts_with("nodes/" + id) ? *error : error->within(prefix));
       }
+  for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
+    if (!figures.message.empty())
+      problems.push_back({ErrorCode::infeasible, "nodes/" + state.plan->nodes[node].id, figures.message});
   for (std::size_t l = 0; l < state.links.size(); ++l)
     if (const auto& error = state.links[l].error) {
       const std::string prefix = "links/" + state.plan->links[l].id;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -13,6 +14,8 @@
 #include "core/reading/changes.h"
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
+#include "core/reading/storeys.h"
+#include "core/reading/survey.h"
 
 namespace bl::report {
 
@@ -67,6 +70,7 @@ class Walk {
 
   Comparison run() {
     read_inputs();
+    read_reasons();
     read(before_, false);
     read(after_, true);
     pair_up();
@@ -190,6 +194,27 @@ class Walk {
       const std::string first = text_of(a, port), second = text_of(b, port);
       if (first != second) result_.inputs.push_back(place + port.id + ": " + first + " -> " + second);
     }
+  }
+
+  static std::vector<std::string> reasons_in(const State& state) {
+    std::vector<std::string> reasons;
+    for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+      if (const std::string why = reading::why_lower(state, n); !why.empty())
+        reasons.push_back(state.plan->nodes[n].name + " has " + why);
+    for (const Error& problem : reading::problems_of(state)) reasons.push_back(problem.text());
+    return reasons;
+  }
+
+  void read_reasons() {
+    const std::vector<std::string> before = reasons_in(before_), after = reasons_in(after_);
+    const auto only = [](const std::vector<std::string>& here, const std::vector<std::string>& there) {
+      std::vector<std::string> some;
+      std::copy_if(here.begin(), here.end(), std::back_inserter(some),
+                   [&](const std::string& reason) { return std::find(there.begin(), there.end(), reason) == there.end(); });
+      return some;
+    };
+    result_.reasons_before = only(before, after);
+    result_.reasons_after = only(after, before);
   }
 
   static const std::string& name_in(const State& state, const std::string& id) {

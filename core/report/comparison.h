@@ -32,6 +32,8 @@ struct Comparison {
   std::vector<IndicatorRow> nodes;                   ///< those that differ, with the largest relative changes first
   std::size_t same = 0;                              ///< numbers of nodes that agree
   std::vector<std::string> only_before, only_after;  ///< nodes, by name
+  /// What holds volumes back and what cannot be met, in one of the two only: sentences in the order of nodes, then of links.
+  std::vector<std::string> reasons_before, reasons_after;
 };
 
 /// Numbers closer than `least_share` count as the same. Settings of people are compared as they stand in the scenes.

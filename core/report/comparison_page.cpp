@@ -107,6 +107,8 @@ std::string comparison_page(const State& before, const State& after, const Compa
   list(page, "What was set differently", comparison.inputs);
   list(page, "Only in the first", comparison.only_before);
   list(page, "Only in the second", comparison.only_after);
+  list(page, "What holds back the first", comparison.reasons_before);
+  list(page, "What holds back the second", comparison.reasons_after);
   std::vector<IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const IndicatorRow& row) { return row.is_seen(0); });

@@ -11,7 +11,7 @@
 namespace bl {
 namespace {
 
-constexpr std::uint64_t kVolumes = 30;
+constexpr std::uint64_t kWholeEndVolumes = 30;
 
 std::string volume_at(std::uint64_t number) { return "v" + std::to_string(100 + number); }
 
@@ -20,7 +20,7 @@ std::string capped(std::uint64_t seed) {
   Random random(seed);
   Json nodes = Json::array(), links = Json::array();
   const Json volumes = {{"typification", "smart_volume"}};
-  for (std::uint64_t v = 0; v < kVolumes; ++v)
+  for (std::uint64_t v = 0; v < kWholeEndVolumes; ++v)
     nodes.push_back({{"id", volume_at(v)},
                      {"position", {random.uniform(0, 100), random.uniform(0, 100), 0}},
                      {"types", {{"smart_volume", {{"demand", random.uniform(50, 500)}}}, {"junction", Json::object()}}}});
@@ -42,7 +42,7 @@ std::string capped(std::uint64_t seed) {
 
 void change(World& world, std::uint64_t seed, int tick) {
   Random random(seed, static_cast<std::uint64_t>(tick));
-  const std::string volume = volume_at(random.below(kVolumes));
+  const std::string volume = volume_at(random.below(kWholeEndVolumes));
   const auto submit = [&](const Command& command) { (void)world.submit(command); };
   switch (random.below(16)) {
     case 0: return submit(command<LockPort>({volume, {"smart_volume.demand_limit"}}));

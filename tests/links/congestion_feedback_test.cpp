@@ -112,5 +112,25 @@ TEST(CongestionFeedback, SceneHoldsTheOfficesBack) {
   EXPECT_GT(world.number("offices", "smart_volume.wanted"), 15000);
 }
 
+TEST(CongestionFeedback, WhatStandsGivesUpWholeStoreysWithItsDemand) {
+  const auto standing = [](double limit, std::int64_t built) {
+    auto link = feedback(1.0, 1000, limit);
+    link.to("smart_volume.storey_height", 3.0)
+        .to("footprint.storeys", std::int64_t{10})
+        .to("footprint.storeys_min", std::int64_t{1});
+    link.to("footprint.storeys_built", built).to("footprint.height_limit", 1e6);
+    return link;
+  };
+  auto first = standing(1e9, 10), next = standing(900, 9);  // shares of 0.9 and 0.81: nine storeys, then eight
+  ASSERT_EQ(first.run(), "");
+  EXPECT_NEAR(first.number(End::to, "footprint.height_limit"), 9.5 * 3, 1e-9);
+  ASSERT_EQ(next.run(), "");
+  EXPECT_NEAR(next.number(End::to, "footprint.height_limit"), 8.6 * 3, 1e-9);
+  EXPECT_NEAR(next.number(End::to, "smart_volume.demand_limit"), 810, 1e-9);
+  auto calm = standing(1e9, 10);
+  ASSERT_EQ(calm.set("limit", 2.0).run(), "");
+  EXPECT_FALSE(calm.proposed(End::to, "footprint.height_limit").has_value());
+}
+
 }  // namespace
 }  // namespace bl

@@ -51,12 +51,19 @@ class LinkCase {
     std::size_t nodes = 1;
     for (const LinkRead& read : link_->reads) {
       auto& row = reads.values.emplace_back();
+      const bool is_given = !readings_[{read.end, name(read.path)}].empty();
+      // A port that nobody speaks of: a node without it where it is optional, else its default.
+      if (read.is_optional && !is_given && !locked_.contains({read.end, name(read.path), 0})) {
+        row.assign(read.is_whole ? nodes : 1, nullptr);
+        continue;
+      }
       if (read.is_lock) {
         const std::size_t count = read.is_whole ? nodes : 1;
         for (std::size_t i = 0; i < count; ++i)
           row.push_back(&(locked_.contains({read.end, name(read.path), i}) ? truth_ : lie_));
         continue;
       }
+      if (!is_given) row.assign(read.is_whole ? nodes : 1, &default_at(read.path));
       for (const Value& value : readings_[{read.end, name(read.path)}]) row.push_back(&value);
       if (read.is_whole) nodes = row.size();
     }
@@ -86,6 +93,12 @@ class LinkCase {
  private:
   static std::string name(const PortPath& path) {
     return path.chosen_by.empty() ? path.typification + "." + path.port : path.chosen_by;
+  }
+
+  static const Value& default_at(const PortPath& path) {
+    static const Value id = std::string("node");
+    const auto port = full_registry().port(path);
+    return port ? (*port)->default_value : id;
   }
 
   const LinkDefinition* link_;

@@ -168,5 +168,70 @@ TEST(PlotRules, SaysWhichVolumeNoSmallerDemandBringsBelowTheHeight) {
       << world.text("plot", "plot.message");
 }
 
+// The one stands, the other is rounded: one link holds both, each in its own way.
+TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
+  LinkCase high = rules(1, 0.1, 40);
+  high.read(End::to, "smart_volume.storey_height", {4.0, 4.0});
+  high.read(End::to, "footprint.storeys", {std::int64_t{10}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_built", {std::int64_t{10}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_min", {std::int64_t{1}, std::int64_t{1}});
+  high.read(End::to, "footprint.height_limit", {1e6, 1e6});
+  ASSERT_EQ(high.run(), "");
+  EXPECT_DOUBLE_EQ(high.number(End::to, "footprint.height_limit", 0), 20);
+  EXPECT_FALSE(high.proposed(End::to, "footprint.height_limit", 1).has_value()) << "it is beside the plot";
+  EXPECT_FALSE(high.proposed(End::to, "smart_volume.demand_limit", 0).has_value());
+  EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 40.0 m of 20.0 m at `here`");
+  // Five of ten, and the ground is lower than the origin.
+  high.read(End::to, "footprint.storeys_built", {std::int64_t{5}, std::int64_t{10}});
+  high.read(End::to, "smart_volume.height", {20.0, 40.0}).read(End::to, "footprint.height_limit", {20.0, 1e6});
+  ASSERT_EQ(high.run(), "");
+  EXPECT_EQ(high.remarked(LinkRemark::short_of),
+            "from: `here` has 5 of 10 storeys, because it may be no higher than 20.00 m by the rules of the plot");
+  high.read(End::to, "footprint.storeys_min", {std::int64_t{7}, std::int64_t{1}});
+  high.read(End::to, "footprint.storeys_built", {std::int64_t{7}, std::int64_t{10}});
+  high.read(End::to, "smart_volume.height", {28.0, 40.0});
+  ASSERT_EQ(high.run(), "");
+  EXPECT_EQ(high.remarked(LinkRemark::unmet),
+            "from: cannot be met: height 28.0 m of 20.0 m at `here`, held by `here`, which keeps at least 7 storeys; loosen the "
+            "rule, or lower what is insisted on or `least`");
+}
+
+TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,60,0],[0,60,0]], "height": 40},
+                             "plot": {"polygon": [[0,0,0],[60,0,0],[60,60,0],[0,60,0]], "height_max": 14, "fsi_max": 1.2}}},
+    {"id": "balls", "types": {"smart_volumes_solver": {"members": ["ball"]}}},
+    {"id": "solver", "types": {"standing_solver": {"tolerance": 1e-6}}},
+    {"id": "ball", "position": [12, 12, 6], "types": {"smart_volume": {"demand": 2000}}},
+    {"id": "block", "position": [40, 40, 0], "types": {"smart_volume": {"demand": 9000, "storey_height": 3},
+                                                       "footprint": {"storeys": 8}}}],
+    "links": [{"id": "rules", "kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}}]})");
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_NEAR(world.number("block", "smart_volume.floor_area"), 3000, 0.01);
+  EXPECT_NEAR(world.number("block", "smart_volume.footprint"), 750, 0.01);
+  EXPECT_NE(world.link_error("rules").find("`block` has 4 of 8 storeys"), std::string::npos) << world.link_error("rules");
+  EXPECT_EQ(world.text("ball", "smart_volume.state"), "alive");
+  // A ball that gets the role of a footprint is held by its storeys from then on, and the other way round.
+  ASSERT_EQ(world.submit(command<Typify>({.node = "ball", .typification = "footprint", .values = {}})), "");
+  ASSERT_EQ(world.submit(command<Untypify>({.node = "block", .typification = "footprint"})), "");
+  world.tick(3);
+  EXPECT_EQ(world.link_error("rules").find("has no `footprint"), std::string::npos) << world.link_error("rules");
+  ASSERT_EQ(world.submit(command<Untypify>({.node = "ball", .typification = "footprint"})), "");
+  ASSERT_EQ(world.submit(command<Typify>({.node = "block", .typification = "footprint", .values = {}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "block", .port = {"footprint.storeys"}, .value = {"8"}})), "");
+  world.tick(20);
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  // The FSI takes floor area from both, storeys from none.
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "site", .port = {"plot.fsi_max"}, .value = {"0.6"}})), "");
+  world.tick(20);
+  ASSERT_TRUE(world.settle(600));
+  EXPECT_LE(world.number("site", "plot.fsi"), 0.6);
+  EXPECT_GT(world.number("site", "plot.fsi"), 0.57);
+  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_LT(world.number("block", "smart_volume.footprint"), 700);
+}
+
 }  // namespace
 }  // namespace bl

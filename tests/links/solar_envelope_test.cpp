@@ -1,6 +1,7 @@
 // Solar envelope: a plane at 45 degrees by hand, and volumes that come back under the planes of a winter.
 #include <cmath>
 
+#include "core/geometry/plates_table.h"
 #include "core/sun/shadow_shape.h"
 #include "tests/links/link_case.h"
 
@@ -125,6 +126,46 @@ TEST(SolarEnvelope, SceneKeepsTheNeighboursSun) {
   world.tick(8);
   ASSERT_TRUE(world.settle(400));
   EXPECT_LT(world.number("windows", "shadow_receiver.sun_mean"), 0.9 * world.number("windows", "shadow_receiver.sun_possible"));
+}
+
+// Ten metres square about (0, -20), so that its roof's edge lies 15 m from the neighbour's: the plane there is 15 m high.
+LinkCase standing(std::int64_t built, const std::string& mode = "shave") {
+  geometry::StandingBody body;
+  body.stacks.push_back({static_cast<int>(built), 0, 4, 100, {}, {}});
+  body.stacks.back().outlines.push_back({{{{-5, -25, 0}}, {{5, -25, 0}}, {{5, -15, 0}}, {{-5, -15, 0}}}, 0});
+  Table plates;
+  geometry::write_body(body, plates);
+  LinkCase link = envelope(mode, {0, -20, 0}, 0, 4.0 * static_cast<double>(built));
+  link.to("smart_volume.storey_height", 4.0)
+      .to("footprint.storeys", std::int64_t{6})
+      .to("footprint.storeys_min", std::int64_t{1});
+  link.to("footprint.storeys_built", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
+  return link;
+}
+
+TEST(SolarEnvelope, OfWhatStandsTheStoreysGoThatReachThrough) {
+  auto high = standing(6), kept = standing(3);
+  for (LinkCase* link : {&high, &kept}) ASSERT_EQ(link->run(), "");
+  EXPECT_NEAR(high.number(End::to, "footprint.height_limit"), 15, 1e-9);
+  EXPECT_FALSE(high.moves(End::to));
+  EXPECT_NEAR(kept.number(End::to, "footprint.height_limit"), 15, 1e-9);
+  EXPECT_EQ(kept.remarked(LinkRemark::short_of),
+            "edge: `tower` has 3 of 6 storeys, because it may be no higher than 15.00 m to stay below the planes of the sun");
+  auto least = standing(6);
+  least.to("footprint.storeys_min", std::int64_t{6}).to("footprint.height_limit", 24.0);
+  ASSERT_EQ(least.run(), "");
+  EXPECT_EQ(least.remarked(LinkRemark::unmet),
+            "edge: cannot be met: `tower` reaches 9.00 m through the planes of the sun, held by `tower`, which keeps at least 6 "
+            "storeys; move the edge or the volume, or lower `least` or `storeys_min`");
+}
+
+TEST(SolarEnvelope, WhatStandsMovesBackOnTheLevel) {
+  auto link = standing(6, "move");  // 9 m through the plane, half a metre allowed, half of the rest in one tick
+  ASSERT_EQ(link.run(), "");
+  expect_near(link.move(End::to), {0, -0.5 * 8.5, 0});
+  auto below = standing(3, "move");
+  ASSERT_EQ(below.run(), "");
+  EXPECT_FALSE(below.moves(End::to));
 }
 
 }  // namespace

@@ -181,5 +181,112 @@ TEST(SolarRight, GrowsByTheSunThatIsLeftOver) {
   EXPECT_NEAR(limit(far), 2000 * (1 + 0.1 * 0.5), 1e-9);
 }
 
+// A tower that stands: eight storeys of three metres are wished.
+LinkCase standing(double built, double height_limit, double deficit = 1800, const std::string& mode = "shave") {
+  LinkCase link = right(mode, "tower", deficit);
+  link.to("smart_volume.storey_height", 3.0)
+      .to("footprint.storeys", std::int64_t{8})
+      .to("footprint.storeys_min", std::int64_t{1});
+  link.to("footprint.storeys_built", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
+  return link;
+}
+
+std::optional<double> height(LinkCase& link) {
+  const auto proposed = link.proposed(End::to, "footprint.height_limit");
+  return proposed ? std::optional(as_number(*proposed)) : std::nullopt;
+}
+
+TEST(SolarRight, WhatStandsGivesWayByStoreys) {
+  // From a storey above the roof by a tenth of one, whatever the sun that is missing.
+  for (const char* mode : {"shave", "lower"}) {
+    auto first = standing(8, 1e6, 1800, mode), next = standing(8, 24.5, 1800, mode);
+    for (LinkCase* link : {&first, &next}) ASSERT_EQ(link->run(), "");
+    EXPECT_NEAR(height(first).value(), 27 - 0.3, 1e-9) << mode;
+    EXPECT_NEAR(height(next).value(), 24.2, 1e-9) << mode;
+    EXPECT_FALSE(first.proposed(End::to, "smart_volume.demand_limit").has_value()) << "its floor area stays";
+    EXPECT_FALSE(first.moves(End::to));
+    EXPECT_EQ(first.remarked(LinkRemark::at_work), "from: `garden` is short of 0.50 h of sun");
+  }
+  auto moved = standing(8, 1e6, 1800, "move");
+  ASSERT_EQ(moved.run(), "");
+  EXPECT_TRUE(moved.moves(End::to));
+  EXPECT_FALSE(height(moved).has_value());
+}
+
+TEST(SolarRight, StoreysRestAndTheLimitIsNamed) {
+  auto kept = standing(6, 19.9, 300);
+  ASSERT_EQ(kept.run(), "");
+  EXPECT_DOUBLE_EQ(height(kept).value(), 19.9);
+  EXPECT_EQ(kept.remarked(LinkRemark::short_of),
+            "to: `tower` has 6 of 8 storeys, because it may be no higher than 19.90 m, so that `garden` keeps its sun");
+  auto free = standing(8, 1e6, 300);
+  ASSERT_EQ(free.run(), "");
+  EXPECT_FALSE(height(free).has_value());
+  EXPECT_EQ(free.remarked(LinkRemark::short_of), "");
+}
+
+TEST(SolarRight, AStoreyComesBackWhereThereIsMuchMoreThanEnough) {
+  auto little = standing(6, 19.9, 0), much = standing(6, 19.9, 0);
+  little.from("shadow_receiver.sun_min", 1.4 * 7200);
+  much.from("shadow_receiver.sun_min", 1.6 * 7200);
+  for (LinkCase* link : {&little, &much}) ASSERT_EQ(link->run(), "");
+  EXPECT_DOUBLE_EQ(height(little).value(), 19.9);
+  EXPECT_NEAR(height(much).value(), 20.2, 1e-9);
+}
+
+TEST(SolarRight, TheLeastStoreysAndLockedLimitsAreNamed) {
+  auto low = standing(2, 6), locked = standing(8, 30);
+  locked.lock(End::to, "footprint.height_limit");
+  for (LinkCase* link : {&low, &locked}) ASSERT_EQ(link->run(), "");
+  EXPECT_DOUBLE_EQ(height(low).value(), 6) << "a fifth of eight storeys is never taken: two";
+  EXPECT_EQ(low.remarked(LinkRemark::unmet),
+            "from: cannot be met: `garden` is short of 0.50 h of sun, held by `tower`, which keeps at least 2 storeys; lower "
+            "`required_sun`, `least` or `storeys_min`, or move the volume");
+  EXPECT_NE(locked.remarked(LinkRemark::unmet).find("(its height limit is locked)"), std::string::npos);
+}
+
+// With the link the tower loses two storeys and its footprint grows; its floor area stays, and all that follows from it.
+TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
+  World with = World::from_file("scenes/studies/tower_and_garden.json");
+  World without = World::from_file("scenes/studies/tower_and_garden.json");
+  ASSERT_EQ(without.submit(command<RemoveLink>({.id = "sun"})), "");
+  ASSERT_TRUE(with.settle(400));
+  ASSERT_TRUE(without.settle(400));
+  const auto both = [&](const char* node, const char* port) {
+    return std::pair(without.number(node, port), with.number(node, port));
+  };
+  EXPECT_EQ(both("tower", "footprint.storeys_built"), std::pair(10.0, 8.0));
+  const auto [small, large] = both("tower", "smart_volume.footprint");
+  EXPECT_NEAR(small, 240, 0.01);
+  EXPECT_NEAR(large, 300, 0.01);
+  for (World* world : {&with, &without}) EXPECT_NEAR(world->number("tower", "smart_volume.floor_area"), 2400, 0.05);
+  // The garden has what it is owed, within the tolerance and its play; without the link it has not.
+  const auto [short_by, met] = both("garden", "shadow_receiver.deficit");
+  const double required = with.number("garden", "shadow_receiver.required_sun");
+  EXPECT_GT(short_by, 0.02 * 1.125 * required);
+  EXPECT_LE(met, 0.02 * 1.125 * required);
+  // Trips and FSI are those of the same floor area; the ground is built on more, and the façades are others.
+  EXPECT_NEAR(with.number("tower", "traffic_zone.trips_in"), without.number("tower", "traffic_zone.trips_in"), 0.01);
+  EXPECT_GT(with.number("tower", "traffic_zone.trips_in"), 5);
+  EXPECT_NEAR(with.number("solver", "standing_solver.fsi"), without.number("solver", "standing_solver.fsi"), 1e-5);
+  EXPECT_GT(with.number("solver", "standing_solver.gsi"), without.number("solver", "standing_solver.gsi") + 0.01);
+  EXPECT_LT(with.number("tower", "facade.facade_area"), 0.95 * without.number("tower", "facade.facade_area"));
+  EXPECT_GT(with.number("tower", "facade.roof_area"), 1.2 * without.number("tower", "facade.roof_area"));
+  const std::string said = with.link_error("sun");
+  EXPECT_NE(said.find("`tower` has 8 of 10 storeys, because it may be no higher than "), std::string::npos) << said;
+  EXPECT_NE(said.find(", so that `garden` keeps its sun"), std::string::npos) << said;
+  // No storey comes and goes, and all of them come back when there is room.
+  for (int tick = 0; tick < 60; ++tick) {
+    with.tick();
+    ASSERT_EQ(with.number("tower", "footprint.storeys_built"), 8) << tick;
+  }
+  ASSERT_EQ(with.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"3600"}})), "");
+  with.tick(60);
+  ASSERT_TRUE(with.settle(200));
+  EXPECT_EQ(with.number("tower", "footprint.storeys_built"), 10);
+  EXPECT_NEAR(with.number("tower", "smart_volume.footprint"), 240, 0.01);
+  EXPECT_EQ(with.link_error("sun"), "");
+}
+
 }  // namespace
 }  // namespace bl

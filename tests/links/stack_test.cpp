@@ -35,6 +35,44 @@ TEST(Stack, RestsWithinACentimetreAndWithoutShapes) {
   expect_near(link.move(End::to), {0, 0, 0});
 }
 
+TEST(Stack, WhatStandsIsSaidToStandOnTheRoof) {
+  auto link = stacked();
+  link.from("node.id", std::string("podium")).from("footprint.storeys_built", std::int64_t{2});
+  link.to("footprint.storeys_built", std::int64_t{6});
+  ASSERT_EQ(link.run(), "");
+  EXPECT_TRUE(link.proposed(End::to, "footprint.bases") == Value(Shared(std::vector<std::string>{"podium"})));
+  expect_near(link.move(End::to), {-2, 1, 0});  // heights follow from what it stands on
+  ASSERT_EQ(link.set("relation", std::string("same_level")).run(), "");
+  EXPECT_FALSE(link.proposed(End::to, "footprint.bases").has_value());
+}
+
+TEST(Stack, SceneATowerOnAPodium) {
+  World world = World::from_file("scenes/studies/tower_on_podium.json");
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.text("solver", "standing_solver.message"), "");
+  EXPECT_EQ(world.text("tower", "smart_volume.stands_on"), "podium");
+  EXPECT_EQ(world.text("podium", "smart_volume.stands_on"), "the ground");
+  EXPECT_DOUBLE_EQ(world.number("tower", "smart_volume.bottom"), world.number("podium", "smart_volume.height"));
+  for (const char* id : {"podium", "tower", "flats", "shops"})
+    EXPECT_NEAR(world.number(id, "smart_volume.volume"), world.number(id, "smart_volume.demand"), 1e-3) << id;
+  // Built ground is that of those who stand on the ground.
+  EXPECT_NEAR(world.number("solver", "standing_solver.covered"),
+              world.number("podium", "smart_volume.footprint") + world.number("shops", "smart_volume.footprint"), 1e-6);
+  // Flats above shops fill the roof that the shops have.
+  EXPECT_NEAR(world.number("flats", "smart_volume.footprint"), world.number("shops", "smart_volume.footprint"), 0.01);
+  // Without the link they compete for the ground.
+  ASSERT_EQ(world.submit(command<RemoveLink>({.id = "on_podium"})), "");
+  world.tick(5);
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.number("tower", "smart_volume.bottom"), 0);
+  // What it should stand on is gone: named, and nothing is lost.
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "tower", .port = {"footprint.bases"}, .value = {"[\"nobody\"]"}})), "");
+  world.tick(5);
+  EXPECT_EQ(world.text("solver", "standing_solver.message"),
+            "`tower` stands on the ground, because `nobody` is no volume of this solver");
+  EXPECT_NEAR(world.number("tower", "smart_volume.volume"), world.number("tower", "smart_volume.demand"), 1e-2);
+}
+
 TEST(Stack, SceneStacksThreeUses) {
   World world = World::from_file("scenes/links/stack.json");
   ASSERT_TRUE(world.settle());

@@ -67,6 +67,9 @@ void print_comparison(const report::Comparison& comparison) {
   for (const std::string& name : comparison.only_before) print_line("  " + name + ": only in the first");
   for (const std::string& name : comparison.only_after) print_line("  " + name + ": only in the second");
   if (comparison.inputs.empty() && comparison.only_before.empty() && comparison.only_after.empty()) print_line("  nothing");
+  if (!comparison.reasons_before.empty() || !comparison.reasons_after.empty()) print_line("What holds back one of them only:");
+  for (const std::string& reason : comparison.reasons_before) print_line("  the first: " + reason);
+  for (const std::string& reason : comparison.reasons_after) print_line("  the second: " + reason);
   std::vector<report::IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });

@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/geometry/plates_table.h"
+#include "core/reading/storeys.h"
 #include "core/reading/views/solver.h"
 #include "core/reading/views/volume.h"
 #include "core/report/figure_tables.h"
@@ -87,6 +88,12 @@ void print_totals(const reading::Survey& survey) {
     if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
 
+void print_storeys(const reading::Survey& survey, const State& state) {
+  for (const reading::VolumeRow& volume : survey.volumes)
+    if (const std::string why = reading::why_lower(state, volume.node); !why.empty())
+      print_line(volume.id + " has " + why, Colour::yellow);
+}
+
 std::string amount(const Value& value, const std::string& unit) {
   const std::string suffix = unit.empty() ? "" : " " + unit;
   if (const auto* v = std::get_if<Vector3>(&value))
@@ -122,6 +129,7 @@ void print_survey(const reading::Survey& survey, const State& state) {
   if (state.tick == 0) return;
   print_volumes(survey, state.plan->settings.tolerance);
   print_totals(survey);
+  print_storeys(survey, state);
   print_tensions(survey);
   if (!survey.problems.empty()) print_line();
   for (const Error& problem : survey.problems) print_line("problem: " + problem.text(), Colour::red);
@@ -161,10 +169,13 @@ Json volume_json(const reading::VolumeRow& row, const std::string& why_short) {
 
 // How it stands; nothing of a volume that does not.
 void add_footprint(const State& state, Json& volume) {
-  const auto found = reading::row_of<reading::FootprintFigures>(state, state.plan->node_index(volume["id"].get<std::string>()));
+  const std::uint32_t node = state.plan->node_index(volume["id"].get<std::string>());
+  const auto found = reading::row_of<reading::FootprintFigures>(state, node);
   volume["form"] = found ? found->form : "rounded";
   if (!found) return;
   volume["storeys"] = found->storeys_built;
+  volume["storeys_wished"] = found->storeys;
+  volume["why_lower"] = reading::why_lower(state, node);
   Json plates = Json::array();
   for (const geometry::PlateStack& stack : geometry::read_body(found->plates, {}).stacks)
     for (int storey = 0; storey < stack.storeys; ++storey)

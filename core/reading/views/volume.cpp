@@ -43,11 +43,21 @@ void FootprintFigures::declare(ViewBuilder<FootprintFigures>& v) {
 }
 BL_VIEW(FootprintFigures)
 
+void StoreyFigures::declare(ViewBuilder<StoreyFigures>& v) {
+  v.of("footprint");
+  v.reads(&StoreyFigures::storeys, "footprint.storeys");
+  v.reads(&StoreyFigures::storeys_built, "footprint.storeys_built");
+  v.reads(&StoreyFigures::height_limit, "footprint.height_limit", Unit::metre);
+  v.reads(&StoreyFigures::is_limited, "footprint.is_limited");
+}
+BL_VIEW(StoreyFigures)
+
 void VolumePlace::declare(ViewBuilder<VolumePlace>& v) {
   v.of("smart_volume");
   v.reads(&VolumePlace::position, "node.position", Unit::metre);
   v.reads(&VolumePlace::wanted, "smart_volume.wanted", Unit::cubic_metre);
   v.reads(&VolumePlace::hang, "smart_volume.hang", Unit::metre);
+  v.reads(&VolumePlace::bottom, "smart_volume.bottom", Unit::metre);
 }
 BL_VIEW(VolumePlace)
 
@@ -57,6 +67,6 @@ void StandParameters::declare(ViewBuilder<StandParameters>& v) {
 }
 BL_VIEW(StandParameters)
 
-BL_VIEWS(volume, VolumeFigures, FootprintFigures, VolumePlace, StandParameters)
+BL_VIEWS(volume, VolumeFigures, FootprintFigures, StoreyFigures, VolumePlace, StandParameters)
 
 }  // namespace bl::reading

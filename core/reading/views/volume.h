@@ -49,11 +49,22 @@ struct FootprintFigures {
   static const ViewDefinition& view();
 };
 
+/// The storeys of a volume that stands, for readers of nothing else.
+struct StoreyFigures {
+  std::int64_t storeys = 0, storeys_built = 0;  ///< wished; and there
+  double height_limit = 0;                      ///< [m] above the ground
+  bool is_limited = false;                      ///< it takes storeys that are wished
+
+  static void declare(ViewBuilder<StoreyFigures>& v);
+  static const ViewDefinition& view();
+};
+
 /// Where a volume is and how it stands, for readers of nothing else.
 struct VolumePlace {
   Point3 position;    ///< [m]
   double wanted = 0;  ///< what its solver aims at [m³]
   double hang = 0;    ///< how far above what carries it its lowest point is [m]
+  double bottom = 0;  ///< height of its lowest point above the origin [m]
 
   static void declare(ViewBuilder<VolumePlace>& v);
   static const ViewDefinition& view();

@@ -90,5 +90,12 @@ TEST(PlaceProblems, SaysNothingBeforeTheFirstTick) {
   EXPECT_TRUE(reading::place_problems(world.state()).empty());
 }
 
+// On a roof a volume shares its place in plan with the one that carries it, and each has a body.
+TEST(PlaceProblems, WhatStandsOnARoofLiesOnNoOnePoint) {
+  World world = World::from_file("scenes/studies/tower_on_podium.json");
+  ASSERT_TRUE(world.settle());
+  EXPECT_TRUE(reading::place_problems(world.state()).empty());
+}
+
 }  // namespace
 }  // namespace bl

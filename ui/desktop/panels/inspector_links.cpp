@@ -26,9 +26,9 @@ bool has_ports(const Workbench& editor, const LinkDefinition& kind, End end, con
     });
   };
   for (const LinkRead& read : kind.reads)
-    if (read.end == end && !fits(read.path.typification)) return false;
+    if (read.end == end && !read.is_optional && !fits(read.path.typification)) return false;
   for (const LinkWrite& write : kind.proposes)
-    if (write.end == end && !fits(write.path.typification)) return false;
+    if (write.end == end && !write.is_optional && !fits(write.path.typification)) return false;
   return true;
 }
 

@@ -22,13 +22,13 @@ struct Candidate {
   Unit unit = Unit::none;
 };
 
-// The ports of an end that the kind works on, as far as the declaration names them.
+// The ports that the nodes of an end must have, as far as the declaration names them.
 std::vector<PortPath> fixed_paths(const LinkDefinition& kind, End end) {
   std::vector<PortPath> paths;
   for (const LinkRead& read : kind.reads)
-    if (read.end == end && read.path.chosen_by.empty()) paths.push_back(read.path);
+    if (read.end == end && !read.is_optional && read.path.chosen_by.empty()) paths.push_back(read.path);
   for (const LinkWrite& write : kind.proposes)
-    if (write.end == end && write.path.chosen_by.empty()) paths.push_back(write.path);
+    if (write.end == end && !write.is_optional && write.path.chosen_by.empty()) paths.push_back(write.path);
   return paths;
 }
 

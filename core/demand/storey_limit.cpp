@@ -1,0 +1,71 @@
+// Moves height limits by steps that storeys and studies can follow.
+#include "core/demand/storey_limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+
+namespace bl::demand {
+
+namespace {
+
+constexpr double kWhole = 1e-9;  // a hair less than whole storeys is whole storeys
+
+// Storeys that the limit in force leaves room for, and not more than one beyond those that stand: a limit far above has no
+// effect, and a rule begins where it has.
+double room_of(const StandingVolume& volume) { return std::min(volume.limit / volume.storey_height, volume.built + 1); }
+
+std::optional<double> limit_for(const StandingVolume& volume, double storeys) {
+  if (storeys >= volume.wished + kStoreyReturn) return std::nullopt;
+  return storeys * volume.storey_height;
+}
+
+}  // namespace
+
+double least_storeys(const StandingVolume& volume, double share) {
+  return std::max({1.0, volume.least, std::ceil(share * volume.wished - kWhole)});
+}
+
+bool is_at_least(const StandingVolume& volume, double share) {
+  const double least = least_storeys(volume, share);
+  return volume.is_locked || (volume.built <= least && volume.limit <= least * volume.storey_height * (1 + kWhole));
+}
+
+bool takes_storeys(const StandingVolume& volume, double limit) {
+  const double storeys = limit / volume.storey_height + kWhole;
+  return volume.built < volume.wished ? storeys < volume.wished + kStoreyReturn : std::floor(storeys) < volume.wished;
+}
+
+std::optional<double> lower_limit(const StandingVolume& volume, double storeys, double share) {
+  if (volume.built < 1) return kept_limit(volume);  // no solver has seen it yet
+  return std::max(least_storeys(volume, share), room_of(volume) - storeys) * volume.storey_height;
+}
+
+std::optional<double> higher_limit(const StandingVolume& volume) {
+  if (volume.limit >= (volume.wished + kStoreyReturn) * volume.storey_height) return std::nullopt;
+  // Beyond its return nothing is needed of the next storey, before this one is measured.
+  return limit_for(volume, std::min(volume.limit / volume.storey_height + kStoreyPace, volume.built + 1 + kStoreyReturn));
+}
+
+std::optional<double> kept_limit(const StandingVolume& volume) {
+  if (!takes_storeys(volume, volume.limit)) return higher_limit(volume);
+  return limit_for(volume, volume.limit / volume.storey_height);
+}
+
+std::optional<double> limit_at(const StandingVolume& volume, double height, double share) {
+  return limit_for(volume, std::max(least_storeys(volume, share), height / volume.storey_height));
+}
+
+std::string storeys_left(const StandingVolume& volume, double limit) {
+  return shortest(volume.built) + " of " + shortest(volume.wished) + " storeys, because it may be no higher than " +
+         fixed(limit, 2) + " m";
+}
+
+std::string held_at_least(const std::string& id, const StandingVolume& volume, double share) {
+  if (volume.is_locked) return "held by `" + id + "` (its height limit is locked)";
+  const double least = least_storeys(volume, share);
+  return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys");
+}
+
+}  // namespace bl::demand

@@ -1,0 +1,23 @@
+// The storeys that volumes have and wish, what a height limit withholds, and who sets it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/graph/state.h"
+
+namespace bl::reading {
+
+/// The height that the limit of a volume takes from what is wished of it.
+struct WithheldHeight {
+  PortRef limit;      ///< the port that holds the limit
+  double height = 0;  ///< of the storeys that are missing [m]
+};
+/// Nothing for a volume that has its storeys, or that does not stand.
+std::optional<WithheldHeight> withheld_height(const State& state, std::uint32_t node);
+
+/// "6 of 8 storeys: link `sun` (Solar right) leaves 19.90 m"; empty for a volume that has its storeys, or that does not stand.
+std::string why_lower(const State& state, std::uint32_t node);
+
+}  // namespace bl::reading

@@ -1,0 +1,84 @@
+// Height limits that take storeys and give them back, by hand.
+#include "core/demand/storey_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/standing_tick.h"
+
+namespace bl::demand {
+namespace {
+
+StandingVolume tower(double built, double limit) { return {built, 8, 2, 3, limit, false}; }
+
+// What a solver of standing volumes makes of it.
+void follow(StandingVolume& volume, std::optional<double> limit) {
+  geometry::StandingWish wish;
+  wish.site.storey_height = volume.storey_height;
+  wish.storeys = static_cast<int>(volume.wished);
+  wish.built = static_cast<int>(volume.built);
+  wish.was_limited = volume.built < volume.wished;
+  wish.height_limit = volume.limit = limit.value_or(1e6);
+  volume.built = geometry::storeys_of(wish, 1000).count;
+}
+
+TEST(StoreyLimit, FallsByAStoreyInTenTicks) {
+  StandingVolume volume = tower(8, 1e6);
+  int ticks = 0;
+  for (; ticks < 100 && volume.built == 8; ++ticks) follow(volume, lower_limit(volume, kStoreyPace, 0.2));
+  // From one storey above the roof, where a limit begins to count.
+  EXPECT_EQ(ticks, 11);
+  EXPECT_EQ(volume.built, 7);
+  for (ticks = 0; ticks < 100 && volume.built == 7; ++ticks) follow(volume, lower_limit(volume, kStoreyPace, 0.2));
+  EXPECT_EQ(ticks, 10);
+}
+
+TEST(StoreyLimit, NeverFallsBelowTheLeast) {
+  StandingVolume volume = tower(8, 1e6);
+  for (int tick = 0; tick < 200; ++tick) follow(volume, lower_limit(volume, kStoreyPace, 0.2));
+  EXPECT_EQ(volume.built, 2);
+  EXPECT_TRUE(is_at_least(volume, 0.2));
+  EXPECT_EQ(least_storeys(volume, 0.5), 4);
+  EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys");
+}
+
+TEST(StoreyLimit, RestsWhereItTakesStoreysAndGoesWhereItTakesNone) {
+  StandingVolume volume = tower(6, 19.9);
+  EXPECT_TRUE(takes_storeys(volume, 19.9));
+  EXPECT_DOUBLE_EQ(kept_limit(volume).value(), 19.9);
+  EXPECT_FALSE(kept_limit(tower(8, 1e6)).has_value());
+  // A little above the roof it is on its way down or up, and nothing holds it there.
+  volume = tower(8, 24.6);
+  for (int tick = 0; tick < 20; ++tick) follow(volume, kept_limit(volume));
+  EXPECT_EQ(volume.limit, 1e6);
+}
+
+TEST(StoreyLimit, GivesStoreysBackOneAfterTheOther) {
+  StandingVolume volume = tower(6, 18.0);
+  int ticks = 0;
+  for (; ticks < 100 && volume.built == 6; ++ticks) follow(volume, higher_limit(volume));
+  EXPECT_EQ(volume.built, 7);
+  EXPECT_GE(ticks, 11);
+  for (; ticks < 100; ++ticks) follow(volume, higher_limit(volume));
+  EXPECT_EQ(volume.built, 8);
+  EXPECT_EQ(volume.limit, 1e6);
+  EXPECT_EQ(kStoreyReturn, geometry::kStoreyPlay) << "limits rise as far as the solver needs for a return";
+}
+
+// A limit that follows from a height trembles with what it follows from; storeys do not.
+TEST(StoreyLimit, AHeightThatTremblesTakesAStoreyOnce) {
+  StandingVolume volume = tower(8, 1e6);
+  int changes = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const double before = volume.built;
+    follow(volume, limit_at(volume, 18 + 0.2 * std::sin(tick), 0.2));
+    changes += volume.built != before ? 1 : 0;
+  }
+  EXPECT_LE(changes, 2);
+  EXPECT_EQ(volume.built, 5);
+  EXPECT_EQ(storeys_left(volume, 18), "5 of 8 storeys, because it may be no higher than 18.00 m");
+}
+
+}  // namespace
+}  // namespace bl::demand

@@ -1,0 +1,194 @@
+// Volumes on the roofs of others: clipped to the plate that carries them, exact as on the ground, and lost nowhere.
+#include "core/geometry/standing_tick.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/geometry/domain_makers.h"
+
+namespace bl::geometry {
+namespace {
+
+Domain plot(double width, double depth, double height = 60) {
+  const std::vector<Point3> ring{{0, 0, 0}, {width, 0, 0}, {width, depth, 0}, {0, depth, 0}};
+  return extrude_plan(ring, {}, 0, height).value();
+}
+
+StandingWish wish(FootprintForm form, Point3 at, int storeys, double floor_area, std::int32_t base = StandingWish::kGround) {
+  StandingWish made;
+  made.site.site.position = at;
+  made.site.form = form;
+  made.site.storey_height = 3;
+  made.volume = 3 * floor_area;
+  made.storeys = storeys;
+  made.base = base;
+  return made;
+}
+
+// Ticks until nothing is missed any more; the weights go on as ports do.
+StandingTick::Outcome run(const Domain& domain, std::vector<StandingWish>& wishes, StandingTick::Cache& kept, int ticks = 6) {
+  StandingTick::Outcome outcome;
+  const StandingTick tick{.steps = 20, .tolerance = 1e-9};
+  for (int k = 0; k < ticks; ++k) {
+    outcome = tick.run(domain, wishes, kept).value();
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+      wishes[i].site.site.weight = outcome.results[i].weight;
+      wishes[i].built = outcome.results[i].storeys.count;
+      wishes[i].was_limited = outcome.results[i].storeys.is_limited;
+    }
+  }
+  return outcome;
+}
+
+TEST(StandingTick, ATowerStandsOnAPodium) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 2, 1200),
+                                   wish(FootprintForm::block, {34, 20, 0}, 6, 1800, 0)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 40), wishes, kept);
+  const StandingResult &podium = outcome.results[0], &tower = outcome.results[1];
+  // 600 m² in two storeys; 300 m² in six, on a roof 6 m above the ground.
+  EXPECT_NEAR(podium.footprint, 600, 1e-5);
+  EXPECT_NEAR(tower.footprint, 300, 1e-5);
+  EXPECT_NEAR(tower.floor_area, 1800, 1e-5);
+  EXPECT_DOUBLE_EQ(tower.bottom, 6);
+  EXPECT_DOUBLE_EQ(tower.height, 18);
+  EXPECT_TRUE(podium.walls.empty()) << "they do not compete";
+  EXPECT_NEAR(tower.free_facade_area, tower.facade_area, 1e-9);
+  EXPECT_TRUE(outcome.on_roofs.empty());
+}
+
+// A cell fills the roof: where it is clipped, half of it is beyond the edge, and the rest is what the roof has.
+TEST(StandingTick, FootprintsOnARoofAreClippedToIt) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 1, 400),
+                                   wish(FootprintForm::block, {40, 20, 0}, 4, 600, 0)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 40), wishes, kept);
+  const StandingResult& tower = outcome.results[1];
+  EXPECT_NEAR(tower.footprint, 150, 1e-6);
+  for (const PlateStack& stack : tower.body->stacks)
+    for (const PlateRing& ring : stack.outlines)
+      for (const PlateRing::Corner& corner : ring.corners) {
+        EXPECT_LE(corner.at.x, 40 + 1e-7);
+        EXPECT_NE(corner.beyond, PlateRing::kPlot);
+      }
+  // It stands at the edge, so half of its block would hang in the air: its weight is that of a larger block.
+  EXPECT_GT(4 * tower.weight, 150 * 1.5);
+}
+
+TEST(StandingTick, TwoOnOneRoofShareItExactly) {
+  std::vector<StandingWish> wishes{
+      wish(FootprintForm::round, {30, 25, 0}, 3, 2400), wish(FootprintForm::cell, {26, 25, 0}, 3, 900, 0),
+      wish(FootprintForm::cell, {34, 25, 0}, 3, 1500, 0), wish(FootprintForm::block, {10, 10, 0}, 4, 400)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 50), wishes, kept);
+  // Of a round roof they get the chords, which lack next to nothing.
+  EXPECT_NEAR(outcome.results[1].floor_area, 900, 0.05);
+  EXPECT_NEAR(outcome.results[2].floor_area, 1500, 0.05);
+  ASSERT_EQ(outcome.results[1].walls.size(), 1u);
+  EXPECT_EQ(outcome.results[1].walls.front().first, 2u) << "neighbours are told by the numbers of all volumes";
+  EXPECT_NEAR(outcome.results[0].floor_area, 2400, 1e-5);
+}
+
+TEST(StandingTick, LevelsFollowOneAnother) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 4, 300, 2),
+                                   wish(FootprintForm::block, {30, 20, 0}, 2, 1000),
+                                   wish(FootprintForm::block, {30, 20, 0}, 3, 600, 1)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 40), wishes, kept);
+  EXPECT_DOUBLE_EQ(outcome.results[2].bottom, 6);
+  EXPECT_DOUBLE_EQ(outcome.results[0].bottom, 15);
+  EXPECT_NEAR(outcome.results[0].floor_area, 300, 1e-5);
+  // The boundary leaves the uppermost what is left of its height.
+  const auto low = run(plot(60, 40, 21), wishes, kept);
+  EXPECT_EQ(low.results[0].storeys.count, 2);
+  EXPECT_NEAR(low.results[0].floor_area, 300, 1e-5);
+}
+
+TEST(StandingTick, TooMuchForARoofIsSaidOfThatRoof) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 1, 300),
+                                   wish(FootprintForm::block, {30, 20, 0}, 2, 900, 0)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 40), wishes, kept);
+  ASSERT_EQ(outcome.on_roofs.size(), 1u);
+  EXPECT_EQ(outcome.on_roofs.front().base, 0);
+  EXPECT_NE(outcome.on_roofs.front().text.find("cannot be met together"), std::string::npos) << outcome.on_roofs.front().text;
+  ASSERT_EQ(outcome.losses.size(), 1u);
+  EXPECT_EQ(outcome.losses.front().demand, 1u);
+  EXPECT_NEAR(outcome.results[0].floor_area, 300, 1e-6) << "those below do not suffer";
+}
+
+// A podium that vanishes, and comes back.
+TEST(StandingTick, WithoutARoofNothingIsLost) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 2, 1200),
+                                   wish(FootprintForm::block, {30, 20, 0}, 6, 1800, 0)};
+  StandingTick::Cache kept;
+  run(plot(60, 40), wishes, kept);
+  const double weight = wishes[1].site.site.weight;
+  const double demand = wishes[0].volume;
+  wishes[0].volume = 0;
+  const auto gone = run(plot(60, 40), wishes, kept);
+  EXPECT_EQ(gone.results[1].state, SiteState::starved);
+  EXPECT_EQ(gone.results[1].floor_area, 0);
+  EXPECT_EQ(gone.results[1].weight, weight);
+  ASSERT_EQ(gone.on_roofs.size(), 1u);
+  EXPECT_NE(gone.on_roofs.front().text.find("has no roof"), std::string::npos);
+  wishes[0].volume = demand;
+  const auto back = run(plot(60, 40), wishes, kept, 12);
+  EXPECT_NEAR(back.results[1].floor_area, 1800, 1e-5);
+  EXPECT_TRUE(back.on_roofs.empty());
+}
+
+TEST(StandingTick, WhoWouldStandUponItselfStandsOnTheGround) {
+  std::vector<StandingWish> wishes{
+      wish(FootprintForm::block, {15, 20, 0}, 2, 400, 1), wish(FootprintForm::block, {45, 20, 0}, 2, 400, 0),
+      wish(FootprintForm::block, {45, 20, 0}, 2, 200, 1), wish(FootprintForm::block, {30, 8, 0}, 1, 50, 3)};
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(60, 40), wishes, kept);
+  EXPECT_EQ(outcome.in_circles, (std::vector<std::uint32_t>{0, 1, 3}));
+  for (const std::uint32_t i : outcome.in_circles) EXPECT_EQ(outcome.results[i].bottom, 0);
+  EXPECT_DOUBLE_EQ(outcome.results[2].bottom, 6) << "what stands on one of them stays there";
+  for (std::size_t i = 0; i < wishes.size(); ++i) EXPECT_NEAR(outcome.results[i].volume, wishes[i].volume, 1e-4);
+}
+
+// What is kept between ticks saves work and changes nothing: the same bits with an empty cache, whatever stands on whom.
+TEST(StandingTickLaws, KeepingChangesNothing) {
+  Random random(5);
+  const Domain ground = plot(90, 70);
+  std::vector<StandingWish> wishes;
+  for (int i = 0; i < 6; ++i)
+    wishes.push_back(wish(i % 2 == 0 ? FootprintForm::block : FootprintForm::round, {15 + 30.0 * (i % 3), 18 + 34.0 * (i / 3), 0},
+                          2, random.uniform(300, 900)));
+  for (int i = 0; i < 8; ++i) {
+    const int base = i % 6;
+    wishes.push_back(
+        wish(FootprintForm::block,
+             wishes[static_cast<std::size_t>(base)].site.site.position + Vector3{random.uniform(-4, 4), random.uniform(-4, 4), 0},
+             4, random.uniform(100, 300), base));
+  }
+  StandingTick::Cache kept;
+  const StandingTick tick{.steps = 3, .tolerance = 1e-6};
+  for (int k = 0; k < 30; ++k) {
+    StandingTick::Cache fresh;
+    const auto again = tick.run(ground, wishes, fresh).value();
+    const auto now = tick.run(ground, wishes, kept).value();
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+      const StandingResult &a = now.results[i], &b = again.results[i];
+      ASSERT_EQ(a.weight, b.weight) << "tick " << k << ", volume " << i;
+      ASSERT_EQ(a.floor_area, b.floor_area);
+      ASSERT_EQ(a.bottom, b.bottom);
+      ASSERT_TRUE(*a.body == *b.body) << "tick " << k << ", volume " << i;
+      ASSERT_EQ(a.walls, b.walls);
+      wishes[i].site.site.weight = a.weight;
+      wishes[i].built = a.storeys.count;
+    }
+    const auto who = static_cast<std::size_t>(random.uniform(0, 14));
+    if (k % 3 == 0) wishes[who].site.site.position += Vector3{random.uniform(-2, 2), random.uniform(-2, 2), 0};
+    if (k % 5 == 0) wishes[who].storeys = 1 + static_cast<int>(random.uniform(0, 5));
+    if (k % 7 == 6) wishes[6 + who % 8].base = static_cast<std::int32_t>(who % 6);
+    if (k == 15) std::swap(wishes[0].volume, wishes[1].volume);
+    if (k == 20) wishes[2].volume = 0;
+  }
+}
+
+}  // namespace
+}  // namespace bl::geometry
