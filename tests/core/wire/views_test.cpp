@@ -123,7 +123,8 @@ TEST(Views, WhatStandsShowsItsOutlineAndItsCourtyard) {
   double area = 0;
   for (const auto& ring : rings)
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      const auto& [x, y] = ring[k], &[ u, v ] = ring[(k + 1) % ring.size()];
+      const auto& [x, y] = ring[k];
+      const auto& [u, v] = ring[(k + 1) % ring.size()];
       area += (x * v - u * y) / 2;
       EXPECT_FALSE(x > 30.1 && y < -30.1) << "outside the plot: " << x << ", " << y;
     }
