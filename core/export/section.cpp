@@ -207,7 +207,7 @@ Result<SectionLine> section_line(const Proposal& proposal, const std::string& te
     at = plain.find_first_not_of(' ', end);
   }
   if (!numbers.empty()) {
-    if (numbers.size() != 4 || std::hypot(numbers[2] - numbers[0], numbers[3] - numbers[1]) < 1e-3)
+    if (numbers.size() != 4 || distance(Point3{numbers[0], numbers[1], 0}, Point3{numbers[2], numbers[3], 0}) < 1e-3)
       return Error{ErrorCode::parse, "section", "expects X1,Y1,X2,Y2, the two ends of a line in metres, found `" + text + "`"};
     return SectionLine{{numbers[0], numbers[1], 0}, {numbers[2], numbers[3], 0}};
   }

@@ -151,9 +151,9 @@ TEST(FigureTables, ThePlanShowsCourtyardsOfWhatStands) {
     reading::ReportModel model;
     reading::read_model(world.state(), model);
     const std::string svg = drawing::draw_plan(world.state(), model, drawing::Palette(model.use_names())).svg;
-    const std::size_t title = svg.find(">1. Court"), path = svg.find("<path d=\"", title);
+    const std::size_t title = svg.find("1. Court: "), path = svg.find(" d=\"", title);
     EXPECT_NE(path, std::string::npos);
-    const std::string d = svg.substr(path + 9, svg.find('"', path + 9) - path - 9);
+    const std::string d = svg.substr(path + 4, svg.find('"', path + 4) - path - 4);
     return std::count(d.begin(), d.end(), 'z');
   };
   EXPECT_EQ(plan_with(""), 1);
