@@ -91,8 +91,20 @@ struct DrawnVolume {
   MeshPointer fine;  // none where the exact form is known
 };
 
+constexpr double kPlateTolerance = 0.005;  // [m] that an arc may lie off its chords
+
+void add_plate(const Sheet& sheet, const geometry::StandingBody& body, const geometry::PlateStack& stack, PathText& path) {
+  for (const geometry::PlateFace& face : geometry::faces_of(stack, body.centre, kPlateTolerance)) {
+    path.polyline(on_sheet(sheet, {face.outer, true}), true);
+    for (const geometry::Ring& courtyard : face.holes) path.polyline(on_sheet(sheet, {courtyard, true}), true);
+  }
+}
+
 PathText cut_of(const Sheet& sheet, const DrawnVolume& volume, double z) {
   PathText path;
+  for (const geometry::PlateStack& stack : volume.row->body.stacks)
+    if (stack.bottom <= z && z < stack.top()) add_plate(sheet, volume.row->body, stack, path);
+  if (!volume.row->body.stacks.empty()) return path;
   if (!volume.fine) path.polyline(on_sheet(sheet, {section_of(volume.row->exact, z), true}), true);
   else
     for (const geometry::Polyline& line : geometry::section(*volume.fine, z, [](std::size_t) { return true; }))
@@ -132,6 +144,11 @@ std::vector<std::vector<Point3>> pieces_of(const DrawnVolume& volume) {
 
 PathText shadow_of(const Sheet& sheet, const DrawnVolume& volume) {
   PathText path;
+  if (const geometry::StandingBody& body = volume.row->body; !body.stacks.empty()) {
+    // Upper plates are set back, so that the lowest one is what all of them cover.
+    add_plate(sheet, body, body.stacks.front(), path);
+    return path;
+  }
   if (!volume.fine) {
     path.polyline(simplified(convex_outline(sheet, *volume.row), true), true);
     return path;
@@ -156,6 +173,13 @@ PathText shadow_of(const Sheet& sheet, const DrawnVolume& volume) {
   return path;
 }
 
+// Where upper storeys are set back, their edges are seen on the roof below.
+void draw_roofs(Markup& svg, const Sheet& sheet, const reading::VolumeRow& volume, const std::string& ink) {
+  PathText path;
+  for (std::size_t k = 1; k < volume.body.stacks.size(); ++k) add_plate(sheet, volume.body, volume.body.stacks[k], path);
+  if (volume.body.stacks.size() > 1) svg.path(path, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".6"}});
+}
+
 void draw_volumes(Markup& svg, const Sheet& sheet, const reading::ReportModel& model, const Palette& palette, double cut) {
   std::vector<DrawnVolume> order;
   for (const reading::VolumeRow& volume : model.volumes)
@@ -174,8 +198,12 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const reading::ReportModel& m
     svg.open("g").element("title", std::to_string(volume.row->number) + ". " + volume.row->name + ": " +
                                        reading::quantity(volume.row->figures.bottom, Unit::metre) + " to " +
                                        reading::quantity(top_of(volume), Unit::metre) + " above the origin");
-    svg.path(shadow_of(sheet, volume),
-             {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
+    svg.path(shadow_of(sheet, volume), {{"fill", hex(colour)},
+                                        {"fill-opacity", ".3"},
+                                        {"fill-rule", "evenodd"},
+                                        {"stroke", hex(mix(colour, kInk, 0.55))},
+                                        {"stroke-width", ".9"}});
+    draw_roofs(svg, sheet, *volume.row, hex(mix(colour, kInk, 0.55)));
     svg.close();
   }
   for (const PathText& path : cuts)

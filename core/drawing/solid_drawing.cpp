@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace bl::drawing {
@@ -13,6 +14,7 @@ namespace {
 constexpr int kShades = 40;
 // Creases are drawn where two visible faces meet at more than this angle.
 constexpr double kCreaseCosine = 0.77;
+constexpr double kUpright = 1e-6;   // of a unit normal
 constexpr double kStraight = 0.04;  // [px] that a point may be off the line through its neighbours
 
 bool is_straight(Pixel a, Pixel b, Pixel c) {
@@ -39,51 +41,108 @@ class Solid {
   }
   bool faces_eye(std::size_t triangle) const { return dot(normals_[triangle], sheet_.view().toward) > 1e-9; }
 
-  void draw_faces(Markup& svg, const SolidStyle& style) const {
+  // Faces, then lines on top of them: of a body that hides no part of itself.
+  void draw_simple(Markup& svg, const SolidStyle& style, const std::string& ink) const {
     std::map<int, std::vector<std::uint32_t>> by_shade;
-    std::vector<std::pair<double, std::uint32_t>> by_depth;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       if (faces_eye(t)) by_shade[shade_of(normals_[t], style.to_sun)].push_back(t);
-    if (is_simple()) {
-      for (const auto& [shade, triangles] : by_shade) draw_region(svg, triangles, shade_colour(style.colour, shade));
-      return;
-    }
-    for (const auto& [shade, triangles] : by_shade)
-      for (const std::uint32_t t : triangles) by_depth.emplace_back(depth_of(t), t);
+    // A hair of the same colour around each region closes the gaps that smoothing leaves between neighbours.
+    svg.open("g", {{"stroke-width", ".5"}, {"stroke-linejoin", "round"}, {"fill-rule", "evenodd"}});
+    for (const auto& [shade, triangles] : by_shade) draw_region(svg, triangles, shade_colour(style.colour, shade));
+    svg.close();
+    draw_storeys(svg, style.storey_height, ink);
+    draw_edges(svg, ink);
+  }
+
+  // What is hidden first, each face with its own lines, so that what is nearer hides those too.
+  void draw_by_depth(Markup& svg, const SolidStyle& style, const std::string& ink) const {
+    std::vector<std::pair<Order, std::uint32_t>> by_depth;
+    const bool is_upright = sheet_.view().toward.z > 0 && std::all_of(normals_.begin(), normals_.end(), [](const Vector3& n) {
+                              return std::abs(n.z) < kUpright || std::abs(n.z) > 1 - kUpright;
+                            });
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (faces_eye(t)) by_depth.emplace_back(is_upright ? order_of(t) : Order{0, 0, depth_of(t)}, t);
     std::sort(by_depth.begin(), by_depth.end());
-    for (const auto& [depth, t] : by_depth)
+    std::map<std::uint32_t, Edges> edges;
+    for (const geometry::MeshEdge& edge : geometry::mesh_edges(mesh_))
+      if (const Line line = line_at(edge); line != Line::none)
+        for (const std::uint32_t t : {edge.first, edge.second})
+          if (faces_eye(t)) edges[t].emplace_back(edge.a, edge.b);
+    const std::vector<double> heights = storeys_of(style.storey_height);
+    svg.open("g", {{"stroke-width", ".5"}, {"stroke-linejoin", "round"}, {"fill-rule", "evenodd"}});
+    for (const auto& [order, t] : by_depth) {
       draw_region(svg, {t}, shade_colour(style.colour, shade_of(normals_[t], style.to_sun)));
+      svg.path(storeys_on(t, heights), {{"fill", "none"}, {"stroke", ink}, {"stroke-opacity", ".5"}});
+      if (const auto own = edges.find(t); own != edges.end())
+        svg.path(lines_of(own->second), {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".8"}});
+    }
+    svg.close();
   }
 
   void draw_storeys(Markup& svg, double storey_height, const std::string& ink) const {
-    if (!(storey_height > 0) || mesh_.vertices.empty()) return;
-    double low = mesh_.vertices.front().z, high = low;
-    for (const Point3& vertex : mesh_.vertices) {
-      low = std::min(low, vertex.z);
-      high = std::max(high, vertex.z);
-    }
-    // Lines closer than this run into each other.
-    if (storey_height * sheet_.scale() < 2.5) return;
     PathText path;
-    for (double z = low + storey_height; z < high - 0.1 * storey_height; z += storey_height)
+    for (const double z : storeys_of(storey_height))
       for (const geometry::Polyline& line : geometry::section(mesh_, z, [&](std::size_t t) { return faces_eye(t); }))
         path.polyline(on_sheet(sheet_, line), line.is_closed);
     svg.path(path, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".5"}, {"stroke-opacity", ".5"}});
   }
 
   void draw_edges(Markup& svg, const std::string& ink) const {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> creases, silhouette;
-    for (const geometry::MeshEdge& edge : geometry::mesh_edges(mesh_)) {
-      const bool first = faces_eye(edge.first), second = faces_eye(edge.second);
-      if (first != second || (edge.first == edge.second && first)) silhouette.emplace_back(edge.a, edge.b);
-      else if (first && dot(normals_[edge.first], normals_[edge.second]) < kCreaseCosine) creases.emplace_back(edge.a, edge.b);
-    }
+    Edges creases, silhouette;
+    for (const geometry::MeshEdge& edge : geometry::mesh_edges(mesh_))
+      if (const Line line = line_at(edge); line != Line::none)
+        (line == Line::crease ? creases : silhouette).emplace_back(edge.a, edge.b);
     svg.path(lines_of(creases), {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".6"}, {"stroke-opacity", ".8"}});
     svg.path(lines_of(silhouette), {{"fill", "none"}, {"stroke", ink}, {"stroke-width", "1"}});
   }
 
+  // Faces of a convex body never hide each other, and together cover its convex outline exactly.
+  bool is_simple() const {
+    double covered = 0, outlined = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (faces_eye(t)) covered += std::abs(twice_area(pixels_[a], pixels_[b], pixels_[c]));
+    }
+    const std::vector<Pixel> hull = convex_outline(sheet_, mesh_);
+    for (std::size_t i = 2; i < hull.size(); ++i) outlined += std::abs(twice_area(hull[0], hull[i - 1], hull[i]));
+    return std::abs(covered - outlined) <= 0.01 * outlined;
+  }
+
  private:
-  PathText lines_of(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& edges) const {
+  using Edges = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+  enum class Line { none, crease, silhouette };
+  using Order = std::tuple<double, int, double>;
+
+  Line line_at(const geometry::MeshEdge& edge) const {
+    const bool first = faces_eye(edge.first), second = faces_eye(edge.second);
+    if (first != second || (edge.first == edge.second && first)) return Line::silhouette;
+    return first && dot(normals_[edge.first], normals_[edge.second]) < kCreaseCosine ? Line::crease : Line::none;
+  }
+
+  // Heights of floors; none where their lines would run into each other.
+  std::vector<double> storeys_of(double storey_height) const {
+    std::vector<double> heights;
+    if (!(storey_height > 0) || mesh_.vertices.empty() || storey_height * sheet_.scale() < 2.5) return heights;
+    const auto [low, high] = std::minmax_element(mesh_.vertices.begin(), mesh_.vertices.end(),
+                                                 [](const Point3& a, const Point3& b) { return a.z < b.z; });
+    for (double z = low->z + storey_height; z < high->z - 0.1 * storey_height; z += storey_height) heights.push_back(z);
+    return heights;
+  }
+
+  PathText storeys_on(std::uint32_t t, const std::vector<double>& heights) const {
+    PathText path;
+    for (const double z : heights) {
+      std::vector<Pixel> ends;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point3 &a = mesh_.vertices[mesh_.triangles[t][k]], &b = mesh_.vertices[mesh_.triangles[t][(k + 1) % 3]];
+        if ((a.z > z) != (b.z > z)) ends.push_back(sheet_.at(a + ((z - a.z) / (b.z - a.z)) * (b - a)));
+      }
+      path.polyline(ends, false);
+    }
+    return path;
+  }
+
+  PathText lines_of(const Edges& edges) const {
     PathText path;
     for (const geometry::Chain& chain : geometry::chain_edges(edges)) {
       geometry::Polyline line{{}, chain.is_closed};
@@ -108,16 +167,12 @@ class Solid {
     svg.path(lines_of(border), {{"fill", colour}, {"stroke", colour}});
   }
 
-  // Faces of a convex body never hide each other, and together cover its convex outline exactly.
-  bool is_simple() const {
-    double covered = 0, outlined = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      if (faces_eye(t)) covered += std::abs(twice_area(pixels_[a], pixels_[b], pixels_[c]));
-    }
-    const std::vector<Pixel> hull = convex_outline(sheet_, mesh_);
-    for (std::size_t i = 2; i < hull.size(); ++i) outlined += std::abs(twice_area(hull[0], hull[i - 1], hull[i]));
-    return std::abs(covered - outlined) <= 0.01 * outlined;
+  // Of prisms upon prisms, seen from above: nothing hides what stands higher, and no wall a roof of its own height. So walls come
+  // before the roof that they carry, and that before the walls upon it; walls among themselves go by depth.
+  Order order_of(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const double lowest = std::min({mesh_.vertices[a].z, mesh_.vertices[b].z, mesh_.vertices[c].z});
+    return {std::round(lowest * 1e6), normals_[t].z > 0.5 ? 0 : 1, depth_of(t)};
   }
 
   double depth_of(std::uint32_t t) const {
@@ -168,12 +223,8 @@ std::vector<Pixel> simplified(const std::vector<Pixel>& line, bool is_closed) {
 void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style) {
   const Solid solid(sheet, mesh);
   const std::string ink = hex(mix(style.colour, kInk, 0.62));
-  // A hair of the same colour around each region closes the gaps that smoothing leaves between neighbours.
-  svg.open("g", {{"stroke-width", ".5"}, {"stroke-linejoin", "round"}, {"fill-rule", "evenodd"}});
-  solid.draw_faces(svg, style);
-  svg.close();
-  solid.draw_storeys(svg, style.storey_height, ink);
-  solid.draw_edges(svg, ink);
+  if (solid.is_simple()) solid.draw_simple(svg, style, ink);
+  else solid.draw_by_depth(svg, style, ink);
 }
 
 // Andrew's monotone chain (1979).

@@ -29,6 +29,9 @@ struct FormatDefinition : TypeDefinition {
   std::string ending;  ///< of its files, with the point: ".dxf"
   /// What its files begin with, one or the other: an existing file is replaced only where it does, too.
   std::vector<std::string> beginnings;
+  /// The file of the built page that its files are made of, such as "proposal.html"; empty: none. Who calls it puts its content
+  /// into the proposal.
+  std::string shell;
   bool may_fill_folder = false;  ///< it makes several files where it is given a folder, and one where it is given a file
   /// From a proposal and the values of all options, in order. `is_folder`: several files are wanted.
   std::function<Result<ExportFiles>(const Proposal&, std::span<const Value> options, bool is_folder)> write;
@@ -48,6 +51,11 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
   }
   FormatBuilder& begins(std::string text) {
     definition_->beginnings.push_back(std::move(text));
+    return *this;
+  }
+  /// `write` finds the content of that file as `Proposal::shell`.
+  FormatBuilder& shell(std::string file) {
+    definition_->shell = std::move(file);
     return *this;
   }
   /// Options may come from a struct that several formats share.

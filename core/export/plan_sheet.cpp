@@ -1,48 +1,48 @@
-// Lays out one level: the plan in a window, and under it title, legend, scale bar and north.
+// Lays out one level: the plan in a window, in the frame that all sheets share.
 #include "core/export/plan_sheet.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <tuple>
 
-#include "core/base/mathematics.h"
 #include "core/base/text.h"
-#include "core/export/identity.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
+#include "core/export/section.h"
+#include "core/export/sheet_frame.h"
 
 namespace bl::exporting {
 
 namespace {
 
-constexpr double kMargin = 10, kTitleHeight = 34, kGap = 6;  // [mm]
-constexpr std::array<double, 13> kScales = {50, 100, 200, 250, 500, 1000, 2000, 2500, 5000, 10000, 20000, 50000, 100000};
-constexpr drawing::Colour kGrey = {0.45, 0.46, 0.48}, kPale = {0.90, 0.90, 0.88};
-
-std::pair<double, double> size_of(Paper paper) {
-  constexpr std::array<std::pair<double, double>, 5> kSizes = {{{297, 210}, {420, 297}, {594, 420}, {841, 594}, {1189, 841}}};
-  return kSizes[static_cast<std::size_t>(paper)];
-}
-
-class SheetMaker {
+class PlanMaker : SheetFrame {
  public:
-  SheetMaker(const Proposal& proposal, int level, const SheetOptions& options) : proposal_(proposal), options_(options) {
-    std::tie(sheet_.width, sheet_.height) = size_of(options.paper);
+  PlanMaker(const Proposal& proposal, int level, const SheetOptions& options) : SheetFrame(proposal, options) {
     sheet_.level = level;
     sheet_.title = proposal.name() + ", level " + std::to_string(level);
-    sheet_.window_low = {kMargin, kMargin};
-    sheet_.window_high = {sheet_.width - kMargin, sheet_.height - kMargin - kTitleHeight};
   }
 
   Result<PlanSheet> make() {
-    if (auto fit = choose_scale(); !fit) return fit.error();
+    const PlanExtent extent = plan_extent(proposal_);
+    if (auto fit = choose_scale(extent.high.x - extent.low.x, extent.high.y - extent.low.y, options_.scale, "plan"); !fit)
+      return fit.error();
+    const double metres = sheet_.scale / 1000;
+    const Point3 middle = 0.5 * (extent.low + extent.high);
+    sheet_.origin = {middle.x - metres * window_width() / 2, middle.y + metres * window_height() / 2, 0};
     add_surroundings();
     add_lands();
     add_storeys();
     add_dimensions();
-    add_title();
+    if (options_.section != "none") {
+      const auto line = section_line(proposal_, options_.section == "auto" ? "" : options_.section);
+      if (!line) return line.error();
+      add_section_line(*line);
+    }
+    double area = 0;
+    for (const Building& b : proposal_.buildings)
+      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
+    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels) + ", from " +
+                  fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
+              "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
     add_legend();
     add_scale_bar();
     add_north();
@@ -50,27 +50,6 @@ class SheetMaker {
   }
 
  private:
-  double window_width() const { return sheet_.window_high.x - sheet_.window_low.x; }
-  double window_height() const { return sheet_.window_high.y - sheet_.window_low.y; }
-  double millimetres() const { return 1000 / sheet_.scale; }  // per metre
-
-  Result<void> choose_scale() {
-    const PlanExtent extent = plan_extent(proposal_);
-    const double needed = std::max(1000 * (extent.high.x - extent.low.x) / (window_width() - 4 * kGap),
-                                   1000 * (extent.high.y - extent.low.y) / (window_height() - 4 * kGap));
-    const auto fit = std::find_if(kScales.begin(), kScales.end(), [&](double scale) { return scale >= needed; });
-    const double best = fit == kScales.end() ? std::ceil(needed / 1e5) * 1e5 : *fit;
-    if (options_.scale > 0 && options_.scale < needed)
-      return Error{ErrorCode::out_of_range, "",
-                   "the plan does not fit on the paper at 1:" + shortest(options_.scale) + "; 1:" + shortest(best) +
-                       " does, or a larger paper"};
-    sheet_.scale = options_.scale > 0 ? options_.scale : best;
-    const double metres = sheet_.scale / 1000;
-    const Point3 middle = 0.5 * (extent.low + extent.high);
-    sheet_.origin = {middle.x - metres * window_width() / 2, middle.y + metres * window_height() / 2, 0};
-    return {};
-  }
-
   SheetPoint at(const Point3& p) const {
     return {sheet_.window_low.x + millimetres() * (p.x - sheet_.origin.x),
             sheet_.window_low.y + millimetres() * (sheet_.origin.y - p.y)};
@@ -135,8 +114,7 @@ class SheetMaker {
     const double cut = proposal_.ground + (sheet_.level + 0.5) * proposal_.level_height;
     SheetGroup passed{"passing", "Storeys of other levels", true, {}, {}}, labels{"labels", "Labels", true, {}, {}};
     std::vector<SheetGroup> uses;
-    for (const UseRow& use : proposal_.uses)
-      uses.push_back({"use_" + to_identifier(use.use), use.use.empty() ? "no use" : use.use, true, {}, {}});
+    for (const UseRow& use : proposal_.uses) uses.push_back({"use_" + to_identifier(use.use), use_name(use.use), true, {}, {}});
     uses.push_back({"use_other", "other", true, {}, {}});
     for (const Building& b : proposal_.buildings) {
       const auto own = std::find_if(b.storeys.begin(), b.storeys.end(), [&](const Storey& s) { return s.level == sheet_.level; });
@@ -150,13 +128,11 @@ class SheetMaker {
         }
         continue;
       }
-      std::size_t place = 0;
-      while (place < proposal_.uses.size() && proposal_.uses[place].use != b.use) ++place;
       SheetShape shape = shape_of(own->faces, b.label);
       shape.is_filled = true;
       shape.fill = b.colour;
       shape.width = 0.35;
-      uses[place].shapes.push_back(std::move(shape));
+      uses[proposal_.use_number(b.use)].shapes.push_back(std::move(shape));
       if (options_.labels) add_label(b, *own, labels);
     }
     sheet_.groups.push_back(std::move(passed));
@@ -184,17 +160,6 @@ class SheetMaker {
     }
   }
 
-  void dimension(SheetGroup& group, SheetPoint a, SheetPoint b, double length, bool is_upright) const {
-    SheetShape line;
-    line.is_closed = false;
-    line.width = 0.13;
-    const double dx = is_upright ? 1.2 : 0, dy = is_upright ? 0 : 1.2;
-    line.lines = {{a, b}, {{a.x - dx, a.y - dy}, {a.x + dx, a.y + dy}}, {{b.x - dx, b.y - dy}, {b.x + dx, b.y + dy}}};
-    group.shapes.push_back(std::move(line));
-    const SheetPoint middle = {(a.x + b.x) / 2 + (is_upright ? 1.5 : 0), (a.y + b.y) / 2 - (is_upright ? 0 : 1)};
-    group.texts.push_back({middle, 2.2, is_upright ? SheetAnchor::start : SheetAnchor::middle, false, fixed(length, 2)});
-  }
-
   void add_dimensions() {
     const PlanExtent extent = plan_extent(proposal_);
     SheetGroup group{"dimensions", "Dimensions in metres", true, {}, {}};
@@ -204,122 +169,29 @@ class SheetMaker {
     sheet_.groups.push_back(std::move(group));
   }
 
-  static std::vector<SheetPoint> rectangle(SheetPoint low, SheetPoint high) {
-    return {low, {high.x, low.y}, high, {low.x, high.y}};
-  }
-
-  void add_title() {
-    SheetGroup group{"title", "Title", false, {}, {}};
-    SheetShape frame;
-    frame.width = 0.35;
-    frame.lines = {rectangle({kMargin, kMargin}, {sheet_.width - kMargin, sheet_.height - kMargin}),
-                   rectangle({kMargin, sheet_.window_high.y}, {sheet_.width - kMargin, sheet_.height - kMargin})};
-    group.shapes.push_back(std::move(frame));
-    const double x = kMargin + 3, y = sheet_.window_high.y;
-    const double bottom = proposal_.ground + sheet_.level * proposal_.level_height;
-    group.texts.push_back({{x, y + 7}, 5, SheetAnchor::start, true, proposal_.name()});
-    group.texts.push_back({{x, y + 13},
-                           3.5,
-                           SheetAnchor::start,
-                           false,
-                           "Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels) + ", from " +
-                               fixed(bottom, 2) + " m · 1:" + shortest(sheet_.scale) + " · lengths in metres"});
-    group.texts.push_back({{x, y + 19},
-                           2.5,
-                           SheetAnchor::start,
-                           false,
-                           proposal_.file + " · tick " + std::to_string(proposal_.tick) +
-                               (proposal_.is_settled ? ", settled" : ", not settled") + " · hash " + proposal_.hash});
-    const std::string place = place_text(proposal_);
-    group.texts.push_back(
-        {{x, y + 24}, 2.5, SheetAnchor::start, false, place.empty() ? "no place on Earth: metres of the scene" : place});
-    double area = 0;
-    for (const Building& b : proposal_.buildings)
-      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
-    group.texts.push_back(
-        {{x, y + 30},
-         2.5,
-         SheetAnchor::start,
-         false,
-         "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²"});
+  // Where the section is cut: the ends of the line with its letter, so that no label is struck out.
+  void add_section_line(const SectionLine& line) {
+    const Section section = section_of(proposal_, line, false);
+    const Vector3 way = (line.to - line.from) / distance(line.from, line.to);
+    const double reach = 0.8 * kGap / millimetres();
+    SheetGroup group{"section_line", "Where the section is cut", true, {}, {}};
+    SheetShape shape;
+    shape.is_closed = false;
+    shape.width = 0.5;
+    const Vector3 end = (8 / millimetres()) * way;
+    const Point3 low = line.from + (section.low.x - reach) * way, high = line.from + (section.high.x + reach) * way;
+    shape.lines = {{at(low), at(low + end)}, {at(high - end), at(high)}};
+    group.shapes.push_back(std::move(shape));
+    for (const SheetPoint& place : {at(low), at(high)})
+      group.texts.push_back({{place.x, place.y - 1}, 3, SheetAnchor::middle, true, "A"});
     sheet_.groups.push_back(std::move(group));
   }
-
-  void add_legend() {
-    SheetGroup group{"legend", "Uses", false, {}, {}};
-    const double left = kMargin + 0.42 * (sheet_.width - 2 * kMargin), width = 0.13 * (sheet_.width - 2 * kMargin);
-    constexpr std::size_t kRows = 6;
-    for (std::size_t k = 0; k < std::min<std::size_t>(proposal_.uses.size(), 2 * kRows); ++k) {
-      const double x = left + width * static_cast<double>(k / kRows),
-                   y = sheet_.window_high.y + 3 + 5 * static_cast<double>(k % kRows);
-      SheetShape patch;
-      patch.lines = {rectangle({x, y}, {x + 5, y + 3})};
-      patch.is_filled = true;
-      patch.fill = proposal_.uses[k].colour;
-      group.shapes.push_back(std::move(patch));
-      group.texts.push_back(
-          {{x + 6.5, y + 2.5}, 2.5, SheetAnchor::start, false, proposal_.uses[k].use.empty() ? "no use" : proposal_.uses[k].use});
-    }
-    sheet_.groups.push_back(std::move(group));
-  }
-
-  // Four parts of a round length, between 40 and 100 mm in all.
-  void add_scale_bar() {
-    double part = 1;
-    for (const double step : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0})
-      if (4 * step * millimetres() <= 80) part = step;
-    SheetGroup group{"scale_bar", "Scale bar", false, {}, {}};
-    const double x = kMargin + 0.70 * (sheet_.width - 2 * kMargin), y = sheet_.window_high.y + 14, step = part * millimetres();
-    for (int k = 0; k < 4; ++k) {
-      SheetShape box;
-      box.lines = {rectangle({x + k * step, y}, {x + (k + 1) * step, y + 2})};
-      box.is_filled = true;
-      box.fill = k % 2 == 0 ? drawing::kInk : drawing::kWhite;
-      group.shapes.push_back(std::move(box));
-    }
-    for (const int k : {0, 2, 4})
-      group.texts.push_back(
-          {{x + k * step, y + 5.5}, 2.5, SheetAnchor::middle, false, shortest(k * part) + (k == 4 ? " m" : "")});
-    sheet_.groups.push_back(std::move(group));
-  }
-
-  void add_north() {
-    SheetGroup group{"north", "North", false, {}, {}};
-    const double turn = proposal_.reference.true_north * std::numbers::pi / 180;
-    const double s = mathematics::sine(turn), c = mathematics::cosine(turn);
-    const SheetPoint middle = {sheet_.width - kMargin - 14, sheet_.window_high.y + 18};
-    // (right, up) of the arrow as a place on the sheet.
-    const auto put = [&](double right, double up) {
-      return SheetPoint{middle.x + c * right + s * up, middle.y + s * right - c * up};
-    };
-    SheetShape arrow;
-    arrow.lines = {{put(0, 10), put(3, -6), put(0, -3), put(-3, -6)}};
-    arrow.is_filled = true;
-    arrow.fill = drawing::kInk;
-    group.shapes.push_back(std::move(arrow));
-    const SheetPoint letter = put(0, 12);
-    group.texts.push_back({{letter.x, letter.y + 1}, 3, SheetAnchor::middle, true, "N"});
-    sheet_.groups.push_back(std::move(group));
-  }
-
-  static constexpr drawing::Colour kExistingFill = {0.83, 0.83, 0.81};
-  const Proposal& proposal_;
-  const SheetOptions& options_;
-  PlanSheet sheet_;
 };
 
 }  // namespace
 
-std::vector<Choice<Paper>> paper_choices() {
-  return {{Paper::a4, "a4", "297 by 210 mm."},
-          {Paper::a3, "a3", "420 by 297 mm."},
-          {Paper::a2, "a2", "594 by 420 mm."},
-          {Paper::a1, "a1", "841 by 594 mm."},
-          {Paper::a0, "a0", "1189 by 841 mm."}};
-}
-
 Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options) {
-  return SheetMaker(proposal, level, options).make();
+  return PlanMaker(proposal, level, options).make();
 }
 
 }  // namespace bl::exporting

@@ -59,9 +59,12 @@ struct SheetOptions {
   Paper paper = Paper::a3;
   double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
   bool surroundings = true, labels = true;
+  std::string section = "auto";  ///< a line as `section_line` reads it; `auto`: along the longest side; `none`: no section
 };
 
 /// Fails where the scale does not fit on the paper; the sentence names one that does.
 Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options);
+/// The cut along the line that the options name. Fails as above, and on what is no line.
+Result<PlanSheet> section_sheet(const Proposal& proposal, const SheetOptions& options);
 
 }  // namespace bl::exporting

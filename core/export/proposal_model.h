@@ -40,6 +40,7 @@ struct Building {
   std::vector<Storey> storeys;               ///< from the ground up; the sum of their floor areas is `floor_area`
   std::vector<geometry::PlateFace> outline;  ///< of its lowest storey where it stands, else as seen from above
   std::shared_ptr<const Mesh> mesh;          ///< closed; never empty
+  std::shared_ptr<const Mesh> light_mesh;    ///< the same with fewer triangles, for pages
   std::string why_shapeless;                 ///< of a volume without a shape: the reason
 };
 
@@ -68,6 +69,9 @@ struct Street {
   std::vector<Point3> line;
 };
 
+/// A use as it is written: those without a name have one here.
+inline std::string use_name(const std::string& use) { return use.empty() ? "no use" : use; }
+
 /// What was asked for a use, and what it got. The one without a name is all of them together.
 struct UseRow {
   std::string use, letter;
@@ -75,6 +79,27 @@ struct UseRow {
   std::size_t buildings = 0;
   double asked_area = 0, floor_area = 0;  ///< [m²]
   double asked_volume = 0, volume = 0;    ///< [m³]
+};
+
+/// A number that people have agreed to look at, with its goal.
+struct Indicator {
+  std::string id, name;
+  double value = 0, target = 0;  ///< in the unit of the indicator
+  std::string unit;              ///< its symbol; empty for a plain number
+  std::string direction;         ///< `at_least`, `at_most` or `near`
+  std::string status;            ///< `met`, `close` or `far`
+  double score = 0;              ///< 1 where the goal is met
+};
+
+/// A port on which proposals disagree, in words.
+struct Conflict {
+  std::string node, port, tension;
+  std::vector<std::string> pulls;  ///< who wants what, as sentences
+};
+
+/// Something that fails, or that cannot be met.
+struct Trouble {
+  std::string place, message;
 };
 
 struct Proposal {
@@ -89,12 +114,24 @@ struct Proposal {
   std::vector<Land> lands;
   std::vector<Neighbour> neighbours;
   std::vector<Street> streets;
+  std::vector<std::shared_ptr<const Mesh>> terrains;  ///< surfaces of the ground, open
+  std::vector<Indicator> indicators;                  ///< ascending id
+  std::vector<Conflict> conflicts;                    ///< the worst first
+  std::size_t minor_conflicts = 0;                    ///< too small to be listed
+  std::vector<Trouble> troubles;
   std::vector<UseRow> uses;
   UseRow all;
   double ground = 0;        ///< of level 0 [m]
   double level_height = 3;  ///< of one level: the smallest storey height [m]
   int levels = 0;           ///< number of plans that show all storeys
+  std::string shell;        ///< the built page, where a format asks for it; empty: there is none
 
+  /// Where a use stands in `uses`; their number where it is none of them.
+  std::size_t use_number(const std::string& use) const {
+    std::size_t number = 0;
+    while (number < uses.size() && uses[number].use != use) ++number;
+    return number;
+  }
   /// "Urban quarter", or the file where the scene has no title.
   const std::string& name() const { return title.empty() ? file : title; }
 };

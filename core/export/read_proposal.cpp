@@ -7,12 +7,12 @@
 #include <map>
 
 #include "core/base/hash.h"
+#include "core/geometry/cell_mesh.h"
 #include "core/geometry/mesh_lines.h"
-#include "core/geometry/plates_table.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/surroundings.h"
-#include "core/reading/views/volume.h"
 
 namespace bl::exporting {
 
@@ -20,12 +20,6 @@ namespace {
 
 using geometry::PlateFace;
 using geometry::Ring;
-
-// The plates of a volume that stands; without stacks for one that does not.
-geometry::StandingBody standing_body(const State& state, const reading::VolumeRow& volume) {
-  const auto figures = reading::row_of<reading::FootprintFigures>(state, volume.node);
-  return figures ? geometry::read_body(figures->plates, volume.figures.position) : geometry::StandingBody{};
-}
 
 std::vector<Ring> rings_of(const std::vector<geometry::Polyline>& lines) {
   std::vector<Ring> rings;
@@ -65,10 +59,11 @@ void cut(const reading::VolumeRow& volume, Building& building) {
   // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
   for (Storey& made : building.storeys) made.floor_area = building.floor_area * area_of(made.faces) / drawn;
   building.mesh = std::make_shared<const Mesh>(*volume.mesh);
+  building.light_mesh = std::make_shared<const Mesh>(*geometry::mesh_of_depth(volume.mesh, geometry::kStudyDepth + 1));
   building.outline = seen_from_above(volume);
 }
 
-void add_building(const State& state, const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
+void add_building(const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
   Building building;
   building.id = volume.id;
   building.label = volume.name;
@@ -83,7 +78,7 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   building.storey_height = std::max(0.1, volume.figures.storey_height);
   building.bottom = volume.figures.bottom;
   building.top = volume.figures.bottom + volume.figures.height;
-  if (const geometry::StandingBody body = standing_body(state, volume); !body.stacks.empty()) stand(body, building);
+  if (!volume.body.stacks.empty()) stand(volume.body, building);
   else if (volume.mesh) cut(volume, building);
   if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
     return all.buildings.push_back(std::move(building));
@@ -161,6 +156,15 @@ void add_neighbours(const State& state, Proposal& all) {
   }
 }
 
+void add_story(const State& state, const reading::ReportModel& model, Proposal& all) {
+  for (const auto& [node, figures] : reading::rows<reading::IndicatorFigures>(state))
+    all.indicators.push_back({state.plan->nodes[node].id, state.plan->nodes[node].name, figures.value, figures.target,
+                              figures.unit, figures.direction, figures.status, figures.score});
+  for (const reading::ConflictRow& row : model.conflicts) all.conflicts.push_back({row.node, row.port, row.tension, row.pulls});
+  all.minor_conflicts = model.minor_conflicts;
+  for (const reading::ProblemRow& row : model.problems) all.troubles.push_back({row.place, row.message});
+}
+
 UseRow row_of(const reading::Account& account) {
   UseRow row;
   row.asked_area = account.asked_area;
@@ -198,6 +202,7 @@ void stand(const geometry::StandingBody& body, Building& building) {
   }
   if (!body.stacks.empty()) building.storey_height = body.stacks.front().storey_height;
   building.mesh = std::make_shared<const Mesh>(geometry::mesh_of(body, kChordTolerance));
+  building.light_mesh = std::make_shared<const Mesh>(geometry::mesh_of(body, kLightTolerance));
   if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
 }
 
@@ -257,7 +262,7 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
   const Settings& settings = state.plan->settings;
   all.reference = {settings.coordinate_system, settings.origin_x,  settings.origin_y,
                    settings.latitude,          settings.longitude, settings.true_north};
-  for (const reading::VolumeRow& volume : model.volumes) add_building(state, volume, palette, all);
+  for (const reading::VolumeRow& volume : model.volumes) add_building(volume, palette, all);
   if (all.buildings.empty())
     return Error{ErrorCode::missing, "",
                  model.volumes.empty() ? "the scene has no volumes, so that there is no proposal to hand on"
@@ -267,6 +272,9 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
   add_lands(state, model, all);
   add_neighbours(state, all);
   for (const reading::StreetLine& street : model.surroundings.streets) all.streets.push_back({street.name, street.line});
+  for (const MeshPointer& ground : model.surroundings.grounds)
+    if (ground && !ground->triangles.empty()) all.terrains.push_back(std::make_shared<const Mesh>(*ground));
+  add_story(state, model, all);
   add_uses(model, palette, all);
   return all;
 }

@@ -11,6 +11,8 @@ namespace bl::exporting {
 
 /// Arcs of plates lie within this of their chords [m].
 inline constexpr double kChordTolerance = 0.002;
+/// The same of meshes for pages [m].
+inline constexpr double kLightTolerance = 0.05;
 
 /// `file`: the name of the scene's file. Sums over sets are read as they are in the state (see core/graph/sums_of_now.h). Fails
 /// where nothing has been computed yet, or no volume has a shape: then there is nothing to hand on.

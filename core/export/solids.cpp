@@ -8,15 +8,22 @@
 
 namespace bl::exporting {
 
-std::string material_of(const std::string& use) { return use.empty() ? "no use" : use; }
-
 std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings) {
   std::vector<Solid> solids;
-  for (const Building& b : proposal.buildings) solids.push_back({b.label, material_of(b.use), b.colour, b.mesh, &b});
+  for (const Building& b : proposal.buildings) solids.push_back({b.label, use_name(b.use), b.colour, b.mesh, &b});
   if (with_surroundings)
     for (const Neighbour& n : proposal.neighbours)
       if (n.mesh) solids.push_back({n.name, "existing", kExistingColour, n.mesh, nullptr});
   return solids;
+}
+
+std::vector<Solid> terrains_of(const Proposal& proposal) {
+  std::vector<Solid> surfaces;
+  for (const auto& mesh : proposal.terrains) {
+    const std::string number = proposal.terrains.size() > 1 ? " " + std::to_string(surfaces.size() + 1) : "";
+    surfaces.push_back({"terrain" + number, "terrain", kTerrainColour, mesh, nullptr});
+  }
+  return surfaces;
 }
 
 ModelScale::ModelScale(const std::vector<Solid>& solids, double denominator) : factor_(1000 / denominator) {

@@ -20,8 +20,11 @@ struct Solid {
 
 /// The colour of what stands already.
 inline constexpr drawing::Colour kExistingColour = {0.80, 0.80, 0.78};
-/// The material of a use; never empty.
-std::string material_of(const std::string& use);
+
+/// The colour of the ground.
+inline constexpr drawing::Colour kTerrainColour = {0.72, 0.70, 0.62};
+/// The ground as surfaces, which are open: for programs that show, not for those that print.
+std::vector<Solid> terrains_of(const Proposal& proposal);
 
 /// One for each building, then one for each building of the surroundings that has a mesh, where these are wanted.
 std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings);

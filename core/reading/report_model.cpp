@@ -6,7 +6,9 @@
 #include <set>
 
 #include "core/base/hash.h"
+#include "core/geometry/plates_table.h"
 #include "core/reading/views/solver.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::reading {
 
@@ -30,6 +32,8 @@ VolumeRow read_volume(const State& state, const VolumeAccount& account, bool wit
   row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
   if (row.mesh) row.exact = exact_shape(state, account.node, account.figures);
+  if (const auto footprint = row_of<FootprintFigures>(state, account.node))
+    row.body = geometry::read_body(footprint->plates, account.figures.position);
   row.group = group_of(*state.plan, account.node);
   return row;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/mesh_lines.h"
+#include "core/geometry/plates.h"
 #include "core/graph/state.h"
 #include "core/reading/account.h"
 #include "core/reading/exact_shape.h"
@@ -17,9 +18,10 @@ namespace bl::reading {
 struct VolumeRow : VolumeAccount {
   std::size_t number = 0;  ///< from 1, as in the table and the pictures
   std::string id, name;
-  MeshPointer mesh;       ///< none where there is no shape
-  ExactShape exact;       ///< radius 0 where only the mesh is known
-  std::size_t group = 0;  ///< volumes of one solver stand together
+  MeshPointer mesh;             ///< none where there is no shape
+  ExactShape exact;             ///< radius 0 where only the mesh is known
+  geometry::StandingBody body;  ///< its plates where it stands, else without stacks
+  std::size_t group = 0;        ///< volumes of one solver stand together
 
   /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
   double error() const { return limited > 0 ? (volume - limited) / limited : 0; }

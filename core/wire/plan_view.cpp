@@ -48,9 +48,23 @@ class Paths {
 
 Json figure(const char* label, double number, const char* unit) { return {label, std::round(number), unit}; }
 
+// Finer than what is rounded away.
+constexpr double kPlanTolerance = 0.05;  // [m] that an arc may lie off its chords
+
+// What stands shows its footprint with its courtyards, everything else the outline of its mesh, which is convex.
+std::string outline_of(const reading::VolumeRow& volume, Paths& paths) {
+  if (volume.body.stacks.empty()) return paths.path(geometry::hull_of_plan(volume.mesh->vertices), true);
+  std::string d;
+  for (const geometry::PlateFace& face : geometry::faces_of(volume.body.stacks.front(), volume.body.centre, kPlanTolerance)) {
+    d += paths.path(face.outer, true);
+    for (const geometry::Ring& courtyard : face.holes) d += paths.path(courtyard, true);
+  }
+  return d;
+}
+
 Json volume_of(const State& state, const reading::VolumeRow& volume, Paths& paths, const drawing::Palette& palette) {
   Json node = {{"kind", "volume"}, {"name", volume.name.empty() ? volume.id : volume.name}, {"use", volume.figures.use}};
-  node["d"] = paths.path(geometry::hull_of_plan(volume.mesh->vertices), true);
+  node["d"] = outline_of(volume, paths);
   node["fill"] = drawing::hex(palette.colour(volume.use));
   node["met"] = volume.limited > 0 ? Json(!volume.is_short(state.plan->settings.tolerance)) : Json();
   node["figures"] = {figure("volume", volume.volume, "m³"), figure("demand", volume.asked, "m³"),

@@ -16,6 +16,8 @@ import xml.etree.ElementTree as xml
 
 PROGRAM, SOURCE = sys.argv[1], sys.argv[2]
 SCENE = os.path.join(SOURCE, "scenes/start/quarter.json")
+# What pages of proposals are made of, where somebody has built it.
+SHELL = os.path.join(SOURCE, "build/web/proposal.html")
 
 
 def needs(command):
@@ -30,8 +32,9 @@ def needs_module(name):
         return unittest.skip("the Python module " + name + " is not installed")
 
 
-def run(*arguments):
-    return subprocess.run(arguments, capture_output=True, text=True, timeout=600)
+def run(*arguments, page=None):
+    surroundings = {**os.environ, "BEHAVIOURLINKS_PAGE": page} if page else None
+    return subprocess.run(arguments, capture_output=True, text=True, timeout=600, env=surroundings)
 
 
 def text_of(path):
@@ -51,6 +54,11 @@ class Export(unittest.TestCase):
         # A place on Earth, for the formats that need one.
         scene["settings"].update({"coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
                                   "latitude": 51.9949, "longitude": 4.3716})
+        scene["nodes"] += [
+            {"id": "goal", "name": "Cost", "types": {"indicator": {"value": 3.6e7, "unit": "EUR", "target": 3e7, "direction": "at_most"}}},
+            {"id": "ground", "name": "Ground", "position": [15, 20, -3],
+             "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEs..."}] * 5, "north": 40}}}]
+        scene["nodes"].sort(key=lambda node: node["id"])
         cls.scene = os.path.join(cls.folder, "placed.json")
         with open(cls.scene, "w", encoding="utf-8") as file:
             json.dump(scene, file)
@@ -58,7 +66,7 @@ class Export(unittest.TestCase):
         pairs = {"csv": "a.csv", "geojson": "a.geojson", "obj": "a.obj", "stl": "a.stl", "glb": "a.glb", "3mf": "a.3mf",
                  "dxf": "a.dxf", "svg": "plans/", "xlsx": "a.xlsx", "pdf": "a.pdf", "cityjson": "a.city.json", "ifc": "a.ifc"}
         help_text = run(PROGRAM, "export", "--help").stdout
-        arguments = [PROGRAM, "export", cls.scene, "--settle"]
+        arguments = [PROGRAM, "export", cls.scene, "--settle", "--option", "surroundings=yes"]
         for name, file in pairs.items():
             if re.search(r"^  " + name + r" ", help_text, re.M):
                 arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
@@ -129,7 +137,8 @@ class Export(unittest.TestCase):
 
     def test_obj_and_glb_hold_the_same_bodies(self):
         names = [line[2:].strip() for line in text_of(self.path("a.obj")).splitlines() if line.startswith("o ")]
-        self.assertEqual(len(names), len(self.buildings))
+        self.assertEqual(len(names), len(self.buildings) + 1)
+        self.assertEqual(names[-1], "terrain")
         with open(self.path("a.glb"), "rb") as file:
             data = file.read()
         magic, version, length, size, kind = struct.unpack("<4sIII4s", data[:20])
@@ -139,6 +148,7 @@ class Export(unittest.TestCase):
         self.assertEqual(len(binary), document["buffers"][0]["byteLength"])
         self.assertEqual(document["asset"]["extras"]["hash"], self.rows[0]["hash"])
         bodies = [node for node in document["nodes"] if "extras" in node]
+        self.assertEqual([node["name"] for node in document["nodes"] if "extras" not in node], ["terrain"])
         self.assertEqual(len(bodies), len(self.buildings))
         for node in bodies:
             primitive = document["meshes"][node["mesh"]]["primitives"][0]
@@ -305,7 +315,7 @@ class Export(unittest.TestCase):
     def test_svg_areas(self):
         space = "{http://www.w3.org/2000/svg}"
         found = 0.0
-        for name in sorted(os.listdir(self.plans)):
+        for name in sorted(name for name in os.listdir(self.plans) if name.startswith("level_")):
             root = xml.parse(os.path.join(self.plans, name)).getroot()
             self.assertEqual((root.get("width"), root.get("height"), root.get("viewBox")), ("420mm", "297mm", "0 0 420 297"))
             scale = float(re.search(r"scale 1:([\d.]+)", root.find(space + "desc").text).group(1))
@@ -336,7 +346,13 @@ class Export(unittest.TestCase):
         import openpyxl
         values = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
         formulas = openpyxl.load_workbook(self.path("a.xlsx"))
-        self.assertEqual(values.sheetnames, ["Programme", "Buildings", "Storeys", "Plots", "About"])
+        self.assertEqual(values.sheetnames, ["Programme", "Buildings", "Storeys", "Plots", "Indicators", "About"])
+        indicators = list(values["Indicators"].iter_rows(min_row=2, values_only=True))
+        wanted = [row for row in self.rows if row["row"] == "indicator"]
+        self.assertEqual([row[0] for row in indicators], [row["label"] for row in wanted])
+        for row, indicator in zip(indicators, wanted):
+            self.near(row[1], self.number(indicator, "value"), 1e-9)
+            self.near(row[5], self.number(indicator, "value") - self.number(indicator, "target"), 1e-9)
         rows = list(values["Buildings"].iter_rows(min_row=2, values_only=True))
         self.assertEqual(len(rows), len(self.buildings) + 1)
         for row, building in zip(rows, self.buildings):
@@ -377,6 +393,169 @@ class Export(unittest.TestCase):
         text = run("pdftotext", "-layout", self.path("a.pdf"), "-").stdout
         self.assertIn(self.rows[0]["hash"], text)
         self.assertRegex(run("pdfinfo", self.path("a.pdf")).stdout, r"Page size:\s+1190\.5\d* x 841\.8\d*")
+
+
+# A quarter that stands: whole storeys on footprints, with courtyards.
+class Standing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        pairs = {"csv": "a.csv", "dxf": "a.dxf", "svg": "plans/", "ifc": "a.ifc"}
+        if os.path.exists(SHELL):
+            pairs["html"] = "a.html"
+        arguments = [PROGRAM, "export", os.path.join(SOURCE, "scenes/start/standing.json"), "--settle"]
+        for name, file in pairs.items():
+            arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
+        done = run(*arguments, page=os.path.dirname(SHELL))
+        assert done.returncode == 0, done.stdout + done.stderr
+        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    def total(self, kind, column):
+        return math.fsum(float(row[column]) for row in self.rows if row["row"] == kind)
+
+    # Corners of a line with arcs, close to one another.
+    @staticmethod
+    def fine(line):
+        points, out = [(p[0], p[1], p[4]) for p in line.get_points()], []
+        for a, b in zip(points, points[1:] + points[:1]):
+            out.append(a[:2])
+            if a[2] == 0:
+                continue
+            angle = 4 * math.atan(a[2])
+            x, y = b[0] - a[0], b[1] - a[1]
+            far = 1 / math.tan(angle / 2) / 2
+            middle = ((a[0] + b[0]) / 2 - y * far, (a[1] + b[1]) / 2 + x * far)
+            for k in range(1, 200):
+                turn = angle * k / 200
+                u, v = a[0] - middle[0], a[1] - middle[1]
+                out.append((middle[0] + u * math.cos(turn) - v * math.sin(turn), middle[1] + u * math.sin(turn) + v * math.cos(turn)))
+        return out
+
+    # What a straight line through the plan crosses of all plates, measured in the plans, is as long as what the section shows.
+    @needs_module("ezdxf")
+    def test_section_cuts_what_the_plans_show(self):
+        import ezdxf
+        document = ezdxf.readfile(self.path("a.dxf"))
+        auditor = document.audit()
+        self.assertEqual((len(auditor.errors), len(auditor.fixes)), (0, 0))
+        space = document.modelspace()
+        line = space.query('LINE[layer=="SECTION-LINE"]')[0]
+        x, y = line.dxf.start[0], line.dxf.start[1]
+        along = (line.dxf.end[0] - x, line.dxf.end[1] - y)
+        length = math.hypot(*along)
+        along = (along[0] / length, along[1] / length)
+        crossed = 0.0
+        storeys = {}
+        for plate in space.query("LWPOLYLINE"):
+            if re.match(r"L\d+-", plate.dxf.layer):
+                storeys.setdefault((plate.dxf.layer, plate.dxf.elevation), []).append(self.fine(plate))
+        for rings in storeys.values():
+            found = []
+            for ring in rings:
+                for a, b in zip(ring, ring[1:] + ring[:1]):
+                    left = [along[0] * (p[1] - y) - along[1] * (p[0] - x) for p in (a, b)]
+                    if (left[0] > 0) != (left[1] > 0):
+                        part = left[0] / (left[0] - left[1])
+                        at = [a[k] + (b[k] - a[k]) * part for k in (0, 1)]
+                        found.append((at[0] - x) * along[0] + (at[1] - y) * along[1])
+            found.sort()
+            self.assertEqual(len(found) % 2, 0)
+            crossed += sum(b - a for a, b in zip(found[::2], found[1::2]))
+        shown = 0.0
+        for cut in space.query('LWPOLYLINE[layer=="SECTION-CUT"]'):
+            across = [p[0] for p in cut.get_points()]
+            shown += max(across) - min(across)
+        self.assertGreater(shown, 100)
+        self.assertLessEqual(abs(shown - crossed), 1e-3 * crossed)
+        slabs = len(space.query('LWPOLYLINE[layer=="SECTION-SLAB"]'))
+        self.assertEqual(slabs, 2 * len(space.query('LWPOLYLINE[layer=="SECTION-CUT"]')))
+        heights = {t.dxf.text for t in space.query('TEXT[layer=="SECTION-TEXT"]')}
+        self.assertIn("Section A", heights)
+        self.assertTrue(any(re.match(r"\+\d+\.\d\d$", text) for text in heights))
+
+    @needs("rsvg-convert")
+    def test_section_is_drawn(self):
+        picture = self.path("section.png")
+        self.assertEqual(run("rsvg-convert", "-o", picture, self.path("plans/section.svg")).returncode, 0)
+        self.assertGreater(os.path.getsize(picture), 10000)
+
+    # Each storey is walled all around: the walls are as long as the perimeters of the spaces.
+    def test_ifc_walls_go_round_the_storeys(self):
+        entities = dict(re.findall(r"^(#\d+)=(.*);$", text_of(self.path("a.ifc")), re.M))
+        sets = {}
+        for entity in entities.values():
+            found = re.match(r"IFCELEMENTQUANTITY\('[^']*',\$,'([^']*)',\$,\$,\(([^)]*)\)\)", entity)
+            if found:
+                for name in found.group(2).split(","):
+                    kind, value = re.match(r"IFCQUANTITY[A-Z]+\('([^']*)',\$,\$,([^,]*),", entities[name]).groups()
+                    sets.setdefault((found.group(1), kind), []).append(float(value))
+        walls = sets["Qto_WallBaseQuantities", "Length"]
+        self.assertEqual(len(walls), sum(entity.startswith("IFCWALL(") for entity in entities.values()))
+        around = math.fsum(sets["Qto_SpaceBaseQuantities", "GrossPerimeter"])
+        self.assertLessEqual(abs(math.fsum(walls) - around), 2e-3 * around)
+        kinds = {kind for entity in entities.values() for kind in re.findall(r"^IFCWALL\('[^']*',\$,'[^']*',\$,'([^']*)'", entity)}
+        self.assertGreaterEqual(len(kinds), 2)
+
+    @unittest.skipUnless(os.path.exists(SHELL), "the page is not built (ui/web/build.sh)")
+    def test_html_says_what_the_schedule_says(self):
+        text = text_of(self.path("a.html"))
+        self.assertLessEqual(len(text.encode()), 3000000)
+        self.assertNotRegex(text, r"(?:src|href)=\"?(?:https?:)?//")
+        page = json.loads(re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.S).group(1))
+        self.assertEqual(dict(page["identity"])["hash"], self.rows[0]["hash"])
+        self.assertLessEqual(abs(page["all"]["area"] - self.total("all", "floor_area [m2]")), 1e-6)
+        areas = math.fsum(storey["area"] for one in page["buildings"] for storey in one["storeys"])
+        self.assertLessEqual(abs(areas - self.total("storey", "floor_area [m2]")), 1e-6 * areas)
+        self.assertEqual(len(page["buildings"]), sum(row["row"] == "building" for row in self.rows))
+        # The plans are drawn to a centimetre: areas from their paths, in decimetres.
+        drawn = 0.0
+        for one in page["buildings"]:
+            for storey in one["storeys"]:
+                drawn += abs(sum(area(ring) for ring in self.rings(page["paths"][storey["path"]]))) / 100
+        self.assertLessEqual(abs(drawn - areas), 2e-3 * areas)
+
+    @staticmethod
+    def rings(path):
+        x = y = 0.0
+        rings, letter, numbers = [], "", []
+        for token in re.findall(r"[mlz]|-?(?:\d+\.?\d*|\.\d+)", path):
+            if token in "mlz":
+                letter = token
+                if letter == "z":
+                    x, y = rings[-1][0]
+                continue
+            numbers.append(float(token))
+            if len(numbers) == 2:
+                x, y = x + numbers[0], y + numbers[1]
+                numbers = []
+                if letter == "m":
+                    rings.append([])
+                    letter = "l"
+                rings[-1].append((x, y))
+        return rings
+
+    @unittest.skipUnless(os.path.exists(SHELL), "the page is not built (ui/web/build.sh)")
+    @unittest.skipUnless(os.path.isdir(os.path.join(SOURCE, "ui/web/node_modules/playwright-core")), "playwright-core is not installed")
+    @needs("node")
+    @needs("chromium")
+    def test_html_in_a_browser(self):
+        done = run("node", os.path.join(SOURCE, "ui/web/test/proposal.mjs"), self.path("a.html"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_html_needs_a_built_page(self):
+        done = run(PROGRAM, "export", os.path.join(SOURCE, "scenes/start/standing.json"), "--settle", "--max-ticks", "1", "--format", "html",
+                   "--out", self.path("none.html"), page=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the page is not built", done.stdout + done.stderr)
+        self.assertFalse(os.path.exists(self.path("none.html")))
 
 
 if __name__ == "__main__":

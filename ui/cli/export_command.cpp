@@ -1,5 +1,6 @@
 // `export`: writes the proposal of a scene in the formats that other programs read.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -139,11 +140,20 @@ Outcome state_of(const ExportOptions& options, const SceneReading& reading) {
   return {state, state->is_settled()};
 }
 
+// The built page that a format is made of; empty where there is none, which the format says in its own words.
+std::string shell_of(const exporting::FormatDefinition& format) {
+  const char* folder = std::getenv("BEHAVIOURLINKS_PAGE");
+  if (format.shell.empty() || folder == nullptr) return "";
+  const auto text = read_file((fs::path(folder) / format.shell).string());
+  return text ? *text : "";
+}
+
 // All contents are made before the first file is written: where a format refuses, nothing is.
-Result<std::vector<Product>> make_products(const std::vector<Order>& orders, const exporting::Proposal& proposal) {
+Result<std::vector<Product>> make_products(const std::vector<Order>& orders, exporting::Proposal& proposal) {
   std::vector<Product> products;
   std::map<std::string, std::string> taken;
   for (const Order& order : orders) {
+    proposal.shell = shell_of(*order.format);
     auto made = order.format->write(proposal, order.options, order.is_folder);
     if (!made) return made.error().within(order.format->id);
     for (const std::string& note : made->notes) print_line(order.format->id + ": " + note, Colour::yellow);
@@ -190,7 +200,7 @@ int export_command(const ExportOptions& options) {
   const Outcome outcome = state_of(options, *reading);
   if (!outcome.state) return kBadInput;
   const State seen = with_sums_of_now(*outcome.state);
-  const auto proposal = exporting::read_proposal(seen, fs::path(options.scene).filename().string());
+  auto proposal = exporting::read_proposal(seen, fs::path(options.scene).filename().string());
   if (!proposal) return fail(options.scene, proposal.error());
   for (const exporting::Building& volume : proposal->shapeless)
     print_line("in tables only: " + volume.label + ": " + volume.why_shapeless, Colour::yellow);

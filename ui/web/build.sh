@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the page into build/web: index.html, and the script and the words of each language under names that hold their hashes, each
-# with a .gz. The style sheet and the beginning of the script stand in index.html, which saves round trips on slow networks.
+# with a .gz; and proposal.html, which exports of proposals fill. The style sheet and the beginning of the script stand in index.html, which saves round trips on slow networks.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P)
 cd "$here"
@@ -32,6 +32,18 @@ while IFS= read -r line; do
   esac
 done <src/index.html >"$new/index.html"
 rm "$new/early.js" "$new/style.css"
+# The page of a proposal is one file, with its script and its looks in it; an export puts its data there.
+bundled src/proposal/page.tsx --format=iife --jsx=automatic --jsx-import-source=preact --outfile="$new/proposal.js"
+bundled src/proposal/style.css --outfile="$new/proposal.css"
+while IFS= read -r line; do
+  case $line in
+    PAGE_STYLE) printf '<style>' && cat "$new/proposal.css" && printf '</style>\n' ;;
+    PAGE_SCRIPT) printf '<script>' && cat "$new/proposal.js" && printf '</script>\n' ;;
+    *) printf '%s\n' "$line" ;;
+  esac
+done <src/proposal/index.html >"$new/proposal.html"
+rm "$new/proposal.js" "$new/proposal.css"
+printf '%7d bytes, of a proposal without its data\n' "$(wc -c <"$new/proposal.html")"
 total=0
 for file in index.html $(cd "$new" && ls assets/*); do
   gzip -9 -n -k "$new/$file"

@@ -16,7 +16,8 @@ struct CsvFormat {
   static void declare(FormatBuilder<CsvFormat>& f) {
     f.id("csv").label("Area schedule (CSV)");
     f.doc(
-        "One table by RFC 4180 with decimal points: a row for each storey, each building, each use, and one for all. The floor "
+        "One table by RFC 4180 with decimal points: a row for each storey, each building, each use, one for all, and one for "
+        "each indicator with its target. The floor "
         "areas of the storeys add up to that of their building, and buildings to uses. The last columns name the scene and its "
         "state.");
     f.ending(".csv").begins("row,building,");
@@ -24,6 +25,7 @@ struct CsvFormat {
   }
 
   using Row = std::vector<csv::CsvCell>;
+  static constexpr std::size_t kBuildingColumns = 16, kIndicatorColumns = 4;
 
   static Row row_of_use(const UseRow& use, const char* kind) {
     return {kind, "", "", use.use, "", "", "", "", use.floor_area, "", use.asked_area, use.volume, use.asked_volume, "", "", ""};
@@ -46,6 +48,10 @@ struct CsvFormat {
                                              "footprint [m2]",
                                              "x [m]",
                                              "y [m]",
+                                             "value",
+                                             "target",
+                                             "unit",
+                                             "status",
                                              "scene",
                                              "hash",
                                              "tick",
@@ -69,6 +75,13 @@ struct CsvFormat {
     for (const Building& b : proposal.shapeless) add_building(b, "no shape", "");
     for (const UseRow& use : proposal.uses) rows.push_back(row_of_use(use, "use"));
     rows.push_back(row_of_use(proposal.all, "all"));
+    for (const Indicator& one : proposal.indicators) {
+      Row row = {"indicator", "", one.name};
+      row.resize(kBuildingColumns, "");
+      for (csv::CsvCell& cell : Row{one.value, one.target, one.unit, one.status}) row.push_back(std::move(cell));
+      rows.push_back(std::move(row));
+    }
+    for (Row& row : rows) row.resize(kBuildingColumns + kIndicatorColumns, "");
     for (Row& row : rows)
       for (csv::CsvCell& cell : Row{proposal.name(), proposal.hash, proposal.tick, place_text(proposal)})
         row.push_back(std::move(cell));

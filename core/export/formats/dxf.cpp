@@ -11,6 +11,7 @@
 #include "core/export/identity.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
+#include "core/export/section.h"
 
 namespace bl::exporting {
 
@@ -23,6 +24,7 @@ struct DxfFormat {
     DxfArrangement storeys = DxfArrangement::stacked;
     bool surroundings = true;
     double text_height = 1;
+    std::string section = "auto";
   };
 
   static void declare(FormatBuilder<DxfFormat>& f) {
@@ -31,13 +33,16 @@ struct DxfFormat {
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
         "layer such as L02-HOUSING: level and use. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
-        "dimensions and the title have layers of their own.");
+        "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
+        "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
     f.option(&Options::storeys, "storeys",
              {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
               {DxfArrangement::beside, "beside", "Levels side by side, the lowest at its true place."}})
         .doc("How the storeys lie.");
     f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
+    f.option(&Options::section, "section")
+        .doc("Where the section is cut: X1,Y1,X2,Y2 in metres, `auto` along the longest side through the middle, or `none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
   }
 
@@ -106,7 +111,7 @@ struct DxfFormat {
 
     void storey(const Building& b, const Storey& s, int colour) {
       const std::string level = "L" + std::string(s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
-      const std::string layer = level + DxfDrawing::layer_name(b.use.empty() ? "no use" : b.use), words = level + "TEXT";
+      const std::string layer = level + DxfDrawing::layer_name(use_name(b.use)), words = level + "TEXT";
       drawing.layer(layer, colour);
       drawing.layer(words, 7);
       const Vector3 by = shift(s.level);
@@ -138,17 +143,54 @@ struct DxfFormat {
                    true);
     }
 
-    std::string write() {
+    // Above the plans, where the height is the way up; the line in the plan has the letter of the section at its ends.
+    Result<void> section() {
+      if (options.section == "none") return {};
+      const auto cut = section_line(proposal, options.section == "auto" ? "" : options.section);
+      if (!cut) return cut.error();
+      const Section made = section_of(proposal, *cut, options.surroundings);
+      const Vector3 way = (cut->to - cut->from) / distance(cut->from, cut->to);
+      for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{{"SECTION-LINE", 6},
+                                                                                           {"SECTION-CUT", 5},
+                                                                                           {"SECTION-SLAB", 7},
+                                                                                           {"SECTION-BEYOND", 8},
+                                                                                           {"SECTION-GROUND", 34},
+                                                                                           {"SECTION-EXISTING", 8},
+                                                                                           {"SECTION-TEXT", 7}})
+        drawing.layer(name, colour);
+      const Point3 start = cut->from + made.low.x * way, end = cut->from + made.high.x * way;
+      drawing.line("SECTION-LINE", start, end);
+      for (const Point3& place : {start, end}) drawing.text("SECTION-LINE", place, 2 * options.text_height, "A", true);
+      const Vector3 by{extent.low.x - made.low.x, extent.high.y + 12 * options.text_height - made.low.y, 0};
+      const auto rings = [&](const char* layer, const std::vector<geometry::Ring>& all) {
+        for (const geometry::Ring& one : all) ring(layer, one, 0, by);
+      };
+      for (const SectionPart& part : made.parts) {
+        rings(part.building ? "SECTION-BEYOND" : "SECTION-EXISTING", part.beyond);
+        rings(part.building ? "SECTION-CUT" : "SECTION-EXISTING", part.cut);
+        rings("SECTION-SLAB", part.slabs);
+      }
+      for (const auto& line : made.grounds)
+        for (std::size_t k = 0; k + 1 < line.size(); ++k) drawing.line("SECTION-GROUND", line[k] + by, line[k + 1] + by);
+      for (const double height : made.heights)
+        drawing.text("SECTION-TEXT", Point3{made.low.x - 8 * options.text_height, height, 0} + by, options.text_height,
+                     (height >= 0 ? "+" : "") + fixed(height, 2));
+      drawing.text("SECTION-TEXT", Point3{made.low.x, made.high.y + 2 * options.text_height, 0} + by, 2 * options.text_height,
+                   "Section A");
+      return {};
+    }
+
+    Result<std::string> write() {
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{
                {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
         drawing.layer(name, colour);
       for (const Land& land : proposal.lands) faces(land.is_boundary ? "BOUNDARY" : "PLOT", land.faces, land.ground, {});
       if (options.surroundings) surroundings();
       for (const Building& b : proposal.buildings) {
-        std::size_t use = 0;
-        while (use < proposal.uses.size() && proposal.uses[use].use != b.use) ++use;
+        const std::size_t use = proposal.use_number(b.use);
         for (const Storey& s : b.storeys) storey(b, s, colour_of(use));
       }
+      if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},
                    c = {extent.high.x, extent.high.y, 0};
       dimension(a, b, {0, -1, 0});
@@ -163,7 +205,9 @@ struct DxfFormat {
   };
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    return ExportFiles{{{"plans.dxf", DxfPlans{proposal, options}.write()}}, {}};
+    auto text = DxfPlans{proposal, options}.write();
+    if (!text) return text.error();
+    return ExportFiles{{{"plans.dxf", std::move(*text)}}, {}};
   }
 };
 

@@ -27,7 +27,7 @@ struct GlbFormat {
         "One file with all closed meshes, in metres, Y up: x east, y up, z south. Each building is a node with its name and its "
         "figures as extras; its use is its material. Coordinates are singles from the origin of the scene.");
     f.ending(".glb").begins("glTF");
-    f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, and terrain.");
   }
 
   // Colours of glTF are linear, those of screens are not.
@@ -112,6 +112,8 @@ struct GlbFormat {
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
     GlbBuilder made;
     for (const Solid& solid : solids_of(proposal, options.surroundings)) made.add(solid);
+    if (options.surroundings)
+      for (const Solid& surface : terrains_of(proposal)) made.add(surface);
     GlbJson extras;
     for (const auto& [name, value] : identity_of(proposal)) extras[name] = value;
     GlbJson order = GlbJson::array();

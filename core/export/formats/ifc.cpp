@@ -5,6 +5,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/mathematics.h"
+#include "core/export/facade_walls.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/read_proposal.h"
@@ -17,8 +18,8 @@ namespace {
 
 struct IfcFormat {
   struct Options {
-    bool slabs = true, surroundings = true;
-    double slab_thickness = 0.3;
+    bool slabs = true, walls = true, surroundings = true;
+    double slab_thickness = 0.3, wall_thickness = 0.3;
   };
 
   static void declare(FormatBuilder<IfcFormat>& f) {
@@ -28,12 +29,16 @@ struct IfcFormat {
         "the "
         "plate, extruded by the height of the storey, with floor area, volume, height and perimeter as base quantities. The use "
         "of "
-        "a space is a classification. A rounded volume is given as the plates that it is measured by. Identifiers follow from "
+        "a space is a classification. Each straight side and each arc of a standing "
+        "storey has a wall, with what it borders on; towards neighbours it is no external one. A rounded volume is given as the "
+        "plates that it is measured by, without walls. Identifiers follow from "
         "those of the scene, so that they are the same in every export.");
     f.ending(".ifc").begins(
         "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]','BehaviourLinks");
     f.option(&Options::slabs, "slabs").doc("With a slab under each space.");
     f.option(&Options::slab_thickness, "slab_thickness").unit(Unit::metre).range(0.01, 5).doc("Thickness of the slabs.");
+    f.option(&Options::walls, "walls").doc("With the walls of the façades of what stands, as simple bodies.");
+    f.option(&Options::wall_thickness, "wall_thickness").unit(Unit::metre).range(0.01, 5).doc("Thickness of the walls.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
   }
 
@@ -60,6 +65,7 @@ struct IfcFormat {
     StepFile file = {};
     std::string origin = {}, axis = {}, up = {}, body = {}, context = {}, site = {}, site_place = {};
     std::map<std::string, Names> spaces_of_use = {};
+    Names outer_walls = {}, party_walls = {};
     std::map<std::string, std::string> styles = {};
 
     std::string point(const Point3& p) { return file.add("IFCCARTESIANPOINT", {step_coordinates(p)}); }
@@ -182,7 +188,7 @@ struct IfcFormat {
       const std::string made = file.add(
           "IFCBUILDINGSTOREY", {guid("storey/" + id), "$", name, "$", "$", at, "$", "$", ".ELEMENT.", step_real(s.bottom)});
       const double height = s.top - s.bottom;
-      const std::string use = b.use.empty() ? "no use" : b.use;
+      const std::string use = use_name(b.use);
       const std::string space = file.add(
           "IFCSPACE", {guid("space/" + id), "$", name, "$", step_text(use), placement(at, 0),
                        shape(s.faces, 0, height, style_of(use, b.colour)), step_text(b.label), ".ELEMENT.", ".SPACE.", "$"});
@@ -193,14 +199,55 @@ struct IfcFormat {
                   quantity("IFCQUANTITYLENGTH", "GrossPerimeter", perimeter_of(s.faces))});
       spaces_of_use[use].push_back(space);
       aggregate("storey/" + id, made, {space});
+      Names contained = walls(b, s, id, at, height);
       if (options.slabs) {
         const std::string slab = file.add(
             "IFCSLAB", {guid("slab/" + id), "$", name, "$", "$", placement(at, 0),
                         shape(s.faces, -options.slab_thickness, options.slab_thickness, style_of("slab", {0.75, 0.75, 0.75})),
                         "$", s.number == 0 ? ".BASESLAB." : ".FLOOR."});
-        file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/" + id), "$", "$", "$", step_list({slab}), made});
+        contained.push_back(slab);
+      }
+      if (!contained.empty())
+        file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/" + id), "$", "$", "$", step_list(contained), made});
+      return made;
+    }
+
+    // Walls to the outside, and those towards neighbours.
+    Names walls(const Building& b, const Storey& s, const std::string& id, const std::string& at, double height) {
+      Names made;
+      if (!options.walls) return made;
+      for (const FacadeWall& wall : facade_walls(s, b.arc_centre, options.wall_thickness)) {
+        const bool is_party = wall.side == FacadeWall::Side::neighbour;
+        const char* kind = is_party                                   ? "Party wall"
+                           : wall.side == FacadeWall::Side::courtyard ? "Courtyard façade"
+                           : wall.side == FacadeWall::Side::plot      ? "Façade at the border of the plot"
+                                                                      : "Façade";
+        const std::string name = id + "/" + std::to_string(made.size());
+        const std::string style = is_party ? style_of("party wall", {0.62, 0.62, 0.62}) : style_of("façade", {0.93, 0.91, 0.87});
+        const std::string one = file.add(
+            "IFCWALL", {guid("wall/" + name), "$", step_text(b.label + ", wall " + std::to_string(made.size())), "$",
+                        step_text(kind), placement(at, 0), shape({{wall.outline, {}}}, 0, height, style), "$", ".SOLIDWALL."});
+        quantities("wall/" + name, one, "Qto_WallBaseQuantities",
+                   {quantity("IFCQUANTITYLENGTH", "Length", wall.length), quantity("IFCQUANTITYLENGTH", "Height", height),
+                    quantity("IFCQUANTITYLENGTH", "Width", options.wall_thickness),
+                    quantity("IFCQUANTITYAREA", "GrossSideArea", wall.length * height)});
+        (is_party ? party_walls : outer_walls).push_back(one);
+        made.push_back(one);
       }
       return made;
+    }
+
+    // Whether walls are external is said once for all of a kind.
+    void common() {
+      for (const auto& [walls, is_external] : {std::pair(&outer_walls, true), std::pair(&party_walls, false)}) {
+        if (walls->empty()) continue;
+        const std::string name = is_external ? "outer" : "party";
+        const std::string value =
+            file.add("IFCPROPERTYSINGLEVALUE", {"'IsExternal'", "$", is_external ? "IFCBOOLEAN(.T.)" : "IFCBOOLEAN(.F.)", "$"});
+        const std::string set =
+            file.add("IFCPROPERTYSET", {guid("walls/" + name), "$", "'Pset_WallCommon'", "$", step_list({value})});
+        file.add("IFCRELDEFINESBYPROPERTIES", {guid("define/walls/" + name), "$", "$", "$", step_list(*walls), set});
+      }
     }
 
     void buildings() {
@@ -250,6 +297,7 @@ struct IfcFormat {
     made.buildings();
     if (options.surroundings) made.surroundings();
     made.classification();
+    made.common();
     ExportFiles files;
     if (!proposal.reference.crs.starts_with("EPSG:"))
       files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion");

@@ -2,6 +2,7 @@
 #include "core/base/text.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/solids.h"
 #include "core/export/wavefront_obj.h"
 
 namespace bl::exporting {
@@ -20,7 +21,8 @@ struct ObjFormat {
         "use; "
         "a folder also gets the colours of the materials.");
     f.ending(".obj").begins("# BehaviourLinks:");
-    f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    f.option(&Options::surroundings, "surroundings")
+        .doc("With the buildings that stand already, and terrain, which is an open surface.");
   }
 
   static std::string library_of(const Proposal& proposal) {
@@ -28,17 +30,20 @@ struct ObjFormat {
     const auto add = [&](const std::string& name, const drawing::Colour& c) {
       text += "newmtl " + name_in_obj(name) + "\nKd " + fixed(c.red, 4) + " " + fixed(c.green, 4) + " " + fixed(c.blue, 4) + "\n";
     };
-    for (const UseRow& use : proposal.uses) add(use.use.empty() ? "no_use" : use.use, use.colour);
-    add("existing", {0.8, 0.8, 0.8});
+    for (const UseRow& use : proposal.uses) add(use_name(use.use), use.colour);
+    add("existing", kExistingColour);
+    add("terrain", kTerrainColour);
     return text;
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
     std::vector<NamedMesh> meshes;
-    for (const Building& b : proposal.buildings) meshes.push_back({b.label, b.mesh, b.use.empty() ? "no_use" : b.use});
+    for (const Building& b : proposal.buildings) meshes.push_back({b.label, b.mesh, use_name(b.use)});
     if (options.surroundings)
       for (const Neighbour& n : proposal.neighbours)
         if (n.mesh) meshes.push_back({n.name, n.mesh, "existing"});
+    if (options.surroundings)
+      for (const Solid& surface : terrains_of(proposal)) meshes.push_back({surface.name, surface.mesh, surface.material});
     ExportFiles made;
     made.files.push_back({"proposal.obj", write_obj(meshes, identity_line(proposal), is_folder ? "proposal.mtl" : "")});
     if (is_folder) made.files.push_back({"proposal.mtl", library_of(proposal)});

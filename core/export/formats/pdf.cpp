@@ -17,7 +17,8 @@ struct PdfFormat {
   static void declare(FormatBuilder<PdfFormat>& f) {
     f.id("pdf").label("Set of drawings (PDF)");
     f.doc(
-        "A page with the area schedule by use, then the plan of each level at one scale, as the format svg draws it. Letters are "
+        "A page with the area schedule by use, then the plan of each level at one scale, and a section, as the format svg draws "
+        "them. Letters are "
         "those of western Europe; others become question marks, which is told.");
     f.ending(".pdf").begins("%PDF");
     declare_sheet_options(f);
@@ -54,7 +55,7 @@ struct PdfFormat {
     // What has no place on this page is in the tables of xlsx and csv.
     const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - 14) / 6));
     for (std::size_t k = 0; k < std::min(room, proposal.uses.size()); ++k)
-      row(proposal.uses[k].use.empty() ? "no use" : proposal.uses[k].use, proposal.uses[k], false);
+      row(use_name(proposal.uses[k].use), proposal.uses[k], false);
     if (room < proposal.uses.size())
       cell(table, x, y, "and " + std::to_string(proposal.uses.size() - room) + " more uses", false), y += 6;
     row("all", proposal.all, true);
@@ -68,6 +69,11 @@ struct PdfFormat {
       auto sheet = plan_sheet(proposal, level, options);
       if (!sheet) return sheet.error();
       if (level == 0) sheets.push_back(schedule_of(proposal, *sheet));
+      sheets.push_back(std::move(*sheet));
+    }
+    if (options.section != "none") {
+      auto sheet = section_sheet(proposal, options);
+      if (!sheet) return sheet.error();
       sheets.push_back(std::move(*sheet));
     }
     auto book = pdf_pages(sheets, proposal.name(), identity_line(proposal));

@@ -20,11 +20,11 @@ struct SvgFormat {
     f.id("svg").label("Plans at scale (SVG)");
     f.doc(
         "Plans on paper in millimetres: title, legend, scale bar, north, dimensions; a group for each use. A folder gets one "
-        "file "
-        "for each level, a file gets one level. Levels are as high as the lowest storey of the proposal; a building is drawn "
+        "file for each level and one for the section, a file gets one of them. Levels are as high as the lowest storey of the "
+        "proposal; a building is drawn "
         "in full where one of its storeys belongs to the level, and pale where a higher storey passes through.");
     f.ending(".svg").begins("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- BehaviourLinks");
-    f.option(&Options::level, "level").range(0, 10000).doc("Which level a single file shows, from 0.");
+    f.option(&Options::level, "level").range(-1, 10000).doc("Which level a single file shows, from 0; -1: the section.");
     declare_sheet_options(f);
   }
 
@@ -95,12 +95,20 @@ struct SvgFormat {
           ErrorCode::out_of_range, "",
           "there is no level " + std::to_string(options.level) + "; the highest is " + std::to_string(proposal.levels - 1)};
     ExportFiles made;
+    const bool is_section = !is_folder && options.level < 0;
+    if (is_section && options.section == "none")
+      return Error{ErrorCode::out_of_range, "", "level=-1 asks for the section, and section=none for none"};
     const int first = is_folder ? 0 : static_cast<int>(options.level), end = is_folder ? proposal.levels : first + 1;
-    for (int level = first; level < end; ++level) {
+    for (int level = is_section ? 0 : first; level < end; ++level) {
       auto sheet = plan_sheet(proposal, level, options);
       if (!sheet) return sheet.error();
       made.files.push_back(
           {"level_" + std::string(level < 10 ? "0" : "") + std::to_string(level) + ".svg", svg_of(*sheet, proposal)});
+    }
+    if (is_section || (is_folder && options.section != "none")) {
+      auto sheet = section_sheet(proposal, options);
+      if (!sheet) return sheet.error();
+      made.files.push_back({"section.svg", svg_of(*sheet, proposal)});
     }
     return made;
   }

@@ -18,7 +18,8 @@ struct XlsxFormat {
   static void declare(FormatBuilder<XlsxFormat>& f) {
     f.id("xlsx").label("Area schedule (XLSX)");
     f.doc(
-        "A workbook: storeys, buildings, programme against result, plots with their indices, and what scene and state it is of. "
+        "A workbook: storeys, buildings, programme against result, plots with their indices, indicators with their targets, and "
+        "what scene and state it is of. "
         "Sums are formulas over the rows above, or over the sheets before, and bring their values along, so that programs which "
         "do not calculate read the same numbers.");
     f.ending(".xlsx").begins("PK\x03\x04");
@@ -156,6 +157,17 @@ struct XlsxFormat {
       return sheet;
     }
 
+    XlsxSheet indicators() const {
+      XlsxSheet sheet{"Indicators", {30, 14, 12, 14, 10, 14, 10, 10}, {}};
+      sheet.rows.push_back(header({"indicator", "value", "goal", "target", "unit", "difference", "status", "score"}));
+      for (const Indicator& one : proposal.indicators) {
+        const std::string row = std::to_string(sheet.rows.size() + 1);
+        sheet.rows.push_back({w(one.name), n(one.value), w(one.direction), n(one.target), w(one.unit),
+                              f("B" + row + "-D" + row, one.value - one.target), w(one.status), n(one.score)});
+      }
+      return sheet;
+    }
+
     XlsxSheet about() const {
       XlsxSheet sheet{"About", {24, 60}, {}};
       sheet.rows.push_back(header({"what", "value"}));
@@ -171,8 +183,9 @@ struct XlsxFormat {
     // Without their header and their sum: the row numbers of the last building and storey.
     const XlsxSheet storeys = tables.storeys();
     const XlsxSheet buildings = tables.buildings(storeys.rows.size() - 1);
-    auto book = xlsx_book({tables.programme(buildings.rows.size() - 1), buildings, storeys, tables.plots(), tables.about()},
-                          proposal.name(), identity_line(proposal));
+    auto book = xlsx_book(
+        {tables.programme(buildings.rows.size() - 1), buildings, storeys, tables.plots(), tables.indicators(), tables.about()},
+        proposal.name(), identity_line(proposal));
     if (!book) return book.error();
     return ExportFiles{{{"schedule.xlsx", std::move(*book)}}, {}};
   }

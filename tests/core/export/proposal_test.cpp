@@ -1,6 +1,8 @@
 // The proposal of a scene, and what all formats make of it.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -98,8 +100,14 @@ TEST(FacesOfRings, NeighboursAreNoHoles) {
   EXPECT_EQ(faces.size(), 2u);
 }
 
+// As the page's build leaves it, without its script.
+constexpr const char* kShell =
+    "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<title>PAGE_TITLE</title>\n"
+    "<script id=\"data\" type=\"application/json\">PAGE_DATA</script>\n";
+
 TEST(Formats, AllWriteTheSameBytesTwiceAndNameTheState) {
-  const Proposal proposal = proposal_of(settled_world());
+  Proposal proposal = proposal_of(settled_world());
+  proposal.shell = kShell;
   ASSERT_GE(all_formats().size(), 10u);
   for (const FormatDefinition& format : all_formats()) {
     EXPECT_FALSE(format.doc.empty()) << format.id;
@@ -121,6 +129,45 @@ TEST(Formats, AllWriteTheSameBytesTwiceAndNameTheState) {
       EXPECT_TRUE(is_packed || once->files[k].content.find(proposal.hash) != std::string::npos) << format.id;
     }
   }
+}
+
+TEST(Formats, APageHoldsItsDataAndNothingThatEndsIt) {
+  Proposal proposal = proposal_of(settled_world());
+  const FormatDefinition* format = find_format("html");
+  ASSERT_NE(format, nullptr);
+  EXPECT_EQ(format->shell, "proposal.html");
+  const auto without = format->write(proposal, *option_values(*format, {}), false);
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().message.find("not built"), std::string::npos) << without.error().message;
+  proposal.shell = kShell;
+  proposal.title = "A </title> & a </script>";
+  const auto made = format->write(proposal, *option_values(*format, {}), false);
+  ASSERT_TRUE(made);
+  const std::string& page = made->files.front().content;
+  EXPECT_NE(page.find("<title>A &lt;/title&gt; &amp; a &lt;/script&gt;</title>"), std::string::npos);
+  EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+  const std::size_t begin = page.find("json\">") + 6;
+  const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>") - begin));
+  EXPECT_EQ(data["title"], proposal.title);
+  EXPECT_EQ(data["buildings"].size(), proposal.buildings.size());
+  for (const auto& building : data["buildings"])
+    for (const auto& storey : building["storeys"]) EXPECT_LT(storey["path"], data["paths"].size());
+}
+
+TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
+  Proposal proposal = proposal_of(settled_world());
+  proposal.shell = kShell;
+  const FormatDefinition* format = find_format("html");
+  const Building one = proposal.buildings.front();
+  for (int k = 0; k < 400; ++k) {
+    proposal.buildings.push_back(one);
+    proposal.buildings.back().id += std::to_string(k);
+  }
+  const auto made = format->write(proposal, *option_values(*format, {}), false);
+  ASSERT_TRUE(made) << made.error().text();
+  EXPECT_LE(made->files.front().content.size(), 3000000u);
+  ASSERT_EQ(made->notes.size(), 1u);
+  EXPECT_NE(made->notes.front().find("upright"), std::string::npos) << made->notes.front();
 }
 
 TEST(Formats, GeoJsonRefusesASceneWithoutAPlace) {

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/export/facade_walls.h"
 #include "core/export/format.h"
 #include "core/export/option_text.h"
 #include "core/export/read_proposal.h"
+#include "core/export/section.h"
 #include "core/export/solids.h"
 #include "core/geometry/domain_makers.h"
 #include "core/geometry/footprint.h"
@@ -102,6 +104,75 @@ TEST(StandingExport, ADrawingHasTheirExactAreas) {
   const auto files = format->write(made.proposal, *option_values(*format, {}), false);
   ASSERT_TRUE(files);
   EXPECT_NEAR(measured_in_dxf(files->files.front().content), made.floor_area, 1e-9 * made.floor_area);
+}
+
+double area_of_ring(const geometry::Ring& ring) { return std::abs(geometry::signed_area(ring)); }
+
+// By hand: along y = 0 the block has the whole of one side, in four storeys, and there is air above the disc's set-back.
+TEST(Section, StandingVolumesAreCutAsRectangles) {
+  const Standing made = standing_proposal();
+  const auto line = section_line(made.proposal, "-40,0,60,0");
+  ASSERT_TRUE(line);
+  const Section section = section_of(made.proposal, *line, true);
+  ASSERT_EQ(section.parts.size(), 3u);
+  for (const SectionPart& part : section.parts) {
+    ASSERT_NE(part.building, nullptr);
+    EXPECT_EQ(part.slabs.size(), 2 * part.cut.size());
+    // A cut through the middle is as long as the plate is wide there; with a courtyard it is in two parts.
+    const bool has_courtyard = part.building->id == "house_0";
+    EXPECT_EQ(part.cut.size(), part.building->storeys.size() * (has_courtyard ? 2 : 1)) << part.building->id;
+    if (part.building->id != "house_2") continue;
+    ASSERT_EQ(part.cut.size(), 2u);
+    EXPECT_NEAR(area_of_ring(part.cut.front()), 20 * 3, 1e-2);  // a disc of 10 m, and a storey of 3 m
+    EXPECT_EQ(part.distance, 0);
+  }
+  ASSERT_GE(section.heights.size(), 6u);
+  EXPECT_EQ(section.heights.front(), 0);
+  EXPECT_EQ(section.heights[1], 3);
+  // A line that passes all of them by sees them behind it, the nearest last.
+  const Section outside = section_of(made.proposal, *section_line(made.proposal, "-40 -29 60 -29"), true);
+  ASSERT_EQ(outside.parts.size(), 3u);
+  for (const SectionPart& part : outside.parts) {
+    EXPECT_TRUE(part.cut.empty());
+    EXPECT_FALSE(part.beyond.empty());
+  }
+  EXPECT_GE(outside.parts.front().distance, outside.parts.back().distance);
+}
+
+TEST(Section, LinesThatAreNoneAreRefused) {
+  const Standing made = standing_proposal();
+  for (const char* text : {"1,2,3", "1,2,3,4,5", "a,b,c,d", "1,1,1,1", "nan 0 1 1", "1,2,3,1e300"}) {
+    const auto line = section_line(made.proposal, text);
+    ASSERT_FALSE(line) << text;
+    EXPECT_NE(line.error().message.find("X1,Y1,X2,Y2"), std::string::npos) << line.error().message;
+  }
+  EXPECT_TRUE(section_line(made.proposal, ""));
+}
+
+// Walls lie within the plate, side by side: together they are what is lost when the plate is moved in by their thickness.
+TEST(FacadeWalls, GoRoundTheStoreyAndItsCourtyard) {
+  const Standing made = standing_proposal();
+  constexpr double kThick = 0.25;
+  for (const Building& building : made.proposal.buildings) {
+    const Storey& storey = building.storeys.front();
+    double around = 0, along = 0, covered = 0;
+    for (const auto* rings : {&storey.rings, &storey.courtyards})
+      for (const geometry::PlateRing& ring : *rings)
+        for (const std::int32_t beyond : {geometry::PlateRing::kFree, geometry::PlateRing::kPlot, 0, 1, 2})
+          around += geometry::length_of(ring, building.arc_centre, beyond);
+    for (const FacadeWall& wall : facade_walls(storey, building.arc_centre, kThick)) {
+      EXPECT_GT(geometry::signed_area(wall.outline), 0);
+      EXPECT_FALSE(geometry::find_self_crossing(wall.outline)) << building.id;
+      along += wall.length;
+      covered += geometry::signed_area(wall.outline);
+    }
+    EXPECT_NEAR(along, around, 1e-6) << building.id;
+    EXPECT_NEAR(covered, around * kThick, 0.03 * around * kThick) << building.id;
+  }
+  const auto round = facade_walls(made.proposal.buildings[2].storeys.front(), made.proposal.buildings[2].arc_centre, kThick);
+  double covered = 0;
+  for (const FacadeWall& wall : round) covered += geometry::signed_area(wall.outline);
+  EXPECT_NEAR(covered, 3.14159265358979 * (100 - (10 - kThick) * (10 - kThick)), 0.02);
 }
 
 }  // namespace

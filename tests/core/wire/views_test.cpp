@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sstream>
+
 #include "core/base/random.h"
 #include "core/define/json_text.h"
 #include "tests/support/random_commands.h"
@@ -88,6 +90,46 @@ TEST(Views, DecisionsHaveTheirWordsUntilTheseAreErased) {
   EXPECT_EQ(shown(), "phase:Explore mark:We keep the mill. ");
   say(R"({"event": "forget", "arguments": {"seat": 1}})");
   EXPECT_EQ(shown().find("mill"), std::string::npos);
+}
+
+// Path data as `plan_view` writes it: corners of each ring [m].
+std::vector<std::vector<std::pair<double, double>>> rings_of(const std::string& path) {
+  std::vector<std::vector<std::pair<double, double>>> rings;
+  std::istringstream in(path);
+  double x = 0, y = 0;
+  for (char letter = 0; in >> letter;) {
+    if (letter == 'z') continue;
+    double across = 0, down = 0;
+    in >> across >> down;
+    if (letter == 'M') rings.emplace_back(), x = across, y = down;
+    else x += across, y += down;
+    rings.back().emplace_back(x, y);
+  }
+  return rings;
+}
+
+TEST(Views, WhatStandsShowsItsOutlineAndItsCourtyard) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "plot", "types": {"boundary": {"form": "plan", "height": 40,
+      "plan": [[0,0,0],[80,0,0],[80,30,0],[30,30,0],[30,80,0],[0,80,0]]}}},
+    {"id": "solver", "types": {"standing_solver": {}}},
+    {"id": "it", "position": [28, 25, 0], "types": {"smart_volume": {"demand": 12000, "storey_height": 3},
+      "footprint": {"form": "round", "storeys": 3, "depth": 9}}}]})");
+  ASSERT_TRUE(world.settle());
+  room::Room room(world.session().ledger(), {});
+  const View plan = make_view("plan", {world.state(), room, "", ""}, 0);
+  const auto rings = rings_of((*parse_json(plan.at("n/it")))["d"].get<std::string>());
+  ASSERT_EQ(rings.size(), 2u);
+  double area = 0;
+  for (const auto& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const auto& [x, y] = ring[k];
+      const auto& [u, v] = ring[(k + 1) % ring.size()];
+      area += (x * v - u * y) / 2;
+      EXPECT_FALSE(x > 30.1 && y < -30.1) << "outside the plot: " << x << ", " << y;
+    }
+  // The outline is as y downwards makes it, and its courtyard the other way round.
+  EXPECT_NEAR(-area, world.number("it", "smart_volume.footprint"), 0.01 * world.number("it", "smart_volume.footprint"));
 }
 
 TEST(Views, ThePlanHasEveryVolumeAndItsBoxHoldsThem) {

@@ -138,6 +138,28 @@ TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {
   EXPECT_LE(frame[1].x, 192 + 1e-9);
 }
 
+// Seen from above: the outline of the plot's corner with a courtyard in it, and no hull over both.
+TEST(FigureTables, ThePlanShowsCourtyardsOfWhatStands) {
+  const auto plan_with = [](const std::string& depth) {
+    World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [60, 0, 0], [60, 60, 0], [0, 60, 0]], "height": 30}}},
+      {"id": "solver", "types": {"standing_solver": {}}},
+      {"id": "v", "name": "Court", "position": [30, 30, 0], "types": {"smart_volume": {"demand": 9000, "storey_height": 3},
+        "footprint": {"form": "block", "storeys": 3)" +
+                                   depth + R"(}}}], "links": []})");
+    EXPECT_TRUE(world.settle());
+    reading::ReportModel model;
+    reading::read_model(world.state(), model);
+    const std::string svg = drawing::draw_plan(world.state(), model, drawing::Palette(model.use_names())).svg;
+    const std::size_t title = svg.find("1. Court: "), path = svg.find(" d=\"", title);
+    EXPECT_NE(path, std::string::npos);
+    const std::string d = svg.substr(path + 4, svg.find('"', path + 4) - path - 4);
+    return std::count(d.begin(), d.end(), 'z');
+  };
+  EXPECT_EQ(plan_with(""), 1);
+  EXPECT_EQ(plan_with(R"(, "depth": 8)"), 2);
+}
+
 // A table of an earlier report under the same name is not taken for one of this.
 TEST(FigureTables, NothingOlderIsLeftBehind) {
   const std::string folder = (std::filesystem::path(testing::TempDir()) / "report_older").string();

@@ -1,4 +1,4 @@
-// Volumes in a plan are hulls, and therefore convex: they can be filled. Everything else is lines.
+// Volumes in a plan are filled by triangles, around their courtyards. Everything else is lines.
 #include "ui/desktop/panels/plan_picture.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
+#include "core/geometry/polygon_triangles.h"
 
 namespace bl::desktop {
 
@@ -60,13 +61,21 @@ void draw_plan_shape(const Theme& theme, const PlanShape& shape, const PlanFrame
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool is_volume = shape.kind == "volume";
+  const auto place = [&](const PlanPoint& point) {
+    return ImVec2{corner.x + static_cast<float>(point.x - frame.box.left) * frame.scale,
+                  corner.y + static_cast<float>(point.y - frame.box.top) * frame.scale};
+  };
+  // Without smoothing, which would leave hairs between triangles.
+  const ImDrawListFlags flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  for (std::size_t k = 0; k + 2 < shape.triangles.size(); k += 3)
+    list.AddTriangleFilled(place(shape.triangles[k]), place(shape.triangles[k + 1]), place(shape.triangles[k + 2]),
+                           colour_of_text(shape.fill, c.text_faint));
+  list.Flags = flags;
   for (const PlanLine& line : shape.lines) {
     std::vector<ImVec2> points;
-    for (const PlanPoint& point : line.points)
-      points.push_back({corner.x + static_cast<float>(point.x - frame.box.left) * frame.scale,
-                        corner.y + static_cast<float>(point.y - frame.box.top) * frame.scale});
+    for (const PlanPoint& point : line.points) points.push_back(place(point));
     const int count = static_cast<int>(points.size());
-    if (is_volume) list.AddConvexPolyFilled(points.data(), count, colour_of_text(shape.fill, c.text_faint));
     const ImU32 colour = is_marked ? c.text : is_volume ? c.text_soft : c.text_faint;
     list.AddPolyline(points.data(), count, colour, line.is_closed ? ImDrawFlags_Closed : 0, theme.px(is_marked ? 3 : 1));
   }
@@ -107,14 +116,37 @@ std::vector<PlanLine> lines_of_path(const std::string& path) {
   return lines;
 }
 
+std::vector<PlanPoint> filled(const std::vector<PlanLine>& lines) {
+  std::vector<std::vector<geometry::Ring>> parts;
+  bool turns_left = false;
+  for (const PlanLine& line : lines) {
+    geometry::Ring ring;
+    for (const PlanPoint& point : line.points) ring.push_back({point.x, point.y, 0});
+    if (!line.is_closed || ring.size() < 3) continue;
+    const bool is_left = geometry::signed_area(ring) > 0;
+    if (parts.empty()) turns_left = is_left;
+    if (parts.empty() || is_left == turns_left) parts.emplace_back();
+    parts.back().push_back(std::move(ring));
+  }
+  std::vector<PlanPoint> corners;
+  for (const std::vector<geometry::Ring>& rings : parts) {
+    geometry::Ring all;
+    for (const geometry::Ring& ring : rings) all.insert(all.end(), ring.begin(), ring.end());
+    for (const auto& triangle : geometry::polygon_triangles(rings))
+      for (const std::uint32_t corner : triangle) corners.push_back({all[corner].x, all[corner].y});
+  }
+  return corners;
+}
+
 PlanPicture plan_in(const std::map<std::string, JsonValue>& view, const std::string& begin) {
   PlanPicture picture;
   const std::string start = begin + "n/";
   for (auto one = view.lower_bound(start); one != view.end() && one->first.starts_with(start); ++one) {
     const auto json = one->second.read();
     if (!json) continue;
-    picture[one->first.substr(start.size())] = {plan_text(**json, "kind"), plan_text(**json, "fill"),
-                                                lines_of_path(plan_text(**json, "d"))};
+    PlanShape shape{plan_text(**json, "kind"), plan_text(**json, "fill"), lines_of_path(plan_text(**json, "d"))};
+    if (shape.kind == "volume") shape.triangles = filled(shape.lines);
+    picture[one->first.substr(start.size())] = std::move(shape);
   }
   return picture;
 }

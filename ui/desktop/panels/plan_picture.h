@@ -26,6 +26,7 @@ struct PlanLine {
 struct PlanShape {
   std::string kind, fill;  ///< such as `volume`; a colour as pages have it
   std::vector<PlanLine> lines;
+  std::vector<PlanPoint> triangles = {};  ///< of a volume, three corners each: it may have courtyards
 };
 /// By id: volumes, plots, boundaries, buildings and streets.
 using PlanPicture = std::map<std::string, PlanShape>;
@@ -40,6 +41,8 @@ struct PlanPictures {
 
 /// Outlines as rooms write them: `M1 2l3 0l0 4zM...`, in metres. What comes after a fault is left out.
 std::vector<PlanLine> lines_of_path(const std::string& path);
+/// Triangles over closed lines: one that turns as the first one does begins another part, others are holes of the part before.
+std::vector<PlanPoint> filled(const std::vector<PlanLine>& lines);
 /// The keys `BEGINn/ID` of a view of a room.
 PlanPicture plan_in(const std::map<std::string, JsonValue>& view, const std::string& begin);
 /// The volumes that one of them lacks, or has elsewhere.

@@ -1,13 +1,13 @@
 // The plan, or the picture in three dimensions in its place: a button chooses. The picture's script comes when it is asked for.
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { Icon, IconName } from "./parts";
 import { Plan, PlanProps } from "./plan";
 import type { Session } from "./session";
-import type { Look, Looks, Mark, Picture, Step } from "./space/picture";
+import type { Look, Mark, Picture, Step } from "./space/picture";
 import type { SpaceContent } from "./space/contents";
+import { Buttons, North, kKeys, looks_of } from "./space_controls";
 import { Binding, Ui, is_of_browser, useBinding, useMedia, useWide } from "./ui";
-import { Key, t } from "./words";
+import { t } from "./words";
 
 // The build fills in the address.
 declare const CHUNKS: { space: string };
@@ -29,80 +29,9 @@ function script(): Promise<Script> {
   return made;
 }
 
-function looks_of(element: HTMLElement, isDark: boolean): Looks {
-  const style = getComputedStyle(element),
-    value = (name: string): string => style.getPropertyValue(name).trim();
-  return {
-    background: value("--plan"),
-    ink: value("--plan-line"),
-    accent: value("--accent"),
-    ground: value("--sunken"),
-    isDark,
-  };
-}
-
 /// What the plan says of each thing, by node.
 function names_of(s: Session): Map<string, Look> {
   return new Map(s.plan().map(([id, { kind, fill, name }]) => [id, { kind, fill, name }]));
-}
-
-const kTurns: [Step, Key, IconName][] = [
-  ["turn_left", "turn_left", "left"],
-  ["tilt_up", "tilt_up", "up"],
-  ["tilt_down", "tilt_down", "down"],
-  ["turn_right", "turn_right", "right"],
-];
-const kMoves: [Step, Key, IconName][] = [
-  ["left", "move_left", "left"],
-  ["up", "move_up", "up"],
-  ["down", "move_down", "down"],
-  ["right", "move_right", "right"],
-];
-const kKeys: Record<string, Step> = {
-  ArrowLeft: "turn_left",
-  ArrowRight: "turn_right",
-  ArrowUp: "tilt_up",
-  ArrowDown: "tilt_down",
-  "+": "in",
-  "=": "in",
-  "-": "out",
-  "0": "home",
-};
-
-function Buttons({ step, isMoving, setMoving }: { step(step: Step): void; isMoving: boolean; setMoving(is: boolean): void }): JSX.Element {
-  const one = ([what, key, icon]: [Step, Key, IconName]): JSX.Element => (
-    <button key={what} class="round" aria-label={t(key)} onClick={() => step(what)}>
-      <Icon name={icon} />
-    </button>
-  );
-  return (
-    <>
-      <div class="zoom" role="group" aria-label={t("view_3d")}>
-        {one(["in", "zoom_in", "plus"])}
-        {one(["out", "zoom_out", "minus"])}
-        {one(["home", "zoom_all", "all"])}
-      </div>
-      <div class="pad" role="group" aria-label={t(isMoving ? "space_move" : "space_turn")}>
-        {(isMoving ? kMoves : kTurns).map(one)}
-        <button class="round" aria-pressed={isMoving} aria-label={t("space_move")} onClick={() => setMoving(!isMoving)}>
-          <Icon name="move" />
-        </button>
-      </div>
-    </>
-  );
-}
-
-function North({ turned }: { turned: { current: SVGGElement | null } }): JSX.Element {
-  return (
-    <svg class="north" viewBox="-24 -24 48 48" role="img" aria-label={t("north")}>
-      <g ref={turned}>
-        <path d="M0 -8L6 14L0 10L-6 14z" />
-        <text y="-10">
-          {t("north_letter")}
-        </text>
-      </g>
-    </svg>
-  );
 }
 
 function Space({ s, binding, selected, isStill, label }: PlanProps): JSX.Element {

@@ -92,6 +92,22 @@ TEST(PlanPictures, PathsAreReadAsRoomsWriteThem) {
   EXPECT_FALSE(lines[1].is_closed);
 }
 
+TEST(PlanPictures, VolumesAreFilledAroundTheirCourtyards) {
+  const auto area_of = [](const std::vector<PlanPoint>& corners) {
+    double area = 0;
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
+      area += std::abs((corners[k + 1].x - corners[k].x) * (corners[k + 2].y - corners[k].y) -
+                       (corners[k + 2].x - corners[k].x) * (corners[k + 1].y - corners[k].y)) /
+              2;
+    return area;
+  };
+  // A block with a courtyard, an L beside it, and a street, which is no area.
+  const std::string block = "M0 0l0 -10l10 0l0 10zM2 -2l6 0l0 -6l-6 0z", ell = "M20 0l0 -10l4 0l0 6l6 0l0 4z";
+  EXPECT_NEAR(area_of(filled(lines_of_path(block))), 64, 1e-9);
+  EXPECT_NEAR(area_of(filled(lines_of_path(block + ell))), 64 + 64, 1e-9);
+  EXPECT_TRUE(filled(lines_of_path("M0 0l10 0l0 5")).empty());
+}
+
 TEST(PlanPictures, FaultsEndAPathAndHarmNothing) {
   for (const char* path : {"", "z", "l1 2", "M", "M1", "Mx y", "M1 nan", "M1 1e999", "?", "MMMM", "M 1"})
     EXPECT_TRUE(lines_of_path(path).empty()) << path;

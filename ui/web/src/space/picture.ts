@@ -272,8 +272,14 @@ export class Picture {
   // The volumes and the site, or whatever else there is: far streets do not make the rest small.
   private core(): Thing[] {
     const all = [...this.things.entries()],
-      near = all.filter(([id, one]) => one.content.t === "cell" || one.content.t === "prism" || id.startsWith("n/site/"));
+      near = all.filter(([id, one]) => this.isVolume(id, one) || id.startsWith("n/site/"));
     return (near.length > 0 ? near : all).map(([, one]) => one);
+  }
+
+  // A volume that stands comes as a surface, as existing buildings do.
+  private isVolume(id: string, one: Thing): boolean {
+    const kind = this.names.get(id.slice(2))?.kind;
+    return kind === undefined ? one.content.t === "cell" || one.content.t === "prism" : kind === "volume";
   }
 
   private paint(): void {
@@ -427,7 +433,7 @@ export class Picture {
     }
     const eyes = this.camera.position;
     const named = [...this.things]
-      .filter(([id, one]) => (one.content.t === "cell" || one.content.t === "prism") && this.names.get(id.slice(2))?.name)
+      .filter(([id, one]) => this.isVolume(id, one) && this.names.get(id.slice(2))?.name)
       .map(([id, one]) => ({ id, one, far: eyes.distanceTo(new Vector3(...one.top)) / Math.max(1, one.size) }))
       .sort((a, b) => (a.id === `n/${this.selected}` ? -1 : b.id === `n/${this.selected}` ? 1 : a.far - b.far))
       .slice(0, kMostNames);

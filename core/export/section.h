@@ -1,0 +1,43 @@
+// A vertical cut through the proposal: what it cuts, the floors in it, what stands behind it, and the ground.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/export/proposal_model.h"
+
+namespace bl::exporting {
+
+/// Where the cut runs, in plan [m]. It goes on beyond both ends; one looks to the left of the way from `from` to `to`.
+struct SectionLine {
+  Point3 from, to;
+};
+
+/// "X1 Y1 X2 Y2" in metres, also with commas; empty: along the longest side of the land, through the middle. Fails on other
+/// texts, and on a line without length.
+Result<SectionLine> section_line(const Proposal& proposal, const std::string& text);
+
+/// Of one building, or of one that stands already. Rings have the way along the line as x, from `from` on, and the height as y
+/// [m].
+struct SectionPart {
+  const Building* building = nullptr;      ///< none for what stands already
+  std::vector<geometry::Ring> cut, slabs;  ///< what is cut, by the even-odd rule, and floors and roofs in it
+  std::vector<geometry::Ring> beyond;      ///< outlines of what stands behind the cut
+  double distance = 0;                     ///< of its nearest place from the cut, 0 where it is cut [m]
+};
+
+struct Section {
+  SectionLine line;
+  std::vector<SectionPart> parts;            ///< the farthest first, as they are drawn
+  std::vector<std::vector<Point3>> grounds;  ///< lines of the ground, open
+  std::vector<double> borders;               ///< where plots and boundaries end [m along the line]
+  std::vector<double> heights;               ///< of floors and roofs that are cut, ascending [m]
+  Point3 low, high;                          ///< around all parts of the proposal and its land
+};
+
+/// Thickness of floors and roofs as they are drawn [m].
+inline constexpr double kSectionSlab = 0.3;
+Section section_of(const Proposal& proposal, const SectionLine& line, bool with_surroundings);
+
+}  // namespace bl::exporting

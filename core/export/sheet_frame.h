@@ -1,0 +1,41 @@
+// What all drawings on a sheet of paper share: its size and scale, and what surrounds the drawing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/export/plan_sheet.h"
+
+namespace bl::exporting {
+
+/// Colours of what is not the proposal itself.
+inline constexpr drawing::Colour kGrey = {0.45, 0.46, 0.48}, kPale = {0.90, 0.90, 0.88}, kExistingFill = {0.83, 0.83, 0.81};
+
+/// A sheet with an empty window, which makers of drawings fill.
+class SheetFrame {
+ protected:
+  static constexpr double kMargin = 10, kTitleHeight = 34, kGap = 6;  // [mm]
+
+  SheetFrame(const Proposal& proposal, const SheetOptions& options);
+
+  double window_width() const { return sheet_.window_high.x - sheet_.window_low.x; }
+  double window_height() const { return sheet_.window_high.y - sheet_.window_low.y; }
+  double millimetres() const { return 1000 / sheet_.scale; }  // per metre
+
+  /// For a drawing of this size [m]; `wanted`: n of 1:n, 0 for the largest usual one that fits. Fails where it does not fit.
+  Result<void> choose_scale(double width, double height, double wanted, const char* what);
+  /// A line with its ends marked, and its length in metres beside it.
+  void dimension(SheetGroup& group, SheetPoint a, SheetPoint b, double length, bool is_upright) const;
+  static std::vector<SheetPoint> rectangle(SheetPoint low, SheetPoint high);
+  /// `what` the sheet shows, and its `figures` in the last line.
+  void add_title(const std::string& what, const std::string& figures);
+  void add_legend();
+  void add_scale_bar();
+  void add_north();
+
+  const Proposal& proposal_;
+  const SheetOptions& options_;
+  PlanSheet sheet_;
+};
+
+}  // namespace bl::exporting

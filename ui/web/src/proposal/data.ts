@@ -1,0 +1,98 @@
+// What a page of a proposal holds: made by core/export/formats/html.cpp.
+import type { Look } from "../space/picture";
+
+export interface Storey {
+  number: number;
+  level: number; ///< of the plan that shows it
+  bottom: number; ///< [m]
+  top: number; ///< [m]
+  area: number; ///< [m²]
+  path: number; ///< index into `paths`
+}
+export interface Building {
+  id: string;
+  name: string;
+  use: string;
+  fill: string;
+  form: string;
+  why: string; ///< why it has no shape
+  at: [number, number]; ///< in the plan [dm]
+  area: number;
+  asked_area: number;
+  volume: number;
+  asked_volume: number;
+  footprint: number;
+  bottom: number;
+  top: number;
+  storeys: Storey[];
+}
+export interface Use {
+  use: string;
+  letter: string;
+  fill: string;
+  buildings: number;
+  area: number;
+  asked_area: number;
+  volume: number;
+  asked_volume: number;
+}
+export interface Plot {
+  name: string;
+  is_boundary: boolean;
+  area: number;
+  fsi: number;
+  gsi: number;
+  fsi_max: number;
+  gsi_max: number;
+  height_max: number;
+}
+export interface Indicator {
+  name: string;
+  value: number;
+  target: number;
+  unit: string;
+  direction: string;
+  status: string;
+  score: number;
+}
+interface Outline {
+  name: string;
+  path: string; ///< in decimetres, y downwards
+}
+export interface Proposal {
+  title: string;
+  about: string;
+  settled: boolean;
+  identity: [string, string][];
+  true_north: number; ///< clockwise from the y axis [deg]
+  plan: {
+    box: [number, number, number, number]; ///< [dm]
+    levels: number[]; ///< heights [m]
+    level_height: number;
+    lands: (Outline & { is_boundary: boolean })[];
+    existing: Outline[];
+    streets: Outline[];
+  };
+  paths: string[];
+  buildings: Building[];
+  uses: Use[];
+  all: Use;
+  plots: Plot[];
+  indicators: Indicator[];
+  conflicts: { node: string; port: string; tension: string; pulls: string[] }[];
+  minor_conflicts: number;
+  troubles: { place: string; message: string }[];
+  shapes: Record<string, unknown>; ///< as in the view `shapes` of a room
+  looks: Record<string, Look>;
+}
+
+export const use_name = (use: string): string => use || "no use";
+
+const plain = new Intl.NumberFormat("en", { maximumFractionDigits: 0 }),
+  fine = new Intl.NumberFormat("en", { minimumFractionDigits: 2, maximumFractionDigits: 2 }),
+  short = new Intl.NumberFormat("en", { maximumSignificantDigits: 4 });
+export const whole = (value: number): string => plain.format(value);
+export const hundredths = (value: number): string => fine.format(value);
+export const figure = (value: number, unit: string): string =>
+  `${short.format(value)} ${unit.replace(/2$/, "²").replace(/3$/, "³")}`.trim();
+export const signed = (value: number): string => (Math.round(value) > 0 ? "+" : "") + plain.format(Math.round(value) + 0);

@@ -1,0 +1,89 @@
+// The plan of each level: a slider and two buttons choose the level, a touch or the table chooses a building.
+import type { JSX } from "preact";
+import { useState } from "preact/hooks";
+import { Icon } from "../parts";
+import { Building, Proposal, Storey, hundredths, use_name, whole } from "./data";
+import type { Choice } from "./model";
+
+const kMargin = 0.04;
+
+// The storey of a building that belongs to a level, or the higher one that passes through it.
+function storey_on(building: Building, level: number, cut: number): { storey: Storey; isOwn: boolean } | null {
+  const own = building.storeys.find((one) => one.level === level);
+  if (own) return { storey: own, isOwn: true };
+  const passing = building.storeys.find((one) => one.bottom <= cut && cut < one.top);
+  return passing ? { storey: passing, isOwn: false } : null;
+}
+
+export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
+  const [level, setLevel] = useState(0);
+  const { plan } = proposal,
+    [x, y, width, height] = plan.box,
+    margin = kMargin * Math.max(width, height),
+    last = plan.levels.length - 1,
+    bottom = plan.levels[level] ?? 0,
+    cut = bottom + plan.level_height / 2;
+  const shown = proposal.buildings
+    .map((building) => ({ building, on: storey_on(building, level, cut) }))
+    .filter((one): one is { building: Building; on: { storey: Storey; isOwn: boolean } } => one.on !== null);
+  const here = shown.filter(({ on }) => on.isOwn),
+    area = here.reduce((sum, { on }) => sum + on.storey.area, 0),
+    font = Math.max(width, height) / 42;
+  return (
+    <>
+      <div class="row levels">
+        <button class="round" aria-label="One level lower" disabled={level === 0} onClick={() => setLevel(level - 1)}>
+          <Icon name="down" />
+        </button>
+        <label class="field grow">
+          <span>
+            Level {level} of {last}, from {hundredths(bottom)} m
+          </span>
+          <input type="range" min={0} max={last} step={1} value={level} onInput={(event) => setLevel(Number(event.currentTarget.value))} />
+        </label>
+        <button class="round" aria-label="One level higher" disabled={level >= last} onClick={() => setLevel(level + 1)}>
+          <Icon name="up" />
+        </button>
+      </div>
+      <svg
+        class="drawn"
+        viewBox={`${x - margin} ${y - margin} ${width + 2 * margin} ${height + 2 * margin}`}
+        role="img"
+        aria-label={`Plan of level ${level}: ${here.length} ${here.length === 1 ? "storey" : "storeys"}, ${whole(area)} m². The tables say the same.`}
+      >
+        {plan.streets.map((one, k) => (
+          <path key={`s${k}`} class="shape street" d={one.path} fill="none" />
+        ))}
+        {plan.existing.map((one, k) => (
+          <path key={`e${k}`} class="shape existing" d={one.path}>
+            <title>{one.name}</title>
+          </path>
+        ))}
+        {plan.lands.map((one, k) => (
+          <path key={`l${k}`} class={`shape ${one.is_boundary ? "boundary" : "plot"}`} d={one.path} fill="none" />
+        ))}
+        {shown.map(({ building, on }) => (
+          <path
+            key={building.id}
+            class={`shape volume ${on.isOwn ? "" : "pale"} ${building.id === chosen ? "selected" : ""}`}
+            d={proposal.paths[on.storey.path]}
+            fill={building.fill}
+            onClick={() => choose(building.id)}
+          >
+            <title>
+              {building.name}, {use_name(building.use)}, storey {on.storey.number}, {whole(on.storey.area)} m²
+            </title>
+          </path>
+        ))}
+        {(here.length <= 40 ? here : []).map(({ building }) => (
+          <text key={`n${building.id}`} class="name" font-size={font} stroke-width={font * 0.22} x={building.at[0]} y={building.at[1] + 0.35 * font}>
+            {building.name}
+          </text>
+        ))}
+      </svg>
+      <p class="small">
+        Floor area of this level {whole(area)} m², of all levels {whole(proposal.all.area)} m². Pale: a higher storey passes through.
+      </p>
+    </>
+  );
+}
