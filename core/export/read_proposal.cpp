@@ -100,9 +100,10 @@ void number_levels(Proposal& all) {
   }
   for (Building& building : all.buildings)
     for (Storey& storey : building.storeys) {
-      // The half is taken as that of a whole storey: the last one of a rounded volume may be lower.
-      const double middle = storey.bottom + building.storey_height / 2;
-      storey.level = static_cast<int>(std::floor((middle - all.ground) / all.level_height + 1e-9));
+      // What stands belongs where its floor is: high halls are on the plan of the ground floor. A rounded volume is cut in the
+      // middle of its storeys; that of the last one, which may be lower, is taken as that of a whole one.
+      const double height = storey.bottom + (building.is_standing ? 0 : building.storey_height / 2);
+      storey.level = static_cast<int>(std::floor((height - all.ground) / all.level_height + 1e-9));
       all.levels = std::max(all.levels, storey.level + 1);
     }
 }
