@@ -40,7 +40,8 @@ struct Building {
   std::vector<Storey> storeys;               ///< from the ground up; the sum of their floor areas is `floor_area`
   std::vector<geometry::PlateFace> outline;  ///< of its lowest storey where it stands, else as seen from above
   std::shared_ptr<const Mesh> mesh;          ///< closed; never empty
-  std::shared_ptr<const Mesh> light_mesh;    ///< the same with fewer triangles, for pages
+  std::shared_ptr<const Mesh> light_mesh;    ///< of a standing volume: the same with fewer triangles, for pages
+  MeshPointer shape;                         ///< of a rounded one: as its solver made it; meshes of other depths follow from it
   std::string why_shapeless;                 ///< of a volume without a shape: the reason
 };
 

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "core/base/hash.h"
-#include "core/geometry/cell_mesh.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
 #include "core/reading/views/people.h"
@@ -59,7 +58,7 @@ void cut(const reading::VolumeRow& volume, Building& building) {
   // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
   for (Storey& made : building.storeys) made.floor_area = building.floor_area * area_of(made.faces) / drawn;
   building.mesh = std::make_shared<const Mesh>(*volume.mesh);
-  building.light_mesh = std::make_shared<const Mesh>(*geometry::mesh_of_depth(volume.mesh, geometry::kStudyDepth + 1));
+  building.shape = volume.mesh;
   building.outline = seen_from_above(volume);
 }
 

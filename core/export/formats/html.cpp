@@ -11,6 +11,7 @@
 #include "core/export/identity.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
+#include "core/geometry/cell_mesh.h"
 #include "core/reading/figures.h"
 
 namespace bl::exporting {
@@ -38,6 +39,7 @@ struct HtmlFormat {
   /// How coarse the shapes are: tried one after another until the page is small enough.
   struct Detail {
     double plan = 0;                 ///< [m] that a line of a plan may be off
+    int depth = 0;                   ///< how often faces of rounded volumes are divided
     std::size_t most_triangles = 0;  ///< of one body; more: an upright body over its outline
   };
 
@@ -122,6 +124,11 @@ struct HtmlFormat {
       return made;
     }
 
+    std::shared_ptr<const Mesh> light_mesh(const Building& b) const {
+      if (detail.most_triangles == 0 || b.light_mesh != nullptr || !b.shape) return b.light_mesh;
+      return std::make_shared<const Mesh>(*geometry::mesh_of_depth(b.shape, detail.depth));
+    }
+
     // What the picture in three dimensions shows, by the keys of the view that pages of a room get.
     PageJson shapes() {
       double ground = proposal.ground;
@@ -133,8 +140,9 @@ struct HtmlFormat {
                         {"true_north", proposal.reference.true_north},
                         {"ground", whole(ground - origin.z)}}}};
       for (const Building& b : proposal.buildings) {
-        if (b.light_mesh != nullptr && b.light_mesh->triangles.size() <= detail.most_triangles) {
-          all["n/building/" + b.id] = surface(*b.light_mesh, b.storey_height, b.bottom);
+        const std::shared_ptr<const Mesh> light = light_mesh(b);
+        if (light != nullptr && light->triangles.size() <= detail.most_triangles) {
+          all["n/building/" + b.id] = surface(*light, b.storey_height, b.bottom);
         } else if (!b.outline.empty()) {
           ++upright;
           all["n/building/" + b.id] = prism(b.outline.front().outer, b.bottom, b.top);
@@ -307,8 +315,14 @@ struct HtmlFormat {
           "the page is not built; `./bl export` builds it where npm is installed (the Debian packages nodejs and npm), and "
           "the variable BEHAVIOURLINKS_PAGE names the folder of a built one"};
     ExportFiles made;
-    constexpr std::array<Detail, 4> kDetails = {{{0.01, 4000}, {0.05, 1500}, {0.2, 400}, {1, 0}}};
+    constexpr std::array<Detail, 5> kDetails = {{{0.01, 3, 8000}, {0.02, 2, 4000}, {0.1, 1, 1500}, {0.3, 1, 400}, {1, 1, 0}}};
+    const auto rounded = static_cast<std::size_t>(std::count_if(proposal.buildings.begin(), proposal.buildings.end(),
+                                                                [](const Building& b) { return b.light_mesh == nullptr; }));
     for (const Detail& detail : kDetails) {
+      // What is certainly too large is not made: a cell of a dozen faces has some sixty triangles, each division four times as
+      // many.
+      constexpr std::size_t kLeastBytes = 60 * 12;
+      if (detail.most_triangles > 0 && (rounded * kLeastBytes << 2 * detail.depth) > 2 * kMostPageBytes) continue;
       PageBuilder builder{proposal, options, detail};
       std::string page = proposal.shell;
       page.replace(data, kData.size(), script_text(builder.document()));

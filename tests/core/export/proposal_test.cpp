@@ -159,7 +159,7 @@ TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
   proposal.shell = kShell;
   const FormatDefinition* format = find_format("html");
   const Building one = proposal.buildings.front();
-  for (int k = 0; k < 400; ++k) {
+  for (int k = 0; k < 1500; ++k) {
     proposal.buildings.push_back(one);
     proposal.buildings.back().id += std::to_string(k);
   }

@@ -5,7 +5,9 @@ import { Icon } from "../parts";
 import { Building, Proposal, Storey, hundredths, use_name, whole } from "./data";
 import type { Choice } from "./model";
 
-const kMargin = 0.04;
+// Around the plots, of their larger side; more where there is something to see.
+const kMargin = 0.04,
+  kSurroundings = 0.25;
 
 // The storey of a building that belongs to a level, or the higher one that passes through it.
 function storey_on(building: Building, level: number, cut: number): { storey: Storey; isOwn: boolean } | null {
@@ -19,7 +21,7 @@ export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Cho
   const [level, setLevel] = useState(0);
   const { plan } = proposal,
     [x, y, width, height] = plan.box,
-    margin = kMargin * Math.max(width, height),
+    margin = (plan.existing.length + plan.streets.length > 0 ? kSurroundings : kMargin) * Math.max(width, height),
     last = plan.levels.length - 1,
     bottom = plan.levels[level] ?? 0,
     cut = bottom + plan.level_height / 2;
@@ -28,7 +30,7 @@ export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Cho
     .filter((one): one is { building: Building; on: { storey: Storey; isOwn: boolean } } => one.on !== null);
   const here = shown.filter(({ on }) => on.isOwn),
     area = here.reduce((sum, { on }) => sum + on.storey.area, 0),
-    font = Math.max(width, height) / 42;
+    font = (Math.max(width, height) + 2 * margin) / 46;
   return (
     <>
       <div class="row levels">
