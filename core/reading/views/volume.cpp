@@ -37,6 +37,8 @@ BL_VIEW(VolumeFigures)
 void FootprintFigures::declare(ViewBuilder<FootprintFigures>& v) {
   v.of("footprint");
   v.reads(&FootprintFigures::form, "footprint.form");
+  v.reads(&FootprintFigures::angle, "footprint.angle", Unit::degree);
+  v.reads(&FootprintFigures::aspect, "footprint.aspect", Unit::ratio);
   v.reads(&FootprintFigures::storeys, "footprint.storeys");
   v.reads(&FootprintFigures::storeys_built, "footprint.storeys_built");
   v.reads(&FootprintFigures::plates, "footprint.plates");

@@ -42,6 +42,8 @@ struct VolumeFigures {
 /// How a volume stands, where it has that role.
 struct FootprintFigures {
   std::string form;
+  double angle = 0;   ///< of a block's first side, counter-clockwise from east [degree]
+  double aspect = 0;  ///< of a block: first side / second side
   std::int64_t storeys = 0, storeys_built = 0;
   Table plates;  ///< see core/geometry/plates_table.h
 

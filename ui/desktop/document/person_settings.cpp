@@ -24,6 +24,7 @@ void each_member(Settings& s, Visit visit) {
   visit("shows_side", s.shows_side);
   visit("shows_bottom", s.shows_bottom);
   visit("colour_by", s.colour_by);
+  visit("drawn_as", s.drawn_as);
   visit("navigation", s.navigation);
   visit("width", s.width);
   visit("height", s.height);

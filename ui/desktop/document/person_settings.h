@@ -15,6 +15,7 @@ struct PersonSettings {
   float canvas_share = 0.5f, side_width = 320, bottom_height = 210;
   bool shows_side = true, shows_bottom = true;
   std::string colour_by = "use";              ///< what the 3D view colours volumes by
+  std::string drawn_as = "as_is";             ///< in which form the 3D view draws volumes
   std::string navigation = "rhino";           ///< rhino, blender, sketchup, polyscope
   int width = 1440, height = 900;             ///< of the window
   std::vector<std::string> recent;            ///< scene files, the last first

@@ -22,6 +22,7 @@ std::string name_of_key(int key) {
                               {GLFW_KEY_RIGHT, "Right"},       {GLFW_KEY_UP, "Up"},
                               {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_KP_ADD, "Num +"},
                               {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."},
+                              {GLFW_KEY_PAGE_UP, "PgUp"},      {GLFW_KEY_PAGE_DOWN, "PgDn"},
                               {GLFW_KEY_MENU, "Menu"}};
   for (const Named& named : kNames)
     if (named.key == key) return named.name;

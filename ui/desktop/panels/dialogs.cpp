@@ -9,6 +9,7 @@
 #include "core/report/report.h"
 #include "ui/desktop/document/import_task.h"
 #include "ui/desktop/look/buttons.h"
+#include "ui/desktop/panels/export_dialog.h"
 #include "ui/desktop/panels/host_dialog.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
@@ -35,7 +36,13 @@ std::string file_name_of(const std::string& title) {
   return (name.empty() ? "scene" : name) + ".json";
 }
 
-// Where the chooser begins: at the file itself, or at a name for a new one, never among the shipped scenes.
+void tell_saved(Workbench& editor, const std::string& what) {
+  editor.notify(NoticeKind::told, "Saved " + what + ".");
+  if (const std::string& note = editor.document->save_note(); !note.empty()) editor.notify(NoticeKind::warning, note);
+}
+
+}  // namespace
+
 std::string place_to_save(const Workbench& editor) {
   const Document& document = *editor.document;
   if (!document.path().empty()) return document.path();
@@ -48,14 +55,8 @@ std::string place_to_save(const Workbench& editor) {
   return (is_free || home == nullptr ? here / name : std::filesystem::path(home) / name).string();
 }
 
-void tell_saved(Workbench& editor, const std::string& what) {
-  editor.notify(NoticeKind::told, "Saved " + what + ".");
-  if (const std::string& note = editor.document->save_note(); !note.empty()) editor.notify(NoticeKind::warning, note);
-}
-
-}  // namespace
-
-Dialogs::Dialogs(Workbench& editor) : editor_(&editor), host_(std::make_unique<HostDialog>(editor)) {}
+Dialogs::Dialogs(Workbench& editor)
+    : editor_(&editor), host_(std::make_unique<HostDialog>(editor)), export_(std::make_unique<ExportDialog>(editor)) {}
 Dialogs::~Dialogs() = default;
 
 void Dialogs::show(Kind kind) {
@@ -78,7 +79,9 @@ bool Dialogs::begin(const char* title, float width, float height) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   bool stays = true;
   if (ImGui::BeginPopupModal(title, &stays, ImGuiWindowFlags_NoSavedSettings)) {
-    const bool is_escaped = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    // Who types into a field leaves the field by Esc.
+    const bool is_typing = !memory_of(*editor_).typing.key.empty();
+    const bool is_escaped = !chooser_.is_open() && !is_typing && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (stays && !is_escaped) return true;
     then_ = nullptr;
     close();
@@ -121,10 +124,11 @@ void Dialogs::draw() {
   else if (kind_ == Kind::join) draw_join();
   else if (kind_ == Kind::host) draw_host();
   else if (kind_ == Kind::leave) draw_leave();
+  else if (kind_ == Kind::exporting) draw_export();
   std::erase_if(ending_, [](const std::unique_ptr<ImportTask>& task) { return task->is_done(); });
   // What one dialog has opened in its place comes in the next frame, and is fresh then.
   if (kind_ == drawn) is_fresh_ = false;
-  if (kind_ == Kind::fresh || kind_ == Kind::import || kind_ == Kind::join || kind_ == Kind::host)
+  if (kind_ == Kind::fresh || kind_ == Kind::import || kind_ == Kind::join || kind_ == Kind::host || kind_ == Kind::exporting)
     return;  // their choosers are drawn inside them
   if (const auto path = chooser_.draw(*editor_)) {
     const auto chosen = chosen_;  // may open the chooser for something else

@@ -13,8 +13,12 @@
 
 namespace bl::desktop {
 
+class ExportDialog;
 class HostDialog;
 class ImportTask;
+
+/// Where a file of the open scene would be saved: its own file, or a name for a new one, never among the shipped scenes.
+std::string place_to_save(const Workbench& editor);
 
 class Dialogs {
  public:
@@ -36,6 +40,9 @@ class Dialogs {
   /// A scene to open, from inside another dialog.
   void choose_scene();
   void ask_save_as(std::function<void()> then = {});
+  /// The proposal as it is shown, in the formats of other programs.
+  void show_export();
+  ExportDialog& exports() { return *export_; }
   void ask_report();
   void ask_log();
   void ask_import_report();
@@ -61,7 +68,7 @@ class Dialogs {
   bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
-  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import, join, host, leave };
+  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import, join, host, leave, exporting };
   enum class Recovered { nothing, in_part, all };
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
@@ -90,6 +97,7 @@ class Dialogs {
   void begin_import();
   bool take_import(making::ImportedScene& imported);
   bool prepare_scene_for_import();
+  void draw_export();  // export_dialog.cpp
 
   Workbench* editor_;
   Kind kind_ = Kind::none;
@@ -105,6 +113,7 @@ class Dialogs {
   std::vector<host::Journal::UnsavedJournal> remains_;
   making::ImportOptions import_;
   std::unique_ptr<HostDialog> host_;
+  std::unique_ptr<ExportDialog> export_;
   double end_asked_at_ = -1;  ///< when the room was asked to end [s]; below 0: it was not
   void stop_import();
   std::unique_ptr<ImportTask> import_task_;

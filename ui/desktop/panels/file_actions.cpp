@@ -48,7 +48,8 @@ void add_file_actions(std::vector<Action>& list) {
   file("Save", {GLFW_KEY_S, true}, has_document, [](Workbench& e) { e.dialogs->save(); });
   file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Workbench& e) { e.dialogs->ask_save_as(); });
   file("Back to the saved scene", {}, has_file, back_to_saved);
-  file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Workbench& e) { e.dialogs->ask_report(); });
+  file("Export ...", {GLFW_KEY_E, true}, has_document, [](Workbench& e) { e.dialogs->show_export(); });
+  file("Write the report ...", {GLFW_KEY_E, true, true}, has_document, [](Workbench& e) { e.dialogs->ask_report(); });
   file("Write the import report ...", {}, has_imports, [](Workbench& e) { e.dialogs->ask_import_report(); });
   file("Save the log for replay ...", {}, has_log, [](Workbench& e) { e.dialogs->ask_log(); });
   file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Workbench& e) { e.wants_picture = true; });

@@ -13,13 +13,13 @@ namespace bl::desktop {
 namespace {
 
 // A row changes its band when it is this far beyond the edge, in powers of two.
-constexpr double kMargin = 0.35;
+constexpr double kBandMargin = 0.35;
 
 int band_of(double severity, const int* before) {
   const double exact = std::log2(severity / reading::kMinorSeverity);
   const int band = static_cast<int>(std::floor(exact));
   if (before == nullptr) return band;
-  return exact > *before - kMargin && exact < *before + 1 + kMargin ? *before : band;
+  return exact > *before - kBandMargin && exact < *before + 1 + kBandMargin ? *before : band;
 }
 
 std::string number_word(std::size_t count) {

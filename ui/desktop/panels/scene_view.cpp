@@ -88,6 +88,8 @@ void SceneView::draw_overlay() {
   draw_dots();
   draw_others();
   draw_gizmo();
+  draw_reshape();
+  draw_dimensions();
   draw_scale_and_north();
   draw_legends(editor_->is_beamer);
   if (drag_ == Drag::box) {
@@ -105,17 +107,22 @@ void SceneView::draw_overlay() {
   draw_sun_strip();
   draw_draft_banner();
   ImGui::GetWindowDrawList()->PopClipRect();
-  if (editor_->is_beamer) draw_title();
-  else draw_tools();
+  storey_slider_ = {};
+  if (editor_->is_beamer) return draw_title();
+  draw_storey_slider();
+  draw_tools();
 }
 
 void SceneView::forget() {
   document_ = 0;
-  all_facts_ = facts_ = nullptr;
+  all_facts_ = whole_ = facts_ = nullptr;
+  drawn_ = {};
+  storeys_shown_ = storeys_in_all_ = 0;
   still_facts_ = nullptr;
   colours_ = {};
   pictures_ = {};
   move_.reset();
+  reshape_.reset();
   preview_.reset();
   is_sun_running_ = false;
   shade_.clear();
@@ -144,8 +151,10 @@ void SceneView::follow_state() {
   if (!all_facts_->awaited.empty()) editor_->go_on();
   if (const auto& hidden = hidden_.of(*editor_); is_another || hidden != left_out_) {
     left_out_ = hidden;
-    facts_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);
+    whole_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);
+    storeys_in_all_ = storeys_in(*whole_);
   }
+  follow_look();
   if (wanted_box_ && !wants_fit_) {
     const auto [low, high] = *wanted_box_;
     wanted_box_.reset();

@@ -12,6 +12,7 @@
 #include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/panels/workbench.h"
 #include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/drawn_form.h"
 #include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/renderer.h"
 #include "ui/desktop/view/scene_facts.h"
@@ -67,6 +68,20 @@ class SceneView {
   void begin_move_by_key();
   void colour_by(const std::string& choice) { editor_->person.colour_by = choice; }
 
+  // --- In which form volumes are drawn, and how many storeys from the ground up.
+  DrawnLook drawn_look() const { return {form_of(editor_->person.drawn_as).form, storeys_shown_}; }
+  void draw_as(const std::string& form) { editor_->person.drawn_as = form; }
+  /// 0, or as many as there are: all.
+  void show_storeys(int count);
+  /// So many more or fewer than are shown now.
+  void step_storeys(int by);
+  /// The number of storeys from the ground up that show everything.
+  int storeys_in_all() const { return storeys_in_all_; }
+  /// Where the slider of storeys was drawn in the last frame [pixels]; no size where there is none.
+  ImVec4 storey_slider() const { return storey_slider_; }
+  /// Lengths that were written into the plan in the last frame, in the order of the sides [m].
+  const std::vector<double>& dimensions() const { return dimensions_; }
+
   // --- The sun of another moment, for the eye alone: the scene stays as it is.
   bool has_sun() const { return facts_ && !facts_->urban.suns.empty(); }
   const std::optional<SunClock>& preview() const { return preview_; }
@@ -90,7 +105,11 @@ class SceneView {
   const ViewSection& section() const { return choices_.section; }
   const std::string& colour_choice() const { return editor_->person.colour_by; }
   bool is_walking() const { return is_walking_; }
-  bool is_moving() const { return move_.has_value(); }
+  bool is_moving() const { return move_.has_value() || reshape_.has_value(); }
+  /// What a hand can change of the form of the chosen standing volume.
+  enum class Handle { angle, aspect, storeys };
+  /// Where its handles stand in the window [pixels]; only those that can be taken hold of.
+  std::vector<std::pair<Handle, ImVec2>> handles() const;
   /// Where the mouse is in the scene; nothing where it is elsewhere.
   std::optional<Point3> cursor() const;
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.
@@ -117,6 +136,17 @@ class SceneView {
     std::map<std::string, Point3> starts;
     std::int64_t gesture = 0;
     std::string typed;
+  };
+  // What a hand does with the form of a standing volume.
+  struct Reshape {
+    Handle handle = Handle::angle;
+    std::string node;
+    Point3 centre;
+    double start = 0, value = 0;  ///< of the port
+    double grip = 0;              ///< where the hand took hold: an angle [degree], a distance or a height [m]
+    double turned = 0;            ///< how far the hand has come around since then [degree]
+    double storey_height = 3;     ///< [m]
+    std::int64_t gesture = 0;
   };
   enum class Drag { none, pressed, orbit, pan, zoom, box };
 
@@ -154,6 +184,27 @@ class SceneView {
   void end_move(bool is_kept);
   void draw_gizmo();
   void draw_typed();
+  void draw_beside_hand(const std::string& text, const std::string& hint);
+
+  // scene_view_reshape.cpp
+  struct HandlePlace {
+    Handle handle = Handle::angle;
+    Point3 at, foot;  ///< of its sign; where its line begins [m]
+    std::string node;
+  };
+  std::vector<HandlePlace> handle_places() const;
+  std::optional<HandlePlace> reshape_at(ImVec2 mouse) const;
+  void begin_reshape(const HandlePlace& place);
+  std::optional<double> hand_on(const Reshape& reshape) const;
+  void go_on_reshaping();
+  void end_reshape(bool is_kept);
+  void draw_reshape();
+
+  // scene_view_storeys.cpp
+  void follow_look();
+  void draw_storey_slider();
+  void draw_dimensions();
+  void draw_forms_popup();
 
   // scene_view_overlay.cpp
   void draw_marks();
@@ -213,6 +264,11 @@ class SceneView {
   Renderer* renderer_;
   ViewChoices choices_;
   std::shared_ptr<const SceneFacts> all_facts_, facts_;  ///< of the state; of those nodes that are not hidden
+  std::shared_ptr<const SceneFacts> whole_;              ///< as `facts_`, with the shapes of the state
+  DrawnShapes drawn_;
+  int storeys_shown_ = 0, storeys_in_all_ = 0;  ///< 0: all
+  ImVec4 storey_slider_{};
+  std::vector<double> dimensions_;
   HiddenNodes hidden_;
   std::set<std::string> left_out_;  ///< of `facts_`
   ColourMemo colours_;
@@ -245,6 +301,7 @@ class SceneView {
   ImVec2 shown_for_{-1, -1};
   std::string clicked_node_, clicked_link_;  ///< of the press that may become a click
   std::optional<Move> move_;
+  std::optional<Reshape> reshape_;
   int hot_handle_ = -1;
   std::optional<std::pair<Point3, Point3>> wanted_box_;  ///< to be brought into sight once its nodes are known
   std::optional<Pin> pin_;

@@ -37,6 +37,14 @@ struct CardWriter {
   }
 };
 
+// What a shape measures that is drawn in place of the volume's own. A ball has its volume and no floors.
+void add_drawn_row(CardWriter& card, const Colours& c, const VolumeFacts& volume, DrawnForm form) {
+  if (!volume.is_drawn_otherwise || form == DrawnForm::balls) return;
+  if (form == DrawnForm::cells)
+    card.row(c.text_soft, c.text, "Cell, as drawn", reading::quantity(volume.drawn_volume, Unit::cubic_metre));
+  else card.row(c.text_soft, c.text, "Floors, as drawn", reading::quantity(volume.drawn_area, Unit::square_metre));
+}
+
 const char* start_text(bool is_playing) {
   return is_playing ? "The first tick is under way." : "Nothing has run yet: press P to run.";
 }
@@ -85,7 +93,7 @@ const VolumeFacts* SceneView::nearest_volume() const {
 }
 
 void SceneView::draw_card() {
-  if (!shows("card") || !is_hovered_ || drag_ != Drag::none || move_ || is_walking_ || hot_handle_ >= 0) return;
+  if (!shows("card") || !is_hovered_ || drag_ != Drag::none || is_moving() || is_walking_ || hot_handle_ >= 0) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
@@ -120,6 +128,7 @@ void SceneView::draw_card() {
     card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
              volume.asked > 0 ? reading::signed_percent(standing_share) : "asks for nothing");
     card.row(c.text_soft, c.text, "Floor area", reading::quantity(volume.floor_area, Unit::square_metre));
+    add_drawn_row(card, c, volume, drawn_look().form);
     if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, start_text(editor_->moment->is_playing), 1);
     else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
       card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);

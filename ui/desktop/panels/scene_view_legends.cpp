@@ -28,11 +28,14 @@ std::size_t rows_in(const Legend& legend, float room, float line) {
 
 }  // namespace
 
-// The one that somebody has asked for first, then what the volumes' colours say; last what comes and goes with the mouse, so that
-// it moves no other.
+// The one that somebody has asked for first, then what is drawn where that is not the scene as it is, then what the volumes'
+// colours say; last what comes and goes with the mouse, so that it moves no other.
 std::vector<Legend> SceneView::legends() const {
   std::vector<Legend> all = urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
   all.insert(all.begin(), colours_.last().legend);
+  // Colours stand for figures of the scene, also where other shapes are drawn.
+  if (!drawn_.legend().title.empty() && !all.front().ramp.empty()) all.front().title += " (figures of the scene)";
+  all.insert(all.begin(), drawn_.legend());
   if (width() < editor_->theme.px(kNarrow)) all.push_back(isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
   std::erase_if(all, [](const Legend& legend) { return legend.rows.empty() && legend.ramp.empty(); });
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Legend& l) { return l.title == wanted_legend_; });

@@ -97,10 +97,8 @@ void SceneView::walk_about() {
 
 void SceneView::take_keys() {
   if (is_walking_ && editor_->area == Area::view) walk_about();
-  if (move_) {
-    hold_keys();
-    if (move_->is_by_key) take_typed();
-  }
+  if (move_ || reshape_) hold_keys();
+  if (move_ && move_->is_by_key) take_typed();
 }
 
 void SceneView::take_mouse() {
@@ -108,13 +106,14 @@ void SceneView::take_mouse() {
   if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::zoom) {
     if (ImGui::IsMouseDown(drag_button_)) navigate(ImGui::GetIO().MouseDelta);  // none while the pointer is nowhere
     else drag_ = Drag::none;
-  } else if (is_hovered_ && drag_ == Drag::none && !(move_ && !move_->is_by_key)) {
+  } else if (is_hovered_ && drag_ == Drag::none && !reshape_ && !(move_ && !move_->is_by_key)) {
     const Drag begun = drag_of_preset(drag_button_);
     const bool ends_move = move_ && begun != Drag::none && drag_button_ == ImGuiMouseButton_Right;
     if (ends_move) end_move(false);
     else if (begun != Drag::none) drag_ = begun;
   }
   if (move_) return go_on_moving();
+  if (reshape_) return go_on_reshaping();
   take_left_button();
   point_at();
 }
@@ -126,12 +125,14 @@ void SceneView::take_left_button() {
     // Two dots may be set fast.
     if (ImGui::IsMouseDoubleClicked(0) && !is_placing()) return click(true);
     // With Shift or Ctrl people choose; while a hand already moves things, they make it fine or snap.
-    const int handle = io.KeyShift || io.KeyCtrl || is_placing() ? -1 : handle_at(io.MousePos);
+    const bool takes_hold = !io.KeyShift && !io.KeyCtrl && !is_placing();
+    if (const auto place = takes_hold ? reshape_at(io.MousePos) : std::nullopt) return begin_reshape(*place);
+    const int handle = takes_hold ? handle_at(io.MousePos) : -1;
     if (handle >= 0) return begin_move(handle, false);
     drag_ = Drag::pressed;
     pressed_at_ = io.MousePos;
     note_pressed();
-    pressed_on_ = io.KeyShift || io.KeyCtrl || is_placing() ? "" : clicked_node_;
+    pressed_on_ = takes_hold ? clicked_node_ : "";
     return;
   }
   if (drag_ == Drag::pressed) {

@@ -82,7 +82,7 @@ std::vector<std::string> SceneView::movable(bool tells) {
 
 // Where a move takes hold. What is locked has a gizmo too, so that a hand that tries it is told.
 std::optional<Point3> SceneView::gizmo_centre() {
-  if (editor_->is_beamer || is_walking_) return {};
+  if (editor_->is_beamer || is_walking_ || reshape_) return {};
   if (move_) return move_->anchor + move_->shift;
   std::vector<std::string> ids = movable(false);
   if (ids.empty()) ids = placed(false);
@@ -268,8 +268,6 @@ void SceneView::draw_gizmo() {
 // Beside the hand: how far it has come, or what is being typed.
 void SceneView::draw_typed() {
   if (!move_) return;
-  const Theme& theme = editor_->theme;
-  const Colours& c = theme.colours();
   const Vector3& s = move_->shift;
   const auto metres = [](double x) { return fixed(x, 2) + " m"; };
   std::string text;
@@ -283,6 +281,12 @@ void SceneView::draw_typed() {
   const std::string hint = move_->is_by_key
                                ? "X Y Z: axis   number: exactly   Shift: fine   Ctrl: whole metres   Enter: done   Esc: back"
                                : "Shift: fine   Ctrl: whole metres   Esc: back";
+  draw_beside_hand(text, hint);
+}
+
+void SceneView::draw_beside_hand(const std::string& text, const std::string& hint) {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const ImVec2 extent = theme.fonts().strong->CalcTextSizeA(theme.fonts().strong->FontSize, 1e4f, 0, text.c_str());

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/reading/figures.h"
+#include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/stream_text.h"
 
@@ -110,7 +111,10 @@ Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   if (volume == nullptr || !volume->cell) return middle;
   const Point3 p = volume->figures.position;
   const double top = volume->figures.height > 0 ? volume->figures.bottom + 0.93 * volume->figures.height : p.z;
-  for (const Seen& at : {middle, seen({p.x, p.y, top})}) {
+  // Of a volume that is cut, or drawn as another shape, the middle of what is seen.
+  const Seen shown = volume->is_drawn_otherwise ? seen(volume->cell->wrap->ball_centre) : middle;
+  const Seen low = seen({p.x, p.y, volume->figures.bottom + 0.4 * volume->figures.storey_height});
+  for (const Seen& at : {shown, middle, seen({p.x, p.y, top}), low}) {
     const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section, shows("buildings"));
     if (front && front->node == node) return at;
   }
@@ -273,6 +277,11 @@ void SceneView::draw_tools() {
   for (const ColourChoice& choice : known)
     if (choice.id == colour_choice()) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
+  note_place(*editor_, "view/colours");
+  ImGui::SameLine(0, theme.px(6));
+  if (ImGui::Button((std::string("Drawn: ") + form_of(editor_->person.drawn_as).label + "##forms").c_str()))
+    ImGui::OpenPopup("forms");
+  note_place(*editor_, "view/forms");
   hidden_note_ = {};
   if (const std::string hidden = hidden_.text(*editor_); !hidden.empty()) {
     ImGui::SameLine(0, theme.px(6));
@@ -289,6 +298,7 @@ void SceneView::draw_tools() {
     draw_layers_popup();
     ImGui::EndPopup();
   }
+  draw_forms_popup();
   ImGui::SetNextWindowSizeConstraints({theme.px(240), 0}, {theme.px(420), theme.px(420)});
   if (ImGui::BeginPopup("colours")) {
     for (std::size_t k = 0; k < known.size(); ++k) {

@@ -165,6 +165,38 @@ void add_scale(std::vector<Action>& list, const char* label) {
   list.back().submenu = "Scale";
 }
 
+template <std::size_t index>
+void add_forms(std::vector<Action>& list) {
+  static const std::string label = std::string("Draw as: ") + form_choices()[index].label;
+  list.push_back({"View",
+                  label.c_str(),
+                  {},
+                  {},
+                  Area::none,
+                  has_document,
+                  [](Workbench& e) { e.person.drawn_as = form_choices()[index].id; },
+                  false,
+                  [](const Workbench& e) { return &form_of(e.person.drawn_as) == &form_choices()[index]; }});
+  list.back().submenu = "Forms and storeys";
+  if constexpr (index + 1 < kFormCount) add_forms<index + 1>(list);
+}
+
+bool has_storeys(const Workbench& e) { return has_document(e) && e.view != nullptr && e.view->storeys_in_all() > 1; }
+
+void add_storeys(std::vector<Action>& list) {
+  const auto add = [&](const char* label, Chord chord, void (*run)(Workbench&), bool repeats) {
+    list.push_back({"View", label, chord, {}, Area::view, has_storeys, run, repeats});
+    list.back().submenu = "Forms and storeys";
+  };
+  add(
+      "Storeys: one more", {GLFW_KEY_PAGE_UP}, [](Workbench& e) { e.view->step_storeys(1); }, true);
+  list.back().begins_group = true;
+  add(
+      "Storeys: one fewer", {GLFW_KEY_PAGE_DOWN}, [](Workbench& e) { e.view->step_storeys(-1); }, true);
+  add(
+      "Storeys: all", {GLFW_KEY_PAGE_UP, false, true}, [](Workbench& e) { e.view->show_storeys(0); }, false);
+}
+
 constexpr const char *kRhino = "rhino", *kBlender = "blender", *kSketchUp = "sketchup", *kPolyscope = "polyscope";
 
 template <const char* const& habit>
@@ -255,6 +287,8 @@ void add_view_actions(std::vector<Action>& list) {
   add_camera_actions(list);
   add_sun_actions(list);
   add_hiding(list);
+  add_forms<0>(list);
+  add_storeys(list);
   add_layer_actions<0>(list);
   add_kept_view<1>(list);
 }

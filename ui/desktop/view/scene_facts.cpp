@@ -375,6 +375,13 @@ std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint3
                               end == held.end() ? street.line.back() : end->second);
 }
 
+std::shared_ptr<const SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes) {
+  auto other = std::make_shared<SceneFacts>(facts);
+  make_columns(*other, volumes);
+  other->volumes = published(VolumeList::Draft(std::move(volumes)));
+  return other;
+}
+
 MeshPointer ball_cell(const Point3& centre, double radius) {
   Mesh mesh;
   for (int k = 0; k < 8; ++k) {

@@ -27,7 +27,10 @@ struct VolumeFacts : reading::Account {
   MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
   bool is_ball = false;  ///< the shape is not known, only its radius
   bool is_dressed = false;
-  ViewFacade facade;  ///< where it is dressed
+  ViewFacade facade;                        ///< where it is dressed
+  bool is_drawn_otherwise = false;          ///< `cell` is another shape than that of the state (see drawn_form.h)
+  bool is_edgeless = false;                 ///< it is round, though its shape has facets
+  double drawn_volume = 0, drawn_area = 0;  ///< what that shape measures [m³], and its floors [m²]
 };
 
 /// A node without a volume, as a small mark.
@@ -79,8 +82,8 @@ struct SceneFacts {
   /// Volumes whose shape this picture did without, ascending: they show the one before, or a ball. Whoever draws reads on until
   /// there are none.
   std::vector<std::uint32_t> awaited;
-  std::uint32_t next_shape = 0;  ///< the node whose shape is made first then
-  double tolerance = 0;   ///< share of what was asked for below which nobody is short
+  std::uint32_t next_shape = 0;                          ///< the node whose shape is made first then
+  double tolerance = 0;                                  ///< share of what was asked for below which nobody is short
   std::shared_ptr<const reading::BriefTargets> targets;  ///< of the plan, and what programmes ask for: what accounts go by
   reading::Brief brief;
   std::vector<MarkFacts> marks;
@@ -113,6 +116,9 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state,
 
 /// The same without some nodes: their volumes, marks, boundaries, and whatever is drawn of their links.
 std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden);
+
+/// The same with other shapes of its volumes, in ascending node; those that are left out are not drawn.
+std::shared_ptr<const SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes);
 
 /// The line of a street; where somebody has one of its junctions in the hand, the one that it will have.
 std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint32_t, Point3>& held);

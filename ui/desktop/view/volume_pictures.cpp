@@ -31,6 +31,7 @@ ViewVolume VolumePictures::picture_of(const Look& look, std::size_t row) const {
   shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.figures.storey_height);
   if (volume.id == marks_.hovered || marks_.joined.contains(volume.node)) shown.flags |= ViewVolume::hovered;
   if (marks_.chosen.contains(volume.id)) shown.flags |= ViewVolume::chosen;
+  if (volume.is_edgeless) shown.flags |= ViewVolume::plain;
   if (volume.is_ball) shown.flags |= ViewVolume::dimmed;
   if (!volume.is_dressed || volume.is_ball || !look.has_facades) return shown;
   shown.flags |= ViewVolume::dressed;

@@ -1,0 +1,112 @@
+// An existing file of another kind is somebody's work, and is not replaced.
+#include "core/export/write_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "core/file/file_io.h"
+
+namespace bl::exporting {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> may_replace(const std::string& path, const FormatDefinition& format) {
+  // Devices and pipes take what they are given.
+  if (std::error_code none; !fs::is_regular_file(path, none)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(256, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  if (begin.empty()) return {};
+  for (const std::string& known : format.beginnings)
+    if (begin.starts_with(known)) return {};
+  return Error{ErrorCode::conflict, path,
+               "exists already and was not exported as " + format.id + "; choose another name, or remove it first"};
+}
+
+}  // namespace
+
+bool means_folder(const std::string& out) {
+  std::error_code none;
+  return out.ends_with('/') || fs::is_directory(out, none);
+}
+
+Result<void> may_write_order(const Order& order) {
+  const fs::path path(order.out), folder = path.parent_path();
+  std::error_code none;
+  if (order.is_folder) {
+    // The name without its stroke at the end: a file has none.
+    const fs::path plain = path.has_filename() ? path : folder;
+    if (fs::exists(plain, none) && !fs::is_directory(plain, none))
+      return Error{ErrorCode::io, order.out, "is a file, not a folder; choose another name"};
+    return {};
+  }
+  if (!folder.empty() && !fs::is_directory(folder, none))
+    return Error{ErrorCode::io, order.out, "cannot be written: there is no folder " + folder.string()};
+  if (auto may = may_replace(order.out, *order.format); !may) return may.error();
+  return may_write_file(order.out);
+}
+
+namespace {
+
+std::string shell_of(const FormatDefinition& format, const std::string& page_folder) {
+  if (format.shell.empty() || page_folder.empty()) return "";
+  const auto text = read_file((fs::path(page_folder) / format.shell).string());
+  return text ? *text : "";
+}
+
+}  // namespace
+
+Result<Products> make_products(std::span<const Order> orders, Proposal proposal, const std::string& page_folder) {
+  Products products;
+  std::map<std::string, std::string> taken;
+  for (const Order& order : orders) {
+    proposal.shell = shell_of(*order.format, page_folder);
+    auto made = order.format->write(proposal, order.options, order.is_folder);
+    if (!made) return made.error().within(order.format->id);
+    for (const std::string& note : made->notes) products.notes.push_back(order.format->id + ": " + note);
+    for (ExportFile& file : made->files) {
+      const std::string path = order.is_folder ? (fs::path(order.out) / file.name).string() : order.out;
+      std::error_code none;
+      if (!taken.emplace(fs::weakly_canonical(fs::absolute(path), none).string(), order.format->id).second)
+        return Error{ErrorCode::conflict, path, "would be written twice in this call; choose another name or folder"};
+      if (auto may = may_replace(path, *order.format); !may && order.is_folder && path.ends_with(order.format->ending))
+        return may.error();
+      products.files.push_back({path, std::move(file.content)});
+    }
+  }
+  return products;
+}
+
+std::vector<std::string> replaced_by(const Products& products) {
+  std::vector<std::string> paths;
+  for (const Product& product : products.files)
+    if (std::error_code none; fs::is_regular_file(product.path, none)) paths.push_back(product.path);
+  return paths;
+}
+
+Result<void> make_folders(std::span<const Order> orders) {
+  for (const Order& order : orders) {
+    if (!order.is_folder) continue;
+    std::error_code code;
+    fs::create_directories(order.out, code);
+    if (std::error_code ignored; fs::is_directory(order.out, ignored)) continue;
+    return Error{ErrorCode::io, order.out,
+                 "the folder cannot be made (" + (code ? code.message() : "a file of that name is there") + ")"};
+  }
+  return {};
+}
+
+Result<void> write_products(const Products& products, std::vector<std::string>& written) {
+  for (const Product& product : products.files) {
+    if (auto done = write_file(product.path, product.content); !done) return done.error();
+    written.push_back(product.path);
+  }
+  return {};
+}
+
+}  // namespace bl::exporting

@@ -1,0 +1,49 @@
+// Which files an export makes and where, and how they come onto the disk: all are made before the first is written.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/export/format.h"
+
+namespace bl::exporting {
+
+/// A format, and the file or folder that it goes to.
+struct Order {
+  const FormatDefinition* format = nullptr;
+  std::string out;
+  bool is_folder = false;
+  std::vector<Value> options;  ///< one for each of the format's, in order
+};
+
+/// One file with all of its bytes.
+struct Product {
+  std::string path, content;
+};
+
+struct Products {
+  std::vector<Product> files;
+  std::vector<std::string> notes;  ///< with their formats: what these cannot hold or had to change
+};
+
+/// Is it a folder that is there, or a name that ends like one?
+bool means_folder(const std::string& out);
+
+/// What can be known before the work: is there a folder for the file, can the file be written, and is it no work of somebody?
+Result<void> may_write_order(const Order& order);
+
+/// All files of all orders. Where one is refused, none is made. The places of errors are paths or formats.
+/// `page_folder`: where the built page is that some formats are made of; empty where there is none, which the format says.
+Result<Products> make_products(std::span<const Order> orders, Proposal proposal, const std::string& page_folder);
+
+/// The paths of those that are on the disk already, which writing replaces.
+std::vector<std::string> replaced_by(const Products& products);
+
+/// Makes the folders of orders that name one.
+Result<void> make_folders(std::span<const Order> orders);
+
+/// Writes each file whole or not at all. `written` gets the paths of those that were, also where a later one fails.
+Result<void> write_products(const Products& products, std::vector<std::string>& written);
+
+}  // namespace bl::exporting

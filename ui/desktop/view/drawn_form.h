@@ -1,0 +1,72 @@
+// In which form volumes are drawn, and up to which storey: facts of a state with other shapes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/geometry/plates.h"
+#include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/scene_facts.h"
+
+namespace bl::desktop {
+
+enum class DrawnForm : std::uint8_t { as_is, balls, cells, slabs };
+
+struct FormChoice {
+  DrawnForm form = DrawnForm::as_is;
+  const char *id, *label, *doc;
+};
+inline constexpr std::size_t kFormCount = 4;
+/// All forms, in the order of menus; the first is that of a new window.
+std::span<const FormChoice> form_choices();
+/// By its id; the first where there is none of that id.
+const FormChoice& form_of(const std::string& id);
+
+struct DrawnLook {
+  DrawnForm form = DrawnForm::as_is;
+  int storeys = 0;  ///< how many from the ground up are drawn; 0: all
+  bool is_plain() const { return form == DrawnForm::as_is && storeys == 0; }
+  bool operator==(const DrawnLook&) const = default;
+};
+
+/// How many storeys of the volume stand below its own lowest one, counted in its own storey height from the ground of the scene;
+/// below 0 where it begins under the ground.
+int storeys_below(const VolumeFacts& volume, double ground);
+/// The number of its storeys, at least 1; 0 where it has no height.
+int storeys_of(const VolumeFacts& volume);
+/// The number of storeys from the ground up that show all of every volume; 0 without volumes.
+int storeys_in(const SceneFacts& facts);
+
+class DrawnShapes {
+ public:
+  /// The facts with the shapes of that look, and without volumes of which it shows nothing. What has not changed keeps its shape.
+  std::shared_ptr<const SceneFacts> of(const std::shared_ptr<const SceneFacts>& facts, const DrawnLook& look);
+  /// What is drawn and what it measures, beside the figures of the scene; empty where volumes are drawn whole as they are.
+  const Legend& legend() const { return legend_; }
+
+ private:
+  struct Shape {
+    MeshPointer mesh, cell;  ///< what it was made from
+    Point3 position;
+    double bottom = 0, height = 0, storey_height = 0, volume = 0, weight = 0;
+    int storeys = 0;  ///< that are shown; 0: all
+    DrawnForm form = DrawnForm::as_is;
+    MeshPointer made;
+    bool is_edgeless = false;
+    double drawn_volume = 0, drawn_area = 0;
+    bool is_of_same(const Shape& other) const;
+  };
+  void fill_or_leave(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const;
+  void fill(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const;
+  void tell(const SceneFacts& all, const SceneFacts& drawn, const DrawnLook& look);
+
+  std::shared_ptr<const SceneFacts> from_, made_;
+  DrawnLook look_;
+  std::map<std::uint32_t, Shape> shapes_;  // by node
+  Legend legend_;
+};
+
+}  // namespace bl::desktop
