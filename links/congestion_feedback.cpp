@@ -26,7 +26,8 @@ struct CongestionFeedback {
     double demand = 0, demand_limit = 0, wanted = 0, volume = 0, served = 0, lost = 0;
     bool is_locked = false;
     double storey_height = 0;
-    std::optional<double> built, wished, least_storeys, height_limit;
+    std::optional<int> built, wished, least_storeys;
+    std::optional<double> height_limit;
   };
   struct Out {
     std::optional<double> demand_limit, height_limit;

@@ -29,7 +29,8 @@ struct PlotRules {
     All<double> demands, limits, wanted, volumes, bottoms, heights;
     All<bool> locked;
     All<double> storey_heights;
-    All<std::optional<double>> built, wished, least_storeys, height_limits;
+    All<std::optional<int>> built, wished, least_storeys;
+    All<std::optional<double>> height_limits;
     All<std::optional<bool>> heights_locked;
   };
   struct Out {

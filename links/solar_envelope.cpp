@@ -35,7 +35,8 @@ struct SolarEnvelope {
     std::string id;
     bool is_limit_locked = false, is_position_locked = false;
     double storey_height = 0;
-    std::optional<double> built, wished, least_storeys, height_limit;
+    std::optional<int> built, wished, least_storeys;
+    std::optional<double> height_limit;
     std::optional<Shared<Table>> plates;
     std::optional<bool> is_height_locked;
   };

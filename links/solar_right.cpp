@@ -32,7 +32,8 @@ struct SolarRight {
     All<Point3> positions;
     All<double> demands, limits, wanted, volumes, radii, bottoms;
     All<double> storey_heights;
-    All<std::optional<double>> built, wished, least_storeys, height_limits;
+    All<std::optional<int>> built, wished, least_storeys;
+    All<std::optional<double>> height_limits;
     All<bool> are_limits_locked, are_positions_locked;
     All<std::optional<bool>> are_heights_locked;
   };

@@ -22,7 +22,7 @@ struct Stack {
     Point3 from, to;
     double from_bottom = 0, from_height = 0, to_bottom = 0, to_height = 0;
     std::string id;
-    std::optional<double> from_storeys, to_storeys;
+    std::optional<int> from_storeys, to_storeys;
   };
   struct Out {
     Vector3 to;

@@ -14,7 +14,7 @@ constexpr double kWhole = 1e-9;  // a hair less than whole storeys is whole stor
 
 // Storeys that the limit in force leaves room for, and not more than one beyond those that stand: a limit far above has no
 // effect, and a rule begins where it has.
-double room_of(const StandingVolume& volume) { return std::min(volume.limit / volume.storey_height, volume.built + 1); }
+double room_of(const StandingVolume& volume) { return std::min(volume.limit / volume.storey_height, volume.built + 1.0); }
 
 std::optional<double> limit_for(const StandingVolume& volume, double storeys) {
   if (storeys >= volume.wished + kStoreyReturn) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<double> limit_for(const StandingVolume& volume, double storeys) {
 }  // namespace
 
 double least_storeys(const StandingVolume& volume, double share) {
-  return std::max({1.0, volume.least, std::ceil(share * volume.wished - kWhole)});
+  return std::max({1.0, static_cast<double>(volume.least), std::ceil(share * volume.wished - kWhole)});
 }
 
 bool is_at_least(const StandingVolume& volume, double share) {
@@ -58,7 +58,7 @@ std::optional<double> limit_at(const StandingVolume& volume, double height, doub
 }
 
 std::string storeys_left(const StandingVolume& volume, double limit) {
-  return shortest(volume.built) + " of " + shortest(volume.wished) + " storeys, because it may be no higher than " +
+  return std::to_string(volume.built) + " of " + std::to_string(volume.wished) + " storeys, because it may be no higher than " +
          fixed(limit, 2) + " m";
 }
 

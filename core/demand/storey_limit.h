@@ -14,11 +14,11 @@ inline constexpr double kStoreyReturn = 0.15;
 
 /// What a rule knows of a volume that stands.
 struct StandingVolume {
-  double built = 0, wished = 0;  ///< storeys
-  double least = 1;              ///< storeys that are insisted on
-  double storey_height = 3;      ///< [m]
-  double limit = 0;              ///< the height limit in force [m]
-  bool is_locked = false;        ///< people have locked that limit
+  int built = 0, wished = 0;  ///< storeys
+  int least = 1;              ///< storeys that are insisted on
+  double storey_height = 3;   ///< [m]
+  double limit = 0;           ///< the height limit in force [m]
+  bool is_locked = false;     ///< people have locked that limit
 };
 
 /// The storeys below which a rule does not go that leaves this share of them.

@@ -132,7 +132,7 @@ std::vector<StandingTick::Level> levels_of(std::span<const std::int32_t> bases, 
     const auto known =
         std::find_if(kept.begin(), kept.end(), [&](const auto& k) { return k.base == base && k.members == found->second; });
     if (known != kept.end()) levels.push_back(std::move(*known));
-    else levels.push_back({base, std::move(found->second), {}, {}});
+    else levels.push_back({base, std::move(found->second), {}, {}, nullptr, 0});
   };
   add(StandingWish::kGround);
   for (std::size_t k = 0; members.size() > levels.size() && k < levels.size(); ++k)
@@ -224,15 +224,19 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
 Result<void> StandingTick::run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                                     Outcome& outcome) const {
   const auto base = static_cast<std::size_t>(level.base);
-  auto roof = kept.results[base].body ? roof_of(*kept.results[base].body, ground.maximum.z)
-                                      : Result<Domain>(Error{ErrorCode::infeasible, "", "has no roof"});
-  const double bottom = kept.results[base].bottom + kept.results[base].height;
-  if (roof) {
-    level.domain = std::move(*roof);
-    auto done = run_level(ground, bottom, wishes, level, kept, outcome);
-    if (done) return done;
-    roof = done.error();
+  const std::shared_ptr<const StandingBody> below = kept.results[base].body;
+  Result<void> roof;
+  if (!level.below || level.below != below || level.top != ground.maximum.z) {
+    auto made = below ? roof_of(*below, ground.maximum.z) : Result<Domain>(Error{ErrorCode::infeasible, "", "has no roof"});
+    if (made) level.domain = std::move(*made);
+    else roof = made.error();
+    level.below = below;
+    level.top = ground.maximum.z;
   }
+  const double bottom = kept.results[base].bottom + kept.results[base].height;
+  if (roof) roof = run_level(ground, bottom, wishes, level, kept, outcome);
+  if (roof) return roof;
+  level.below = nullptr;
   outcome.on_roofs.push_back({level.base, roof.error().message});
   level.diagram = FootprintDiagram();
   for (const std::uint32_t i : level.members) {

@@ -69,7 +69,9 @@ struct StandingTick {
     std::int32_t base = StandingWish::kGround;
     std::vector<std::uint32_t> members;  ///< numbers of wishes, ascending
     FootprintDiagram diagram;
-    Domain domain;  ///< of a roof
+    Domain domain;                              ///< of a roof, up to the height `top`
+    std::shared_ptr<const StandingBody> below;  ///< whose roof `domain` is; nullptr where it has to be found
+    double top = 0;                             ///< [m]
   };
   struct Cache {
     std::vector<Level> levels;  ///< those on the ground first; each after that of its base

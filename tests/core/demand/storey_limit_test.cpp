@@ -10,14 +10,14 @@
 namespace bl::demand {
 namespace {
 
-StandingVolume tower(double built, double limit) { return {built, 8, 2, 3, limit, false}; }
+StandingVolume tower(int built, double limit) { return {built, 8, 2, 3, limit, false}; }
 
 // What a solver of standing volumes makes of it.
 void follow(StandingVolume& volume, std::optional<double> limit) {
   geometry::StandingWish wish;
   wish.site.storey_height = volume.storey_height;
-  wish.storeys = static_cast<int>(volume.wished);
-  wish.built = static_cast<int>(volume.built);
+  wish.storeys = volume.wished;
+  wish.built = volume.built;
   wish.was_limited = volume.built < volume.wished;
   wish.height_limit = volume.limit = limit.value_or(1e6);
   volume.built = geometry::storeys_of(wish, 1000).count;
@@ -71,7 +71,7 @@ TEST(StoreyLimit, AHeightThatTremblesTakesAStoreyOnce) {
   StandingVolume volume = tower(8, 1e6);
   int changes = 0;
   for (int tick = 0; tick < 60; ++tick) {
-    const double before = volume.built;
+    const int before = volume.built;
     follow(volume, limit_at(volume, 18 + 0.2 * std::sin(tick), 0.2));
     changes += volume.built != before ? 1 : 0;
   }
