@@ -238,7 +238,10 @@ void Dialogs::show_export() {
 }
 
 void Dialogs::draw_export() {
-  if (!begin("Export", 780, 580)) return;
+  if (!begin("Export", 780, 580)) {
+    if (memory_of(*editor_).typing.key.starts_with("export/")) memory_of(*editor_).typing = {};
+    return;
+  }
   // Who types into a field of an option leaves the field by Enter, not the dialog.
   const bool was_typing = !memory_of(*editor_).typing.key.empty();
   export_->draw();

@@ -10,7 +10,8 @@ namespace {
 // A field can go while a hand is on it, by an undo: what is shown must not stand still for it for ever.
 void forget_gone_fields(PanelMemory& memory) {
   const auto is_drawn = [&](const std::string& key) {
-    return memory.places_frame == ImGui::GetFrameCount() && memory.places.contains(key);
+    // Fields of dialogs are drawn after these; their dialogs forget them.
+    return key.starts_with("export/") || (memory.places_frame == ImGui::GetFrameCount() && memory.places.contains(key));
   };
   if (!memory.scrub.key.empty() && !is_drawn(memory.scrub.key) && !ImGui::IsMouseDown(0)) memory.scrub = {};
   if (!memory.typing.key.empty() && !is_drawn(memory.typing.key)) memory.typing = {};

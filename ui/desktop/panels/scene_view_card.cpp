@@ -98,9 +98,8 @@ void SceneView::draw_card() {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
   const VolumeFacts* nearest = nearest_volume();
-  if (nearest == nullptr) return;
   // What is chosen has its gizmo here, and all of its data in the inspector.
-  if (editor_->picks.nodes.contains(nearest->id) && !editor_->is_beamer) return;
+  if (nearest == nullptr || (editor_->picks.nodes.contains(nearest->id) && !editor_->is_beamer)) return;
   const VolumeFacts& volume = *nearest;
   const std::vector<std::string> pulls = pulls_on(volume.node);
   const double standing_share = volume.standing();

@@ -158,7 +158,7 @@ bool DrawnShapes::Shape::is_of_same(const Shape& o) const {
          storey_height == o.storey_height && volume == o.volume && weight == o.weight && storeys == o.storeys && form == o.form;
 }
 
-// A shape that cannot be made is left as it is.
+// A shape that cannot be made is left as it is; one of which the cut leaves nothing is none.
 void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const {
   shape.made = volume.cell;
   shape.drawn_volume = volume.volume;
@@ -203,7 +203,7 @@ void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape
     shape.drawn_area = measured.area;
     shape.drawn_volume = measured.volume;
   }
-  if (MeshPointer left = cut_cell(*shape.made, top, Kept::below)) shape.made = std::move(left);
+  shape.made = cut_cell(*shape.made, top, Kept::below);
 }
 
 // Where memory does not suffice for another shape, the volume keeps its own.
@@ -240,13 +240,17 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
     const auto before = shapes_.find(volume.node);
     if (before != shapes_.end() && before->second.is_of_same(shape)) shape = before->second;
     else fill_or_leave(*facts, volume, shape);
-    drawn.cell = shape.made;
-    drawn.drawn_volume = shape.drawn_volume;
-    drawn.drawn_area = shape.drawn_area;
-    drawn.is_edgeless = shape.is_edgeless;
-    drawn.is_drawn_otherwise = shape.made != volume.cell;
-    // Windows are those of the whole building, and storeys of a ball are no floors.
-    if (drawn.is_drawn_otherwise && look.form != DrawnForm::as_is) drawn.is_dressed = false;
+    if (!shape.made) {
+      volumes.pop_back();
+    } else {
+      drawn.cell = shape.made;
+      drawn.drawn_volume = shape.drawn_volume;
+      drawn.drawn_area = shape.drawn_area;
+      drawn.is_edgeless = shape.is_edgeless;
+      drawn.is_drawn_otherwise = shape.made != volume.cell;
+      // Windows are those of the whole building, and storeys of a ball are no floors.
+      if (drawn.is_drawn_otherwise && look.form != DrawnForm::as_is) drawn.is_dressed = false;
+    }
     shapes.emplace(volume.node, std::move(shape));
   }
   shapes_ = std::move(shapes);
