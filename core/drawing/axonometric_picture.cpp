@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 
 #include "core/base/text.h"
 #include "core/drawing/furniture.h"
@@ -69,11 +70,24 @@ std::vector<const reading::VolumeRow*> back_to_front(const reading::ReportModel&
     sum += dot(volume.figures.position, view.toward);
     count += 1;
   }
-  std::vector<std::pair<std::array<double, 3>, const reading::VolumeRow*>> order;
+  std::map<std::string_view, const reading::VolumeRow*> by_id;
+  for (const reading::VolumeRow& volume : model.volumes) by_id.emplace(volume.id, &volume);
+  // Whoever stands on a roof hides, and is hidden, where the building on the ground does; among themselves the lower comes first.
+  const auto on_ground = [&](const reading::VolumeRow* volume) {
+    for (std::size_t k = 0; k < by_id.size() && !volume->body.stacks.empty(); ++k) {
+      const auto base = by_id.find(volume->figures.stands_on);
+      if (base == by_id.end()) break;
+      volume = base->second;
+    }
+    return volume;
+  };
+  std::vector<std::pair<std::array<double, 4>, const reading::VolumeRow*>> order;
   for (const reading::VolumeRow& volume : model.volumes)
     if (volume.mesh) {
       const auto& [sum, count] = groups[volume.group];
-      order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.figures.position, view.toward)}, &volume});
+      const double place = dot(on_ground(&volume)->figures.position, view.toward);
+      const double level = volume.body.stacks.empty() ? 0 : volume.figures.bottom;
+      order.push_back({{sum / count, static_cast<double>(volume.group), place, level}, &volume});
     }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const reading::VolumeRow*> out;

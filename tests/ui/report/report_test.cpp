@@ -132,6 +132,20 @@ bool is_closed(const Mesh& mesh) {
   return !sides.empty();
 }
 
+// Whoever stands on a roof is drawn after it, or the roof would hide its foot.
+TEST(Report, WhatStandsOnARoofIsDrawnAfterIt) {
+  World world = World::from_text(*read_file(std::string(BL_SOURCE_DIR) + "/scenes/studies/tower_on_podium.json"));
+  world.tick(40);
+  const std::string html = write_and_read("podium", data_of(world.state())).html;
+  const std::size_t picture = html.find("<svg");
+  const auto place_of = [&](const std::string& name) { return html.find(". " + name + ",", picture); };
+  for (const auto& [below, above] : {std::pair{"Shops", "Flats"}, std::pair{"Podium", "Tower"}}) {
+    ASSERT_NE(place_of(below), std::string::npos) << below;
+    ASSERT_NE(place_of(above), std::string::npos) << above;
+    EXPECT_LT(place_of(below), place_of(above)) << above;
+  }
+}
+
 TEST(Report, HoldsEveryVolumeInAllThreeFiles) {
   World world = World::from_text(kBlock);
   world.tick(60);
