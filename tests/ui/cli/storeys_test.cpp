@@ -91,7 +91,8 @@ TEST(Storeys, RoofsThatAreNotThereAreNamed) {
                             "`lost` stands on the ground, because `nobody` is no volume of this solver",
                             "`alone` stands on the ground, because it would stand upon itself: change its `bases`"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words << "\n" << outcome.out;
-  for (const auto& found : place.json("run.json")["volumes"])
+  const nlohmann::json result = place.json("run.json");
+  for (const auto& found : result["volumes"])
     if (found["id"] != "tower") { EXPECT_NEAR(found["floor_area"].get<double>(), 300, 0.1) << found["id"]; }
 }
 
