@@ -50,15 +50,6 @@ class PlanMaker : SheetFrame {
   }
 
  private:
-  SheetPoint at(const Point3& p) const {
-    return {sheet_.window_low.x + millimetres() * (p.x - sheet_.origin.x),
-            sheet_.window_low.y + millimetres() * (sheet_.origin.y - p.y)};
-  }
-  std::vector<SheetPoint> line_of(const std::vector<Point3>& points) const {
-    std::vector<SheetPoint> line;
-    for (const Point3& p : points) line.push_back(at(p));
-    return line;
-  }
   SheetShape shape_of(const std::vector<geometry::PlateFace>& faces, const std::string& name) const {
     SheetShape shape;
     shape.name = name;

@@ -30,6 +30,17 @@ SheetFrame::SheetFrame(const Proposal& proposal, const SheetOptions& options) : 
   sheet_.window_high = {sheet_.width - kMargin, sheet_.height - kMargin - kTitleHeight};
 }
 
+SheetPoint SheetFrame::at(const Point3& p) const {
+  return {sheet_.window_low.x + millimetres() * (p.x - sheet_.origin.x),
+          sheet_.window_low.y + millimetres() * (sheet_.origin.y - p.y)};
+}
+
+std::vector<SheetPoint> SheetFrame::line_of(const std::vector<Point3>& points) const {
+  std::vector<SheetPoint> line;
+  for (const Point3& p : points) line.push_back(at(p));
+  return line;
+}
+
 Result<void> SheetFrame::choose_scale(double width, double height, double wanted, const char* what) {
   const double needed = std::max(1000 * width / (window_width() - 4 * kGap), 1000 * height / (window_height() - 4 * kGap));
   const auto fit = std::find_if(kScales.begin(), kScales.end(), [&](double scale) { return scale >= needed; });

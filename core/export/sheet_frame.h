@@ -21,6 +21,9 @@ class SheetFrame {
   double window_width() const { return sheet_.window_high.x - sheet_.window_low.x; }
   double window_height() const { return sheet_.window_high.y - sheet_.window_low.y; }
   double millimetres() const { return 1000 / sheet_.scale; }  // per metre
+  /// Where a point of the drawing [m] is on the sheet [mm], by its first two coordinates.
+  SheetPoint at(const Point3& p) const;
+  std::vector<SheetPoint> line_of(const std::vector<Point3>& points) const;
 
   /// For a drawing of this size [m]; `wanted`: n of 1:n, 0 for the largest usual one that fits. Fails where it does not fit.
   Result<void> choose_scale(double width, double height, double wanted, const char* what);
