@@ -220,7 +220,7 @@ class RoomGuest final : public host::Running {
   std::unique_ptr<Link> link_;
   // Of the present connection.
   bool is_open_ = false, is_welcome_ = false;
-  double began_at_ = 0, ping_at_ = 0, answer_at_ = 0, waits_for_pong_since_ = -1;
+  double began_at_ = 0, ping_at_ = 0, answer_at_ = 0, keeps_up_at_ = 0, waits_for_pong_since_ = -1;
   std::int64_t sent_to_ = 0;           // the last operation that has gone out
   double may_send_ = 0, sent_at_ = 0;  // how many more may, and when that was known
   // Of the room.

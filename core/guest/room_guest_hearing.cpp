@@ -20,6 +20,7 @@ namespace {
 // Why a server closes a connection for good: nothing would change with another attempt.
 constexpr int kBadFrame = 4400, kNoSeat = 4401, kRemoved = 4403, kReplaced = 4409;
 constexpr std::int64_t kTooFarBehind = 200;  // ticks: this machine is too slow for the room
+constexpr double kTooSlowFor = 5;            // [s]: one slow tick, or a long outage that is made up for, says nothing
 
 }  // namespace
 
@@ -91,9 +92,9 @@ void RoomGuest::say_hello() {
   hello.fingerprint = options_.self.fingerprint;
   hello.views = kViews;
   hello.unacked = outbox_.last_answered();
-  if (has_scene_ && !wants_resync_) {
+  if (has_scene_) {
     hello.have = fold_.seq();
-    hello.tick = follower_.tick();
+    hello.tick = wants_resync_ ? 0 : follower_.tick();
     hello.epoch = epoch_;
   }
   send(wire::write_message(hello));
@@ -160,7 +161,7 @@ void RoomGuest::hear_welcome(const wire::Welcome& welcome) {
   views_.clear();  // the first message of each has all of it
   ++views_revision_;
   attempts_ = 0;
-  ping_at_ = answer_at_ = began_at_ = options_.clock->now();
+  ping_at_ = answer_at_ = began_at_ = keeps_up_at_ = options_.clock->now();
   is_where_sent_ = where_text_.empty();
   outbox_.go_on_behind(welcome.done);
   sent_to_ = 0;
@@ -194,6 +195,10 @@ void RoomGuest::hear_snapshot(const wire::SnapshotOut& snapshot) {
   if (!reading.is_usable()) return finish("This program cannot read the room's scene: " + reading.first_error().text());
   if (auto begun = follower_.begin(reading.scene, reading.state ? &*reading.state : nullptr); !begun)
     notices_.push_back("The running state of the room cannot be shown: " + begun.error().text());
+  if (has_scene_ && snapshot.s > told_to_)
+    notices_.push_back("The list of steps lacks " + std::to_string(snapshot.s - told_to_) +
+                       " entries of the room that were missed. They are in the room's record.");
+  told_to_ = std::max(told_to_, snapshot.s);
   fold_.begin(std::move(reading.scene), snapshot.s);
   if (!std::exchange(has_scene_, true)) show_kept();
   wants_resync_ = false;
@@ -258,7 +263,9 @@ void RoomGuest::hear_tick(const wire::TickOut& mark) {
         .tick = mark.k, .why = "scene", .expected = mark.scene, .found = hex_digits(hash_of(fold_.confirmed())), .text = {}};
   }
   follower_.mark({mark.k, mark.h, mark.rest});
-  if (follower_.behind() <= kTooFarBehind || follower_.moment()->tick_seconds * people_.rate <= 0.9) return;
+  const double now = options_.clock->now();
+  if (follower_.behind() <= kTooFarBehind || follower_.moment()->tick_seconds * people_.rate <= 0.9) keeps_up_at_ = now;
+  if (now - keeps_up_at_ <= kTooSlowFor) return;
   mode_ = "values";
   notices_.push_back("This computer is too slow for the ticks of this room. It shows the server's values from now on.");
 }
@@ -359,6 +366,7 @@ void RoomGuest::resync(const std::string& why, const Difference& difference) {
   if (why == "hash" || why == "scene") ++differed_;
   wire::Resync message;
   message.k = difference.tick;
+  message.have = has_scene_ ? fold_.seq() : 0;
   message.expected = difference.expected;
   message.found = difference.found;
   message.why = why;

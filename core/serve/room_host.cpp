@@ -85,6 +85,7 @@ bool RoomHost::greet(const std::shared_ptr<Guest>& guest, const wire::Hello& hel
   visitor = {guest, seat, hello.run, hello.kind, known_views(hello.views)};
   visitor.is_window = hello.kind == "desktop" && !hello.fingerprint.empty();
   visitor.is_ticking = visitor.is_window && ticks_alike(hello);
+  visitor.has = hello.have;
   say([&](room::Now now) { room_->note_presence(seat, true, now); });
   const bool is_known = hello.epoch == 0 || hello.epoch == epoch();
   welcome(visitor, token, is_known ? hello.have : 0, is_known ? hello.tick : 0);
@@ -251,9 +252,11 @@ void RoomHost::tell(std::int64_t seq, const std::vector<Telling>& tellings,
                     const std::vector<std::shared_ptr<const std::string>>& entries) {
   --commits_under_way_;
   stored_seq_ = std::max(stored_seq_, seq);
-  for (const auto& frame : entries)
-    for (auto& [key, visitor] : visitors_)
-      if (visitor.is_window ? visitor.is_following : visitor.kind == "desktop") visitor.guest->send(frame);
+  for (auto& [key, visitor] : visitors_) {
+    if (visitor.is_window ? !visitor.is_following : visitor.kind != "desktop") continue;
+    for (const auto& frame : entries) visitor.guest->send(frame);
+    visitor.has = std::max(visitor.has, seq);
+  }
   tell_ticks();
   for (const Telling& telling : tellings) telling();
   show();

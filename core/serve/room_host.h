@@ -104,6 +104,7 @@ class RoomHost {
     bool is_window = false, is_ticking = false;  // a window of this program; its self-test gives what ours does
     bool is_following = false;                   // it has a scene, and gets what comes
     bool wants_snapshot = false;
+    std::int64_t has = 0;           // the last entry that it has said it has, or was sent
     double snapshot_at = -1;        // when it got the last one [s]
     bool is_welcome = false;        // nothing is shown before: pages take the first of each view after it for the whole
     std::size_t welcomed_with = 0;  // the scene or the entries that it missed may be more than what else may wait [bytes]
@@ -170,6 +171,8 @@ class RoomHost {
   static bool ticks_alike(const wire::Hello& hello);
   /// For whoever reads entries and computes no ticks: the scene before the first entry, or those that are missing.
   void begin_reader(Visitor& visitor, std::int64_t have);
+  /// Are the entries behind `seq` known, and few enough to be sent?
+  bool can_send_behind(std::int64_t seq) const;
   void send_entries(Visitor& visitor, std::int64_t after);
   void begin_window(Visitor& visitor, std::int64_t have, std::int64_t tick);
   void follow_from(Visitor& visitor, std::int64_t seq);

@@ -43,9 +43,13 @@ bool RoomHost::ticks_alike(const wire::Hello& hello) {
 // --- Entries and ticks ----------------------------------------------------------------------------------------------
 
 void RoomHost::begin_reader(Visitor& visitor, std::int64_t have) {
-  const bool is_tail = have >= base_ && have <= stored_seq_ && stored_seq_ - have <= kMostTail && have > 0;
+  const bool is_tail = can_send_behind(have);
   if (!is_tail) visitor.guest->send(frame_of_message(wire::SceneOut{base_, JsonValue(beginning_)}));
   send_entries(visitor, is_tail ? have : base_);
+}
+
+bool RoomHost::can_send_behind(std::int64_t seq) const {
+  return seq > 0 && seq >= base_ && seq <= stored_seq_ && stored_seq_ - seq <= kMostTail;
 }
 
 void RoomHost::send_entries(Visitor& visitor, std::int64_t after) {
@@ -53,13 +57,13 @@ void RoomHost::send_entries(Visitor& visitor, std::int64_t after) {
   for (const LogEntry& entry : session_->log())
     if (entry.seq > after && entry.seq <= stored_seq_) tail.push_back({entry, 0});
   if (!tail.empty()) visitor.guest->send(frame_of_entries(tail, stored_seq_, epoch()));
+  visitor.has = std::max(visitor.has, stored_seq_);
 }
 
 void RoomHost::begin_window(Visitor& visitor, std::int64_t have, std::int64_t tick) {
   const std::int64_t now = session_->moment()->ticked->tick;
-  const bool knows_entries = have > 0 && have >= base_ && have <= stored_seq_ && stored_seq_ - have <= kMostTail;
   const bool knows_ticks = visitor.is_ticking && tick > 0 && tick <= now && now - tick <= kMostTicksBehind;
-  if (knows_entries && knows_ticks) return follow_from(visitor, have);
+  if (can_send_behind(have) && knows_ticks) return follow_from(visitor, have);
   visitor.wants_snapshot = true;
   send_snapshots();
 }
@@ -124,6 +128,8 @@ void RoomHost::hand_out_snapshot() {
     if (!visitor.wants_snapshot || now - visitor.snapshot_at < kBetweenSnapshots) continue;
     visitor.wants_snapshot = false;
     visitor.snapshot_at = now;
+    // A snapshot has no steps: who has been here before gets the entries that it has missed as well.
+    if (can_send_behind(visitor.has)) send_entries(visitor, visitor.has);
     visitor.guest->send(windows_.packed.frame);
     follow_from(visitor, windows_.packed.seq);
   }
@@ -209,6 +215,7 @@ bool RoomHost::hear_window(Visitor& visitor, const std::string& t, const Json& f
           other.guest->send(notice);
     }
     visitor.wants_snapshot = true;
+    visitor.has = message->have;
     send_snapshots();
   } else if (t == "presence") {
     const auto message = wire::read_message<wire::PresenceIn>(frame);

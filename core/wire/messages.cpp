@@ -29,7 +29,9 @@ void Hello::declare(MessageBuilder<Hello>& m) {
   m.field(&Hello::fingerprint, "fp").doc("What a window's build computes in its self-test.");
   m.field(&Hello::name, "name").doc("Name of the person, where they were asked for it.");
   m.field(&Hello::have, "have").min(0).doc("Number of the last entry that was received.");
-  m.field(&Hello::tick, "tick").min(0).doc("The tick that a window has reached; it goes on from there where that is possible.");
+  m.field(&Hello::tick, "tick")
+      .min(0)
+      .doc("The tick that a window has reached; it goes on from there where that is possible. Without one it gets a snapshot.");
   m.field(&Hello::epoch, "epoch").min(0).doc("Epoch of that number.");
   m.field(&Hello::unacked, "unacked").min(0).doc("Number of the last operation that has its answer.");
   m.field(&Hello::views, "views").doc("The views that are to be followed.");
@@ -106,6 +108,9 @@ void PresenceIn::declare(MessageBuilder<PresenceIn>& m) {
 void Resync::declare(MessageBuilder<Resync>& m) {
   m.from_page().id("resync").doc("A window asks for a snapshot, because it can no longer follow the ticks from where it is.");
   m.field(&Resync::k, "k").min(0).doc("The tick at which that was noticed.");
+  m.field(&Resync::have, "have")
+      .min(0)
+      .doc("Number of the last entry that the window has; those behind it come before the snapshot.");
   m.field(&Resync::expected, "expected").doc("The server's hash of that tick, where hashes differ.");
   m.field(&Resync::found, "found").doc("The window's own hash of it.");
   m.field(&Resync::why, "why").doc("`hash`, `late`, `entry`, or `values` where the window does not compute ticks at all.");

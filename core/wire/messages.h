@@ -69,7 +69,7 @@ struct PresenceIn {
   static void declare(MessageBuilder<PresenceIn>& m);
 };
 struct Resync {
-  std::int64_t k = 0;
+  std::int64_t k = 0, have = 0;
   std::string expected, found, why;
   static void declare(MessageBuilder<Resync>& m);
 };

@@ -335,6 +335,34 @@ TEST(RoomGuests, ASnapshotRepeatsNoStep) {
   EXPECT_EQ(numbers_of(ben), numbers_of(anna));
 }
 
+// A snapshot is a scene: the steps that led to it come with it, or are said to be missing.
+TEST(RoomGuests, AStepThatASnapshotHoldsIsInTheHistory) {
+  MemoryRoom room(kQuarter);
+  RoomGuest& anna = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return anna.standing().has_scene; }));
+  bool is_lost = false;
+  room.on_way = [&](std::string& frame) {
+    if (frame.find("\"Lost\"") != std::string::npos && !std::exchange(is_lost, true)) frame.clear();
+  };
+  RoomGuest& ben = room.join("facilitator");
+  ASSERT_TRUE(room.turn_until([&] { return ben.standing().has_scene; }));
+  const auto say = [&](const std::string& name) {
+    ASSERT_TRUE(anna.submit({command<RenameNode>({"cafe", name})}).ok());
+    ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }));
+  };
+  say("First");
+  ASSERT_TRUE(room.turn_until([&] { return ben.history().size() == 1; }));
+  say("Lost");
+  // The next tick has read it; what Ben asks for at its mark holds it.
+  ASSERT_TRUE(room.turn_until([&] { return ben.scene().nodes.find("cafe")->second.name == "Lost"; }));
+  say("Last");
+  ASSERT_TRUE(room.come_to_rest());
+  EXPECT_TRUE(is_lost);
+  EXPECT_EQ(ben.history().size(), 3u);
+  EXPECT_EQ(anna.history().size(), 3u);
+  for (const std::string& notice : ben.take_notices()) EXPECT_EQ(notice.find("lacks"), std::string::npos) << notice;
+}
+
 TEST(RoomGuests, AServerThatStartsAgainIsFollowedFromWhereItIs) {
   MemoryRoom room(kQuarter);
   RoomGuest& guest = room.join("facilitator");

@@ -25,7 +25,7 @@ export interface FromPage {
     name?: string;
     /** Number of the last entry that was received. */
     have?: number;
-    /** The tick that a window has reached; it goes on from there where that is possible. */
+    /** The tick that a window has reached; it goes on from there where that is possible. Without one it gets a snapshot. */
     tick?: number;
     /** Epoch of that number. */
     epoch?: number;
@@ -137,6 +137,8 @@ export interface FromPage {
     t: "resync";
     /** The tick at which that was noticed. */
     k?: number;
+    /** Number of the last entry that the window has; those behind it come before the snapshot. */
+    have?: number;
     /** The server's hash of that tick, where hashes differ. */
     expected?: string;
     /** The window's own hash of it. */
