@@ -118,6 +118,7 @@ Response Pages::health(bool is_local) const {
     Json one = {{"code", code},        {"seats", health.seats}, {"guests", health.guests},
                 {"tick", health.tick}, {"seq", health.seq},     {"hash", health.hash}};
     one["tick_ms"] = health.tick_seconds * 1000;
+    if (health.waiting > 0) one["waiting"] = health.waiting;
     if (health.followers > 0) one["followers"] = health.followers;
     if (!health.problem.empty()) one["problem"] = health.problem;
     rooms.push_back(std::move(one));

@@ -43,6 +43,7 @@ RoomHost::Health RoomHost::health() const {
   health.seq = stored_seq_;
   health.hash = hex_digits(moment->ticked->hash);
   health.problem = problem_;
+  health.waiting = commits_under_way_ + (is_packing_ ? 1 : 0);
   health.disk_seconds = writer_->latency().median;
   health.tick_seconds = moment->tick_seconds;
   return health;

@@ -91,6 +91,7 @@ class RoomHost {
     std::int64_t tick = 0, seq = 0;
     std::string hash, problem;
     double disk_seconds = 0, tick_seconds = 0;
+    std::int64_t waiting = 0;  ///< writes that the disk has not done yet
   };
   Health health() const;
 

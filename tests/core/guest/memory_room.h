@@ -168,16 +168,18 @@ class MemoryRoom {
     clock.advance(seconds);
     for (std::size_t k = 0; k < wires.size(); ++k) serve_wire(wires[k]);
     std::erase_if(wires, [](const auto& wire) { return wire->is_closed && wire->is_heard_of; });
-    std::deque<std::function<void()>> tasks;
-    {
-      const std::lock_guard lock(mutex_);
-      for (; !tasks_.empty() && tasks_.front().first <= turns_; tasks_.pop_front())
-        tasks.push_back(std::move(tasks_.front().second));
-    }
-    for (auto& task : tasks) task();
+    do_tasks();
     if (turns_++ % 10 == 0) host->turn();
+    // On a busy machine this clock would run away from threads that get no processor, and what they do would look slow.
+    const auto is_storing = [this] { return !has_tasks() && host->health().waiting > 0; };
+    for (const Patience patience; is_storing() && patience.is_left(); do_tasks()) {
+      patience.wait();
+      clock.advance(0.001);  // the disk gathers by this clock
+    }
     for (auto& guest : guests) (void)guest->keep_up();
-    for (auto& guest : guests) let_tick(*guest);
+    // Who is behind ticks without a pause.
+    for (auto& guest : guests)
+      for (const Patience patience; guest->follower().behind() > 2 * Follower::kFarBehind && patience.is_left();) patience.wait();
     std::this_thread::sleep_for(std::chrono::microseconds(300));
   }
   /// Gives up after so many turns and a minute of real time: turns may be done before the threads that tick have had a processor.
@@ -226,11 +228,24 @@ class MemoryRoom {
   Random& random() { return random_; }
 
  private:
-  /// Who is behind ticks without a pause. On a busy machine this clock would run away from those ticks, and they would look slow.
-  static void let_tick(RoomGuest& guest) {
-    const double end = host::real_clock().now() + 10;
-    while (guest.follower().behind() > 2 * Follower::kFarBehind && host::real_clock().now() < end)
-      std::this_thread::sleep_for(std::chrono::microseconds(300));
+  /// What is waited for at most [s of real time].
+  struct Patience {
+    double end = host::real_clock().now() + 10;
+    bool is_left() const { return host::real_clock().now() < end; }
+    void wait() const { std::this_thread::sleep_for(std::chrono::microseconds(300)); }
+  };
+  bool has_tasks() {
+    const std::lock_guard lock(mutex_);
+    return !tasks_.empty();
+  }
+  void do_tasks() {
+    std::deque<std::function<void()>> tasks;
+    {
+      const std::lock_guard lock(mutex_);
+      for (; !tasks_.empty() && tasks_.front().first <= turns_; tasks_.pop_front())
+        tasks.push_back(std::move(tasks_.front().second));
+    }
+    for (auto& task : tasks) task();
   }
   void serve_wire(const std::shared_ptr<Wire>& wire) {
     ++wire->now;
