@@ -214,8 +214,11 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
     const std::uint32_t i = level.members[k];
     const Storeys storeys = storeys_of(wishes[i], ground.maximum.z - bottom);
     const bool is_touched = std::binary_search(touched.begin(), touched.end(), k);
-    if (is_touched || !(storeys == kept.results[i].storeys)) outcome.differing.push_back(i);
+    // A site that has nothing may get another weight and still have nothing: no footprint is touched then.
+    const double weight = sites[k].site.weight;
+    if (is_touched || !(storeys == kept.results[i].storeys) || weight != kept.results[i].weight) outcome.differing.push_back(i);
     kept.results[i].storeys = storeys;
+    kept.results[i].weight = weight;
   }
   return {};
 }
@@ -262,7 +265,11 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     const bool is_roof = level.base >= 0;
     auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
                         : run_level(domain, ground_of(domain), wishes, level, kept, outcome);
-    if (!done) return done.error();
+    if (!done) {
+      // Nobody is answered, so that nothing of it may count as answered.
+      kept = {};
+      return done.error();
+    }
     if (!is_roof) kept.plot_area = level.diagram.plot_area();
   }
   std::sort(outcome.differing.begin(), outcome.differing.end());

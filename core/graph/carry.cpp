@@ -26,6 +26,9 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
   }
   fresh.error = old.error;
   fresh.is_evaluated = old.is_evaluated && before.set_values == after.set_values;
+  // A lock or an edit may let go what links have agreed on, without another set value: then there are other inputs, too.
+  for (std::size_t p = 0; fresh.is_evaluated && p < fresh.values.size(); ++p)
+    fresh.is_evaluated = after.definition->ports[p].is_computed || fresh.values[p] == old.values[p];
 }
 
 // Would a link go on from what it says now, under the plan of another one?
@@ -38,6 +41,7 @@ void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState&
   fresh.error = old.links[from].error;
   fresh.remark = old.links[from].remark;
   fresh.work = old.links[from].work;
+  fresh.is_stuck = old.links[from].is_stuck;
   for (const Voice& voice : old.links[from].voices) {
     const std::uint32_t node = plan.node_index(old.plan->nodes[voice.target.node].id);
     if (node == plan.nodes.size()) continue;

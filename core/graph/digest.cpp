@@ -18,7 +18,9 @@ bool fails(const LinkState& link, const LinkPlan& plan) {
   return link.error && link.remark != LinkRemark::short_of && link_counts(plan);
 }
 
-bool is_working(const LinkState& link, const LinkPlan& plan) { return link.work && link_counts(plan) && plan.strength > 0; }
+bool is_working(const LinkState& link, const LinkPlan& plan) {
+  return link.work && !link.is_stuck && link_counts(plan) && plan.strength > 0;
+}
 
 double residual_of(const NodeState& node, const NodePlan& plan) {
   double largest = 0;
@@ -120,16 +122,17 @@ State StateDraft::publish() && {
                                  }
                                  return digest;
                                });
-  published.links =
-      std::move(links).publish([&](LinkState& link, std::size_t l) { link.hash = hash_of(link, plan, l); },
-                               [&](const auto& items, std::size_t first) {
-                                 LinkDigest digest{.hash = hash_of_items(items), .has_failure = false, .is_at_work = false};
-                                 for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
-                                   digest.has_failure |= fails(*items[k], plan.links[first + k]);
-                                   digest.is_at_work |= is_working(*items[k], plan.links[first + k]);
-                                 }
-                                 return digest;
-                               });
+  published.links = std::move(links).publish(
+      [&](LinkState& link, std::size_t l) { link.hash = hash_of(link, plan, l); },
+      [&](const auto& items, std::size_t first) {
+        LinkDigest digest{.hash = hash_of_items(items), .has_failure = false, .is_at_work = false, .is_stuck = false};
+        for (std::size_t k = 0; k < items.size() && items[k]; ++k) {
+          digest.has_failure |= fails(*items[k], plan.links[first + k]);
+          digest.is_at_work |= is_working(*items[k], plan.links[first + k]);
+          digest.is_stuck |= items[k]->is_stuck;
+        }
+        return digest;
+      });
   return published;
 }
 

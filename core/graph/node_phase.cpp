@@ -127,24 +127,47 @@ LinkState stuck(const LinkState& link) {
                         ", and nothing changes any more; loosen the rule, or let go what holds it up: a lock, another link, or "
                         "a `gain` of 0";
   told.remark = LinkRemark::unmet;
-  told.work.reset();
+  told.is_stuck = true;
   return told;
 }
 
-// Whoever is bringing a rule about while nothing changes does so in vain. That wakes what rests, too: the links may answer in
-// full.
-void name_stuck_rules(State& state) {
-  if (!first_work(state)) return;
+// The same link where something changes again: it works on.
+LinkState at_work_again(const LinkState& link) {
+  LinkState told = link;
+  told.error.reset();
+  told.remark.reset();
+  told.is_stuck = false;
+  return told;
+}
+
+// Calls visit(l) for the links of all leaves whose digest `may_have` it.
+template <class MayHave, class Visit>
+void visit_links(const State& state, const MayHave& may_have, const Visit& visit) {
+  for (std::size_t leaf = 0; leaf < state.links.leaf_count(); ++leaf)
+    for (std::size_t l = leaf * LinkStates::kLeaf;
+         may_have(state.links.digest(leaf)) && l < std::min(state.links.size(), (leaf + 1) * LinkStates::kLeaf); ++l)
+      visit(static_cast<std::uint32_t>(l));
+}
+
+// Whoever is bringing a rule about while nothing changes does so in vain. Links that nobody asks in this tick say what they would
+// say if they were asked: so a scene whose rules cannot be kept rests as well, and costs nothing.
+void judge_work(State& state, bool stands_still) {
+  std::vector<std::pair<std::uint32_t, LinkState>> told;
+  if (stands_still)
+    visit_links(
+        state, [](const LinkDigest& digest) { return digest.is_at_work; },
+        [&](std::uint32_t l) {
+          if (is_at_work(state, l)) told.emplace_back(l, stuck(state.links[l]));
+        });
+  else
+    visit_links(
+        state, [](const LinkDigest& digest) { return digest.is_stuck; },
+        [&](std::uint32_t l) {
+          if (state.links[l].is_stuck) told.emplace_back(l, at_work_again(state.links[l]));
+        });
+  if (told.empty()) return;
   StateDraft draft(state);
-  for (std::uint32_t l = 0; l < state.links.size(); ++l) {
-    if (l % LinkStates::kLeaf == 0 && !state.links.digest(l / LinkStates::kLeaf).is_at_work) {
-      l += LinkStates::kLeaf - 1;
-      continue;
-    }
-    if (!is_at_work(state, l)) continue;
-    draft.links.put(l, stuck(state.links[l]));
-    draft.state.due.links.push_back(l);
-  }
+  for (auto& [l, link] : told) draft.links.put(l, std::move(link));
   state = std::move(draft).publish();
 }
 
@@ -183,7 +206,7 @@ void evaluate_nodes(TickWork& work, ThreadPool& pool) {
       NodeState& node = asked[i].node = before;
       asked[i].change = resolve_node(frozen, due[i], rest, voices_at(work.next, due[i]), node);
       const auto is_due = [&](const TypificationDefinition& definition, std::size_t t) {
-        return !node.types[t].is_evaluated || !is_only_now(definition) ||
+        return work.asks_all || !node.types[t].is_evaluated || !is_only_now(definition) ||
                !same_inputs(definition, node.types[t].values, before.types[t].values);
       };
       asked[i].answered = ask_node(plan, due[i], work.next.state.tick, node, work.times, is_due);
@@ -237,7 +260,7 @@ State commit(TickWork&& work) {
   const State& frozen = work.frozen;
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
-  if (stands_still(next)) name_stuck_rules(next);
+  judge_work(next, stands_still(next));
   // Whoever rests needs more to be woken than to come to rest: volumes that follow by steps of their tolerance are no news, nor
   // is what links answer to these.
   const bool rests = is_at_rest(next);

@@ -129,6 +129,7 @@ bool Simulation::step() {
   }
   TickWork work(evaluates_everything_ ? everything_due : *state_);
   work.times = measured_;
+  work.asks_all = evaluates_everything_;
   ++work.next.state.tick;
   evaluate_links(work, pool_, evaluates_everything_ ? nullptr : &link_memos_);
   lap(times_.links, TickPart::links);

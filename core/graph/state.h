@@ -61,12 +61,14 @@ struct LinkState {
                                      ///< or on an unmet demand, although it ran
   std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
   std::optional<Error> work;         ///< a rule that is not kept yet, but being worked on
+  bool is_stuck = false;             ///< in vain: nothing changes any more, and `error` says so
   std::uint64_t hash = 0;            ///< of the voices that stay in force if it fails; made when the state is published
 
   bool has_failed() const { return error.has_value() && !remark; }
   /// Of what it says, whether its hash has been made or not.
   bool says_the_same(const LinkState& other) const {
-    return voices == other.voices && error == other.error && remark == other.remark && work == other.work;
+    return voices == other.voices && error == other.error && remark == other.remark && work == other.work &&
+           is_stuck == other.is_stuck;
   }
 };
 
@@ -75,6 +77,7 @@ struct LinkDigest {
   std::uint64_t hash = 0;    ///< of the hashes of its links
   bool has_failure = false;  ///< a link does not do what it should, for another reason than that somebody goes short
   bool is_at_work = false;   ///< a link is still bringing a rule about
+  bool is_stuck = false;     ///< a link does so in vain
 };
 
 using NodeStates = SharedList<NodeState, NodeDigest>;

@@ -71,6 +71,42 @@ TEST(IdleLaw, ScenesThatSettleComeToIt) {
   }
 }
 
+// The cap has no means to bring the floor areas down: it says so, and is not asked again until something changes.
+TEST(IdleLaw, ARuleThatCannotBeKeptCostsNothing) {
+  Twins twins("scenes/links/set_cap.json");
+  twins.one_by_one.evaluate_everything(true);
+  Scene scene = twins.reading.scene;
+  scene.links["l1_cap"].parameters["gain"] = 0.0;
+  const auto read = [&](const Scene& now) {
+    for (Simulation* one : {&twins.at_once, &twins.one_by_one}) one->set_scene(now);
+  };
+  const auto step = [&] {
+    twins.step();
+    ASSERT_EQ(twins.at_once.state()->hash, twins.one_by_one.state()->hash);
+    ASSERT_TRUE(twins.at_once.state()->links[0].says_the_same(twins.one_by_one.state()->links[0]))
+        << "tick " << twins.at_once.state()->tick;
+  };
+  read(scene);
+  for (int tick = 0; tick < kMostToRest && !twins.at_once.is_idle(); ++tick) step();
+  ASSERT_TRUE(twins.at_once.is_idle());
+  ASSERT_TRUE(twins.at_once.state()->links[0].is_stuck);
+  const std::size_t asked = twins.at_once.counts().links;
+  for (int tick = 0; tick < 10; ++tick) step();
+  EXPECT_EQ(twins.at_once.counts().links, asked);
+  // While something else moves nobody knows yet whether it is in vain.
+  scene.links["l2_near"] = LinkRecord{"attract", {{"house_1"}, "", ""}, {{"house_3"}, "", ""}, true, false, 1, {}, ""};
+  read(scene);
+  for (int tick = 0; tick < 3 && twins.at_once.state()->links[0].is_stuck; ++tick) step();
+  EXPECT_FALSE(twins.at_once.state()->links[0].is_stuck);
+  for (int tick = 0; tick < kMostToRest && !twins.at_once.is_idle(); ++tick) step();
+  EXPECT_TRUE(twins.at_once.is_idle());
+  EXPECT_TRUE(twins.at_once.state()->links[0].is_stuck);
+  scene.links["l1_cap"].parameters["gain"] = 0.5;
+  read(scene);
+  for (int tick = 0; tick < kMostToRest && !twins.at_once.state()->is_settled(); ++tick) step();
+  EXPECT_TRUE(twins.at_once.state()->is_settled());
+}
+
 TEST(IdleLaw, EvaluatingEverythingIsNeverIdle) {
   Twins twins("scenes/start/quarter.json");
   twins.at_once.evaluate_everything(true);

@@ -21,10 +21,31 @@ std::string playing_or(const Scene& scene, const std::string& type, const std::s
   return other;
 }
 
-std::string locked_or(const Scene& scene, const std::string& other) {
+// A port of the node that people set, and what it is set to.
+struct SetPlace {
+  std::string path = "node.position";
+  JsonValue value = {"[3, 4, 5]"};
+};
+
+SetPlace some_place(const NodeRecord& node, Random& random) {
+  std::vector<SetPlace> places;
+  for (const auto& [type, values] : node.types) {
+    const TypificationDefinition* definition = full_registry().typification(type);
+    for (std::size_t p = 0; definition != nullptr && p < definition->ports.size(); ++p) {
+      const PortDefinition& port = definition->ports[p];
+      if (port.is_computed) continue;
+      const auto set = values.find(port.id);
+      const Value& value = set == values.end() ? port.default_value : set->second;
+      places.push_back({type + "." + port.id, JsonValue::of(value_to_json(value, port))});
+    }
+  }
+  return places.empty() ? SetPlace() : places[random.below(places.size())];
+}
+
+Command unlock_something(const Scene& scene, const std::string& other) {
   for (const auto& [id, node] : scene.nodes)
-    if (node.locked.contains("node.position")) return id;
-  return other;
+    if (!node.locked.empty()) return command<UnlockPort>({id, {*node.locked.begin()}});
+  return command<UnlockPort>({other, {"node.position"}});
 }
 
 std::string random_use(Random& random) {
@@ -41,7 +62,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
     return it->first;
   };
   const std::string fresh = "fresh" + std::to_string(number);
-  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 27);
+  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 28);
   const std::string number_text = std::to_string(random.below(40));
   switch (kind) {
     case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
@@ -51,7 +72,10 @@ Command random_command(const Scene& scene, Random& random, int number) {
     case 5: return command<EnableLink>({pick(scene.links), random.below(2) == 0});
     case 6: return command<MuteLink>({pick(scene.links), random.below(2) == 0});
     case 7: return command<SetLinkStrength>({pick(scene.links), random.uniform()});
-    case 8: return command<LockPort>({pick(scene.nodes), {"node.position"}});
+    case 8: {
+      const std::string id = pick(scene.nodes);
+      return command<LockPort>({id, {some_place(scene.nodes.at(id), random).path}});
+    }
     case 9: return command<Typify>({pick(scene.nodes), "control", {R"({"value": 3})"}});
     case 10: return command<SetSetting>({"title", {"\"" + number_text + "\""}});
     case 11: return command<Untypify>({pick(scene.nodes), "smart_volume"});
@@ -72,7 +96,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
       if (scene.scripts.texts().contains("walker") && random.below(3) == 0) return command<RemoveScript>({"walker"});
       return command<AddLink>(
           {fresh, {R"({"kind": "walker", "from": ")" + pick(scene.nodes) + R"(", "to": ")" + pick(scene.nodes) + R"("})"}});
-    case 17: return command<UnlockPort>({locked_or(scene, pick(scene.nodes)), {"node.position"}});
+    case 17: return unlock_something(scene, pick(scene.nodes));
     case 18: return command<SetLinkEnds>({pick(scene.links), {{pick(scene.nodes)}, "", ""}, {{pick(scene.nodes)}, "", ""}});
     case 19: {
       const std::string id = pick(scene.links);
@@ -106,6 +130,12 @@ Command random_command(const Scene& scene, Random& random, int number) {
                               static_cast<std::int64_t>(random.below(4)) - 1});
     case 25:
       return command<RemoveRow>({playing_or(scene, "programme", pick(scene.nodes)), {"programme.rows"}, random_use(random)});
+    case 27: {
+      // The value that it has: what links have made of it is let go.
+      const std::string id = pick(scene.nodes);
+      const SetPlace place = some_place(scene.nodes.at(id), random);
+      return command<SetPort>({id, {place.path}, place.value});
+    }
     case 26:
       return command<CastVote>(
           {playing_or(scene, "vote", pick(scene.nodes)), random_use(random),

@@ -165,6 +165,21 @@ TEST_F(TickTest, BlendIsTheStrengthWeightedMeanWithTheSetValueAsOneVoice) {
   EXPECT_DOUBLE_EQ(tension("b", 1, 0), 0.5 * 5 + 0.5 * 25 + 15);
 }
 
+// The lock lets go what the link has brought about, without another set value: what is computed follows in the same tick.
+TEST_F(TickTest, ALockOfAMovedPortIsReadAtOnce) {
+  node("a");
+  node("b", {{"blended", 20.0}});
+  link("l1", "want", "a", "b", {{"value", 40.0}});
+  start().step();
+  simulation_.step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.doubled"), 60);
+  scene_.nodes["b"].locked.insert("toy.blended");
+  simulation_.set_scene(scene_);
+  simulation_.step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 20);
+  EXPECT_DOUBLE_EQ(number("b", "toy.doubled"), 40);
+}
+
 TEST_F(TickTest, ADefaultIsNoVoice) {
   node("a");
   node("b");
