@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
@@ -219,6 +220,28 @@ struct StandingSolver {
     return words;
   }
 
+  // What is built otherwise than people have set it. Sentences after semicolons.
+  static std::string find_other_storeys(const Kept& kept, std::span<const geometry::StandingResult> results, double tolerance) {
+    std::string words;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const geometry::StandingWish& wish = kept.wishes[i];
+      if (!(wish.volume > 0)) continue;
+      if (wish.storeys < wish.least)
+        words += "; `" + kept.names[i] + "` has " + how_many(static_cast<std::size_t>(wish.least), "storey") +
+                 ", the least that it may have, and not " + std::to_string(wish.storeys) +
+                 ": lower `storeys_min`, or raise `storeys`";
+      // On their way to what they want, volumes are smaller.
+      if (!results[i].body || error_of(wish, results[i].volume) > tolerance) continue;
+      int with_area = 0;
+      for (const geometry::PlateStack& stack : results[i].body->stacks) with_area += stack.storeys;
+      if (with_area < results[i].storeys.count)
+        words += "; the set-back of `" + kept.names[i] + "` leaves nothing of its upper " +
+                 how_many(static_cast<std::size_t>(results[i].storeys.count - with_area), "storey") +
+                 ": lower it, or the number of storeys";
+    }
+    return words;
+  }
+
   static void add_up(const Kept& kept, std::span<const geometry::StandingResult> results, Out& out) {
     for (std::size_t i = 0; i < results.size(); ++i) {
       out.count += results[i].volume > 0 ? 1 : 0;
@@ -273,6 +296,7 @@ struct StandingSolver {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] + "` stands on the ground, because it would stand upon itself: change its `bases`";
     }
+    words += find_other_storeys(kept, done->results, in.tolerance);
     add_up(kept, done->results, out);
     for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(kept.wishes[i], done->results[i], kept.names));
     out.message = done->message;

@@ -13,6 +13,7 @@
 #include "core/define/codec.h"
 #include "core/geometry/plan_ring.h"
 #include "core/making/spread_points.h"
+#include "core/making/use_rates.h"
 
 namespace bl::making {
 
@@ -99,12 +100,32 @@ class Builder {
     node(kTotal, {{"name", "Total floor area"}, {"types", {{"statistics", {{"port", "smart_volume.floor_area"}}}}}});
   }
 
+  // Where we can name a source, volumes get the figures of their use; the settings of the link would be nobody's.
+  void uses(const std::vector<NewVolume>& volumes) {
+    std::set<std::string> taken, named;
+    for (const NewVolume& volume : volumes) taken.insert(volume.id);
+    for (const importing::ProgrammeRow& row : parts_.programme.rows) {
+      const UseRates* rates = use_rates(row.use);
+      if (rates == nullptr || !named.insert(row.use).second) continue;
+      const Json figures = {{"name", row.use},
+                            {"people_per_100", rates->people},
+                            {"parking_per_100", rates->parking},
+                            {"trips_per_100", rates->trips},
+                            {"out_share", rates->out_share},
+                            {"least_sun", rates->least_sun},
+                            {"most_noise", rates->most_noise},
+                            {"source", std::string(rates->source)}};
+      node(fresh_id("use_" + to_identifier(row.use), taken), {{"name", "Use: " + row.use}, {"types", {{"use", figures}}}});
+    }
+  }
+
   void volume(const NewVolume& volume) {
     const importing::ProgrammeRow& row = parts_.programme.rows[volume.row];
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
     Json types = {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}};
+    if (use_rates(row.use) != nullptr) types["use_figures"] = Json::object();
     if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row.storey_height)}};
     node(volume.id, {{"name", volume.name},
                      {"position", {volume.position.x, volume.position.y, volume.position.z}},
@@ -227,6 +248,7 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   Builder builder(parts, registry);
   builder.settings();
   builder.fixtures();
+  builder.uses(volumes);
   for (const NewVolume& volume : volumes) builder.volume(volume);
   builder.general_links();
   for (const WantedContact& contact : contacts) builder.contact(contact, volumes);

@@ -80,6 +80,31 @@ TEST(StandingSolver, TooMuchIsScaledAndSaid) {
   EXPECT_LE(world.number("solver", "standing_solver.gsi"), 1);
 }
 
+std::string alone(const std::string& footprint) {
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "house", "position": [30, 20, 0], "types": {"smart_volume": {"storey_height": 3, "demand": 1200}, "footprint": {)" +
+         footprint + R"(}}},
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})";
+}
+
+TEST(StandingSolver, WhatIsBuiltOtherwiseThanItIsSetIsSaid) {
+  World least = World::from_text(alone(R"("form": "block", "storeys": 2, "storeys_min": 4)"));
+  ASSERT_TRUE(least.settle());
+  EXPECT_EQ(least.number("house", "footprint.storeys_built"), 4);
+  EXPECT_EQ(least.text("solver", "standing_solver.message"),
+            "`house` has 4 storeys, the least that it may have, and not 2: lower `storeys_min`, or raise `storeys`");
+  // The ground floor alone has 20 m by 20 m, and what stands on it would be 24 m narrower.
+  World eaten = World::from_text(alone(R"("form": "block", "aspect": 1, "storeys": 4, "full_storeys": 1, "setback": 12)"));
+  ASSERT_TRUE(eaten.settle());
+  EXPECT_NEAR(eaten.number("house", "smart_volume.floor_area"), 400, 2);
+  EXPECT_EQ(eaten.text("solver", "standing_solver.message"),
+            "the set-back of `house` leaves nothing of its upper 3 storeys: lower it, or the number of storeys");
+  World sound = World::from_text(alone(R"("form": "block", "aspect": 1, "storeys": 2, "full_storeys": 1, "setback": 1)"));
+  ASSERT_TRUE(sound.settle());
+  EXPECT_EQ(sound.text("solver", "standing_solver.message"), "");
+}
+
 TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
   geometry::StandingWish wish;
   wish.site.storey_height = 3;

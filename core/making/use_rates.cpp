@@ -1,0 +1,42 @@
+// The table of figures, with the step from each source to 100 m² of gross floor area.
+#include "core/making/use_rates.h"
+
+#include <algorithm>
+#include <array>
+
+namespace bl::making {
+
+namespace {
+
+// Sources give net areas; four fifths of the gross floor area are net.
+// housing: 47.4 m² of living space for each person: 0.8 · 100 / 47.4 = 1.7 people, 3.1 trips each; one place for each dwelling of
+// 100 m².
+// offices: 12 m² net for each workplace: 0.8 · 100 / 12 = 6.7 people; one place for 35 m²: 0.8 · 100 / 35 = 2.3.
+// shops: 17.5 m² net for each workplace: 4.6 people; one place for 40 m²: 2.0.
+constexpr std::array kUses{
+    UseRates{
+        "housing", 1.7, 1.0, 5.3, 0.8, 5400, 55,
+        "people: Destatis 2022, 47.4 m² of living space each; trips: MiD 2017, 3.1 a person; parking: one for each dwelling of "
+        "100 m² (LBO Baden-Württemberg, 37); sun: EN 17037, least level; noise: DIN 18005, residential area"},
+    UseRates{
+        "offices", 6.7, 2.3, 0, 0.1, 0, 65,
+        "people: HCA Employment Density Guide 2015, 12 m² net each; parking: VwV Stellplätze Baden-Württemberg 2015, one for 30 "
+        "to 40 m²; noise: DIN 18005, commercial area; no source for trips: enter them"},
+    UseRates{
+        "shops", 4.6, 2.0, 0, 0.5, 0, 65,
+        "people: HCA Employment Density Guide 2015, 15 to 20 m² net each; parking: VwV Stellplätze Baden-Württemberg 2015, one "
+        "for 30 to 50 m²; noise: DIN 18005, commercial area; no source for trips: enter them"},
+};
+
+}  // namespace
+
+const UseRates* use_rates(std::string_view use) {
+  // Briefs write the same use in both numbers.
+  const auto is_same = [&](const UseRates& known) {
+    return known.use == use || (known.use.ends_with('s') && known.use.substr(0, known.use.size() - 1) == use);
+  };
+  const auto found = std::find_if(kUses.begin(), kUses.end(), is_same);
+  return found == kUses.end() ? nullptr : &*found;
+}
+
+}  // namespace bl::making
