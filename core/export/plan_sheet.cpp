@@ -40,7 +40,7 @@ class PlanMaker : SheetFrame {
     double area = 0;
     for (const Building& b : proposal_.buildings)
       for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
-    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels) + ", from " +
+    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels - 1) + ", from " +
                   fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
               "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
     add_legend();
