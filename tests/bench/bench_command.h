@@ -19,6 +19,7 @@ struct BenchOptions {
   bool is_solver = false, is_quick = false;  ///< the solver alone; small sizes only
   std::vector<std::string> rows;             ///< of the solver's rows these only; empty: all
   int seeds = 0;                             ///< of the solver's cold fits: so many random sets besides
+  std::vector<double> fills;                 ///< [%] of the solver's ticks these only; empty: all
   std::string tntp;                          ///< folder of networks for the rows of traffic; empty: made-up ones only
   std::string chart;                         ///< folder for the solver's charts; empty: none
 };

@@ -23,20 +23,24 @@ void declare(CLI::App& c, BenchOptions& o) {
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
   auto* times = c.add_flag("--times", o.is_times,
                            "Shows where the time of a tick goes: its parts, and kinds, nodes and links, the slowest first.");
-  auto* solver =
-      c.add_flag("--solver", o.is_solver,
-                 "Measures the algorithms: cells, fits, drags, standing volumes, growth, rays, traffic, the feedback on a scene, and ticks that "
-                 "evaluate what has changed.")
-          ->excludes(times);
+  auto* solver = c.add_flag("--solver", o.is_solver,
+                            "Measures the algorithms: cells, fits, drags, standing volumes, growth, rays, traffic, the feedback "
+                            "on a scene, and ticks that "
+                            "evaluate what has changed.")
+                     ->excludes(times);
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "standing", "growth", "complex", "rays", "traffic", "study", "tick", "plan",
-                             "past", "load", "journal", "tick_growth"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "standing", "growth", "complex", "rays", "traffic", "study",
+                             "tick", "plan", "past", "load", "journal", "tick_growth"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")
       ->check(CLI::Range(1, 1000000))
+      ->needs(solver);
+  c.add_option("--fill", o.fills, "Of the solver: ticks of volumes that fill so much of their boundary. Default: 70, 95 and 100.")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(1.0, 100.0))
       ->needs(solver);
   c.add_option("--tntp", o.tntp, "Of the solver: networks for the rows of traffic, NAME_net.tntp with NAME_trips.tntp.")
       ->type_name("DIR")

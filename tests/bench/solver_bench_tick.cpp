@@ -17,12 +17,12 @@ namespace bl::cli::bench {
 
 namespace {
 
+constexpr double kReadingFill = 0.7;  // of volumes among which a sensor speaks
 constexpr int kMostTicksToRest = 4000, kNegotiation = 15, kFrames = 60;
 constexpr int kPulls = 20;  // of each volume that is dragged
 // Frames that one session takes before its rival: with one each, both would find the other's memory in the caches. The first
 // frame of a turn still does, and so has a column of its own: people who drag something have no rival between two frames.
 constexpr int kTurn = kPulls;
-constexpr double kTickFills[] = {0.7, 0.95, 1};
 constexpr double kDragStep = 0.2;  // [m]
 constexpr std::size_t kDraggedVolumes = 5;
 constexpr const char* kStudy = "scenes/studies/urban_mode.json";
@@ -183,10 +183,10 @@ Result<void> time_study(const SolverBench& bench, int threads, BenchTable& table
 
 // A sensor among volumes at rest.
 Result<void> time_readings(const SolverBench& bench, int count, int threads, BenchTable& table) {
-  auto scene = linked_scene(count, kTickFills[0]);
+  auto scene = linked_scene(count, kReadingFill);
   if (!scene) return scene.error();
   scene->nodes["sensor"].types = {{"node", {}}, {"sensor", {{"timeout", 0.0}}}};
-  const Case one{*scene, kTickFills[0], count, threads};
+  const Case one{*scene, kReadingFill, count, threads};
   auto rivals = rivals_of(one.scene, threads);
   if (!rivals) return rivals.error();
   settle(bench, *rivals, bench.options.is_quick ? 5 : kMostTicksToRest, "ticks with a sensor");
@@ -216,8 +216,10 @@ Result<void> time_case(const SolverBench& bench, const Case& one, BenchTable& ta
 
 BenchTables bench_tick(const SolverBench& bench) {
   BenchTable table = table_of_ticks();
+  const std::vector<double> fills = bench.options.fills.empty() ? std::vector<double>{70, 95, 100} : bench.options.fills;
   for (const int count : bench.sites({100, 1000}, {60}))
-    for (const double fill : kTickFills) {
+    for (const double fill_percent : fills) {
+      const double fill = fill_percent / 100;
       const auto scene = linked_scene(count, fill);
       if (!scene) return scene.error();
       for (const int threads : bench.threads())
