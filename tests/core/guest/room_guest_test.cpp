@@ -300,6 +300,21 @@ TEST(RoomGuests, WhoJoinsBetweenAStepAndItsUndoHasTheSameTicks) {
   EXPECT_EQ(hex_digits(ben.moment()->ticked->hash), room.host->health().hash);
 }
 
+// Joins somebody whom the first frame with that word does not reach.
+RoomGuest& join_without(MemoryRoom& room, const std::string& word, bool& is_lost) {
+  room.on_way = [&is_lost, quoted = "\"" + word + "\""](std::string& frame) {
+    if (frame.find(quoted) != std::string::npos && !std::exchange(is_lost, true)) frame.clear();
+  };
+  RoomGuest& guest = room.join("facilitator");
+  EXPECT_TRUE(room.turn_until([&] { return guest.standing().has_scene; }));
+  return guest;
+}
+
+void rename_cafe(MemoryRoom& room, RoomGuest& guest, const std::string& name) {
+  ASSERT_TRUE(guest.submit({command<RenameNode>({"cafe", name})}).ok());
+  ASSERT_TRUE(room.turn_until([&] { return guest.standing().waiting == 0; }));
+}
+
 // A snapshot holds what the last tick has read; while the ticks stand, the entries since then come again behind it.
 TEST(RoomGuests, ASnapshotRepeatsNoStep) {
   MemoryRoom room(kQuarter);
@@ -308,15 +323,8 @@ TEST(RoomGuests, ASnapshotRepeatsNoStep) {
   anna.play(false);
   ASSERT_TRUE(room.turn_until([&] { return anna.people().is_paused && anna.standing().waiting == 0; }));
   bool is_lost = false;
-  room.on_way = [&](std::string& frame) {
-    if (frame.find("\"Lost\"") != std::string::npos && !std::exchange(is_lost, true)) frame.clear();
-  };
-  RoomGuest& ben = room.join("facilitator");
-  ASSERT_TRUE(room.turn_until([&] { return ben.standing().has_scene; }));
-  const auto say = [&](const std::string& name) {
-    ASSERT_TRUE(anna.submit({command<RenameNode>({"cafe", name})}).ok());
-    ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }));
-  };
+  RoomGuest& ben = join_without(room, "Lost", is_lost);
+  const auto say = [&](const std::string& name) { rename_cafe(room, anna, name); };
   say("First");
   ASSERT_TRUE(room.turn_until([&] { return ben.scene().nodes.find("cafe")->second.name == "First"; }));
   ASSERT_TRUE(anna.undo().ok());
@@ -343,15 +351,8 @@ TEST(RoomGuests, AStepThatASnapshotHoldsIsInTheHistory) {
   RoomGuest& anna = room.join("facilitator");
   ASSERT_TRUE(room.turn_until([&] { return anna.standing().has_scene; }));
   bool is_lost = false;
-  room.on_way = [&](std::string& frame) {
-    if (frame.find("\"Lost\"") != std::string::npos && !std::exchange(is_lost, true)) frame.clear();
-  };
-  RoomGuest& ben = room.join("facilitator");
-  ASSERT_TRUE(room.turn_until([&] { return ben.standing().has_scene; }));
-  const auto say = [&](const std::string& name) {
-    ASSERT_TRUE(anna.submit({command<RenameNode>({"cafe", name})}).ok());
-    ASSERT_TRUE(room.turn_until([&] { return anna.standing().waiting == 0; }));
-  };
+  RoomGuest& ben = join_without(room, "Lost", is_lost);
+  const auto say = [&](const std::string& name) { rename_cafe(room, anna, name); };
   say("First");
   ASSERT_TRUE(room.turn_until([&] { return ben.history().size() == 1; }));
   say("Lost");
