@@ -45,13 +45,13 @@ struct Use {
     t.doc(
         "What 100 m² of floor of a use bring and need: trips, parking places, people, cost and value. It gives these figures to "
         "the volumes of this use and adds them up. Links to traffic, budgets and parking read them there.");
-    t.in(&In::name, "name").doc("The use as volumes and rows of a programme name it, such as `housing`; each use has one node.");
+    t.in(&In::name, "use").doc("The use as volumes and rows of a programme name it, such as `housing`; each use has one node.");
     declare_rates(t);
     t.in(&In::source, "source").doc("Where the figures come from, for whoever reads them later.");
     t.in(&In::volumes, "volumes").doc("The volumes that may get figures; those of this use among them do.");
     t.in(&In::uses, "uses").doc("All uses of the scene, to find volumes whose use is none of them.");
     declare_sums(t);
-    t.set("uses", &Sets::uses).reads(&Named::id, "node.id").reads(&Named::name, "use.name");
+    t.set("uses", &Sets::uses).reads(&Named::id, "node.id").reads(&Named::name, "use.use");
     auto volumes = t.set("volumes", &Sets::volumes, &Out::replies);
     volumes.reads(&Member::use, "smart_volume.use").reads(&Member::floor_area, "smart_volume.floor_area", Unit::square_metre);
     volumes.writes(&Reply::use, "use_figures.use").writes(&Reply::message, "use_figures.message");
@@ -102,12 +102,12 @@ struct Use {
 
   // Two nodes of one use would both write to its volumes.
   static Result<void> check_names(const In& in, const std::vector<Named>& uses) {
-    if (in.name.empty()) return Error{ErrorCode::missing, "name", "name the use as its volumes do, such as `housing`"};
+    if (in.name.empty()) return Error{ErrorCode::missing, "use", "name the use as its volumes do, such as `housing`"};
     std::vector<std::string> same;
     for (const Named& use : uses)
       if (use.name == in.name) same.push_back(use.id);
     if (same.size() < 2) return {};
-    return Error{ErrorCode::duplicate, "name",
+    return Error{ErrorCode::duplicate, "use",
                  "`" + same[0] + "` and `" + same[1] + "` are both the use `" + in.name + "`: leave one of them out"};
   }
 

@@ -107,7 +107,7 @@ class Builder {
     for (const importing::ProgrammeRow& row : parts_.programme.rows) {
       const UseRates* rates = use_rates(row.use);
       if (rates == nullptr || !named.insert(row.use).second) continue;
-      const Json figures = {{"name", row.use},
+      const Json figures = {{"use", row.use},
                             {"people_per_100", rates->people},
                             {"parking_per_100", rates->parking},
                             {"trips_per_100", rates->trips},

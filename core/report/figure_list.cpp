@@ -209,6 +209,48 @@ FigureTable facade_totals_table() {
           {{"facade_sides", "by_orientation"}, {"facade_storeys", "by_storey"}}};
 }
 
+FigureTable use_sums_table() {
+  return {
+      "use_sums",
+      "use",
+      "What the uses bring and need",
+      "By the floor areas of the volumes and the figures of their uses for 100 m\xC2\xB2. Trips are by day, both ways together.",
+      {{"use", "Use"},
+       {"count", "Volumes"},
+       {"floor_area", "Floor area"},
+       {"people", "People"},
+       {"parking", "Parking places"},
+       {"trips", "Trips"},
+       {"cost", "Cost"},
+       {"value", "Value"},
+       {"source", "Source of the figures"},
+       {"people_per_100", "", kFiles},
+       {"parking_per_100", "", kFiles},
+       {"trips_per_100", "", kFiles},
+       {"cost_per_area", "", kFiles},
+       {"value_per_area", "", kFiles}},
+      {}};
+}
+
+FigureTable use_figures_table() {
+  return {"use_figures",
+          "use_figures",
+          "",
+          "",
+          {{"use", "", kFiles},
+           {"people", "", kFiles},
+           {"parking", "", kFiles},
+           {"trips", "", kFiles},
+           {"car_share", "", kFiles},
+           {"out_share", "", kFiles},
+           {"cost", "", kFiles},
+           {"value", "", kFiles},
+           {"least_sun", "", kFiles},
+           {"most_noise", "", kFiles},
+           {"message", "", kFiles}},
+          {}};
+}
+
 FigureTable statistics_table() {
   return {"statistics",
           "statistics",
@@ -221,9 +263,10 @@ FigureTable statistics_table() {
 }  // namespace
 
 std::span<const FigureTable> figure_tables() {
-  static const std::vector<FigureTable> tables{plots_table(),    streets_table(), junctions_table(),     zones_table(),
-                                               networks_table(), sun_table(),     sun_studies_table(),   buildings_table(),
-                                               terrain_table(),  layers_table(),  facade_totals_table(), statistics_table()};
+  static const std::vector<FigureTable> tables{plots_table(),       streets_table(),   junctions_table(),     zones_table(),
+                                               networks_table(),    sun_table(),       sun_studies_table(),   buildings_table(),
+                                               terrain_table(),     layers_table(),    facade_totals_table(), use_sums_table(),
+                                               use_figures_table(), statistics_table()};
   return tables;
 }
 

@@ -23,7 +23,7 @@ std::string scene_with(const std::string& more) {
 }
 
 constexpr const char* kHousing =
-    R"({"id": "use_housing", "types": {"use": {"name": "housing", "trips_per_100": 10, "parking_per_100": 1.5, "people_per_100": 2,
+    R"({"id": "use_housing", "types": {"use": {"use": "housing", "trips_per_100": 10, "parking_per_100": 1.5, "people_per_100": 2,
        "cost_per_area": 2000, "value_per_area": 3000, "car_share": 0.4, "out_share": 0.8, "least_sun": 5400, "most_noise": 55}}})";
 
 TEST(Uses, VolumesGetFiguresByTheirFloorArea) {
@@ -48,13 +48,13 @@ TEST(Uses, VolumesGetFiguresByTheirFloorArea) {
 
 TEST(Uses, OneUseHasOneNodeAndAName) {
   World twice =
-      World::from_text(scene_with(std::string(kHousing) + R"(, {"id": "again", "types": {"use": {"name": "housing"}}})"));
+      World::from_text(scene_with(std::string(kHousing) + R"(, {"id": "again", "types": {"use": {"use": "housing"}}})"));
   twice.tick();
   EXPECT_EQ(twice.node_error("use_housing", "use"),
-            "nodes/use_housing/use/name: `again` and `use_housing` are both the use `housing`: leave one of them out");
+            "nodes/use_housing/use/use: `again` and `use_housing` are both the use `housing`: leave one of them out");
   World nameless = World::from_text(scene_with(R"({"id": "some", "types": {"use": {}}})"));
   nameless.tick();
-  EXPECT_EQ(nameless.node_error("some", "use"), "nodes/some/use/name: name the use as its volumes do, such as `housing`");
+  EXPECT_EQ(nameless.node_error("some", "use"), "nodes/some/use/use: name the use as its volumes do, such as `housing`");
 }
 
 TEST(Uses, ParkingAndCostFollowTheUses) {
