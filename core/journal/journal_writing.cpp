@@ -150,16 +150,17 @@ Result<void> Journal::store_ballots(const room::Record& record) {
     is_cleaning_due_ = is_cleaning_due_ || key.key.empty();
     if (auto done = database_.change("INSERT OR REPLACE INTO ballot_key VALUES (?, ?)", {key.vote, key.key}); !done) return done;
   }
+  // Those of the record itself were given after the others had come into the log.
+  for (const std::string& vote : record.ballots_in_log) {
+    is_cleaning_due_ = true;
+    if (auto done = database_.change("DELETE FROM secret_ballot WHERE vote = ?", {vote}); !done) return done;
+  }
   for (const room::SecretBallotRecord& ballot : record.secret_ballots) {
     auto done = ballot.ballot.is_null()
                     ? database_.change("DELETE FROM secret_ballot WHERE vote = ? AND id = ?", {ballot.vote, ballot.id})
                     : database_.change("INSERT OR REPLACE INTO secret_ballot VALUES (?, ?, ?)",
                                        {ballot.vote, ballot.id, ballot.ballot.text()});
     if (!done) return done;
-  }
-  for (const std::string& vote : record.ballots_in_log) {
-    is_cleaning_due_ = true;
-    if (auto done = database_.change("DELETE FROM secret_ballot WHERE vote = ?", {vote}); !done) return done;
   }
   return {};
 }

@@ -242,6 +242,7 @@ void Room::write_secret_ballots(const std::string& vote, Now now) {
     misfits += is_missing ? 1 : 0;
   }
   secret_ballots_.erase(waiting);
+  std::erase_if(record_.secret_ballots, [&vote](const SecretBallotRecord& ballot) { return ballot.vote == vote; });
   record_.ballots_in_log.push_back(vote);
   if (misfits == 0) return;
   const EventDefinition& mark = event_kinds().at("mark");

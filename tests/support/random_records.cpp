@@ -154,12 +154,12 @@ void StoredRows::add(const room::Record& record) {
     put("draft_step", row.draft + "/" + std::to_string(row.number),
         row.command.id.empty() ? "undone" : write_json_line(command_to_json(full_registry(), row.command)));
   for (const auto& row : record.ballot_keys) put("ballot_key", row.vote, row.key);
+  for (const std::string& vote : record.ballots_in_log)
+    std::erase_if(rows_, [&](const auto& row) { return row.first.starts_with("secret_ballot " + vote + "/"); });
   for (const auto& row : record.secret_ballots) {
     put("secret_ballot", row.vote + "/" + row.id, row.ballot.text());
     if (row.ballot.is_null()) rows_.erase(key_of("secret_ballot", row.vote + "/" + row.id));
   }
-  for (const std::string& vote : record.ballots_in_log)
-    std::erase_if(rows_, [&](const auto& row) { return row.first.starts_with("secret_ballot " + vote + "/"); });
 }
 
 std::string StoredRows::text() const {

@@ -104,15 +104,14 @@ class RoomWorld {
     append(disk.texts, record.texts);
     append(disk.drafts, record.drafts);
     append(disk.draft_steps, record.draft_steps);
-    append(disk.ballot_keys, record.ballot_keys);
     for (const std::string& vote : record.ballots_in_log)
       std::erase_if(disk.secret_ballots, [&](const SecretBallotRecord& old) { return old.vote == vote; });
-    for (const SecretBallotRecord& ballot : record.secret_ballots) {
-      const bool is_in_log = std::count(record.ballots_in_log.begin(), record.ballots_in_log.end(), ballot.vote) > 0;
-      if (!is_in_log) disk.secret_ballots.push_back(ballot);
+    append(disk.secret_ballots, record.secret_ballots);
+    // A vote may be closed and opened again in one record.
+    for (const BallotKeyRecord& key : record.ballot_keys) {
+      std::erase_if(disk.ballot_keys, [&](const BallotKeyRecord& old) { return old.vote == key.vote; });
+      if (!key.key.empty()) disk.ballot_keys.push_back(key);
     }
-    for (const BallotKeyRecord& key : record.ballot_keys)
-      if (key.key.empty()) std::erase_if(disk.ballot_keys, [&](const BallotKeyRecord& old) { return old.vote == key.vote; });
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/ui/cli/program.h"
 
@@ -66,7 +67,15 @@ TEST_F(New, MakesASceneThatSettles) {
   const nlohmann::json scene = place.json("scene.json");
   EXPECT_EQ(scene["settings"]["title"], "A corner of Delft");
   EXPECT_EQ(scene["settings"]["coordinate_system"], "EPSG:28992");
-  EXPECT_EQ(scene["nodes"].size(), 13u);
+  // Nine volumes, site, programme, solver and sum; and the figures of two uses that have some.
+  EXPECT_EQ(scene["nodes"].size(), 15u);
+  std::vector<std::string> uses;
+  for (const nlohmann::json& node : scene["nodes"])
+    if (node["types"].contains("use")) {
+      uses.push_back(node["types"]["use"]["use"]);
+      EXPECT_FALSE(node["types"]["use"]["source"].get<std::string>().empty()) << uses.back();
+    }
+  EXPECT_EQ(uses.size(), 2u);
   const Outcome check = place.run({"check", "scene.json"});
   EXPECT_EQ(check.code, 0) << check.err;
   const Outcome run = place.run({"run", "scene.json", "--json", "r.json"});
