@@ -56,7 +56,7 @@ int storeys_for(const SceneParts& parts, double storey_height) {
 
 class Builder {
  public:
-  Builder(const SceneParts& parts, const Registry& registry) : parts_(parts), registry_(registry) {}
+  explicit Builder(const SceneParts& parts) : parts_(parts) {}
 
   void setting(const std::string& id, const Json& value) { add(command<SetSetting>({id, JsonValue::of(value)})); }
   void node(const std::string& id, const Json& content) { add(command<AddNode>({id, JsonValue::of(content)})); }
@@ -170,7 +170,6 @@ class Builder {
   void add(Command command) { commands_.push_back(std::move(command)); }
 
   const SceneParts& parts_;
-  const Registry& registry_;
   std::vector<Command> commands_;
   std::set<std::string> link_ids_{"demands", kInsideLink, "room", "standing"};
 };
@@ -218,7 +217,7 @@ std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& program
   return contacts;
 }
 
-Result<Command> new_scene_command(const SceneParts& parts, const Registry& registry) {
+Result<Command> new_scene_command(const SceneParts& parts) {
   std::vector<NewVolume> volumes = volumes_of(parts.programme);
   const std::vector<WantedContact> contacts = contacts_of(parts.programme, volumes);
   std::vector<double> demands;
@@ -245,7 +244,7 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   for (std::size_t v = 0; v < volumes.size(); ++v)
     volumes[v].position = {millimetres((*points)[v].x), millimetres((*points)[v].y),
                            parts.is_standing ? 0 : millimetres((*points)[v].z)};
-  Builder builder(parts, registry);
+  Builder builder(parts);
   builder.settings();
   builder.fixtures();
   builder.uses(volumes);

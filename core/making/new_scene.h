@@ -46,6 +46,6 @@ std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme);
 /// other.
 std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
 /// The scene as one command, positions spread by the seed.
-Result<Command> new_scene_command(const SceneParts& parts, const Registry& registry);
+Result<Command> new_scene_command(const SceneParts& parts);
 
 }  // namespace bl::making

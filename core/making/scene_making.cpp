@@ -38,7 +38,7 @@ class Maker {
     parts.seed = o_.seed;
     made_.plan_area = takes_hull ? hull.area : made_.plan->area;
     for (const NewVolume& volume : volumes_of(parts.programme)) made_.demand += volume.demand;
-    const auto command = new_scene_command(parts, registry);
+    const auto command = new_scene_command(parts);
     if (!command) return fail(o_.out, command.error());
     Ledger ledger(registry, Scene{});
     if (auto done = ledger.submit(*command, "new", 0); !done) return fail(o_.out, done.error());
