@@ -265,11 +265,7 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     const bool is_roof = level.base >= 0;
     auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
                         : run_level(domain, ground_of(domain), wishes, level, kept, outcome);
-    if (!done) {
-      // Nobody is answered, so that nothing of it may count as answered.
-      kept = {};
-      return done.error();
-    }
+    if (!done) return done.error();
     if (!is_roof) kept.plot_area = level.diagram.plot_area();
   }
   std::sort(outcome.differing.begin(), outcome.differing.end());

@@ -38,7 +38,7 @@ struct TickWork {
   StateDraft next;
   std::vector<std::uint32_t> spoken_to;  ///< nodes to which other things are proposed than before; ascending after phase 3
   std::vector<PortRef> moved;            ///< ports that phases 4 and 5 have changed; ascending
-  bool asks_all = false;  ///< typifications also where their inputs are the same
+  bool asks_all = false;                 ///< typifications also where their inputs are the same
   TickCounts counts;
   TickTimes* times = nullptr;  ///< of whoever measures
 };
