@@ -1,5 +1,4 @@
-// Boost.Beast as both ends of the server see it, and what all of its connections share. Only server.cpp and sockets.cpp include
-// it.
+// Boost.Beast as the server sees it, and what all of its connections share. Only server.cpp and sockets.cpp include it.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -7,7 +6,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/ssl.hpp>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -17,6 +15,7 @@
 
 #include "core/serve/gate.h"
 #include "core/serve/pages.h"
+#include "core/serve/stream.h"
 
 namespace bl::serve {
 
@@ -24,8 +23,6 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 using Tcp = asio::ip::tcp;
-using PlainStream = beast::tcp_stream;
-using SecureStream = beast::ssl_stream<beast::tcp_stream>;
 
 inline constexpr std::chrono::seconds kHandshake{5};
 
@@ -67,9 +64,6 @@ struct Visit {
   bool has_origin = false;
 };
 /// Makes it one, and lives as long as it does.
-template <class Stream>
 void begin_visit(Stream stream, Shared& shared, Visit visit, const http::request<http::string_body>& request);
-extern template void begin_visit(PlainStream, Shared&, Visit, const http::request<http::string_body>&);
-extern template void begin_visit(SecureStream, Shared&, Visit, const http::request<http::string_body>&);
 
 }  // namespace bl::serve

@@ -13,9 +13,9 @@
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
+
+#include "core/serve/stream.h"
 
 namespace bl::serve {
 
@@ -25,8 +25,6 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using Tcp = asio::ip::tcp;
-using Plain = beast::tcp_stream;
-using Secure = beast::ssl_stream<beast::tcp_stream>;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -74,9 +72,9 @@ struct Client::Finish {
 
 namespace {
 
-// The stream is plain or encrypted. `Core` is the client's, whose name is not ours to say.
-template <class Stream, class Core>
-class SocketConnection : public Connection, public std::enable_shared_from_this<SocketConnection<Stream, Core>> {
+// `Core` is the client's, whose name is not ours to say.
+template <class Core>
+class SocketConnection : public Connection, public std::enable_shared_from_this<SocketConnection<Core>> {
  public:
   SocketConnection(Core& core, Stream stream)
       : core_(core), resolver_(core.context), deadline_(core.context), socket_(std::move(stream)) {}
@@ -131,17 +129,16 @@ class SocketConnection : public Connection, public std::enable_shared_from_this<
   }
 
   void secure() {
-    if constexpr (std::is_same_v<Stream, Plain>) return shake_hands();
-    else {
+    Stream& stream = socket_.next_layer();
+    if (Stream::Encrypted* const encrypted = stream.encrypted()) {
       const std::string& host = core_.address.host;
-      socket_.next_layer().set_verify_callback(asio::ssl::host_name_verification(host));
-      if (is_name_) (void)SSL_set_tlsext_host_name(socket_.next_layer().native_handle(), host.c_str());
-      socket_.next_layer().async_handshake(
-          asio::ssl::stream_base::client, [self = this->shared_from_this()](beast::error_code error) {
-            if (error) return self->end(0, self->core_.address.host + " does not prove who it is: " + error.message());
-            self->shake_hands();
-          });
+      encrypted->set_verify_callback(asio::ssl::host_name_verification(host));
+      if (is_name_) (void)SSL_set_tlsext_host_name(encrypted->native_handle(), host.c_str());
     }
+    stream.shake_hands(asio::ssl::stream_base::client, [self = this->shared_from_this()](beast::error_code error) {
+      if (error) return self->end(0, self->core_.address.host + " does not prove who it is: " + error.message());
+      self->shake_hands();
+    });
   }
 
   void shake_hands() {
@@ -234,7 +231,8 @@ class SocketConnection : public Connection, public std::enable_shared_from_this<
 
 template <class Core>
 std::shared_ptr<Connection> connection_of(Core& core) {
-  if (!core.address.is_secure) return std::make_shared<SocketConnection<Plain, Core>>(core, Plain(core.context));
+  Stream::Lowest plain(core.context);
+  if (!core.address.is_secure) return std::make_shared<SocketConnection<Core>>(core, Stream(std::move(plain)));
   beast::error_code error;
   core.tls.set_options(asio::ssl::context::no_sslv2 | asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 |
                        asio::ssl::context::no_tlsv1_1);
@@ -246,7 +244,7 @@ std::shared_ptr<Connection> connection_of(Core& core) {
         0, (core.authorities.empty() ? "the system's certificates" : core.authorities) + " cannot be read: " + error.message()});
     return nullptr;
   }
-  return std::make_shared<SocketConnection<Secure, Core>>(core, Secure(Plain(core.context), core.tls));
+  return std::make_shared<SocketConnection<Core>>(core, Stream(Stream::Encrypted(std::move(plain), core.tls)));
 }
 
 }  // namespace

@@ -38,25 +38,21 @@ std::string plain_address(const asio::ip::address& address) {
 }
 
 // The requests of one connection, one after the other.
-template <class Stream>
-class Caller : public std::enable_shared_from_this<Caller<Stream>> {
+class Caller : public std::enable_shared_from_this<Caller> {
  public:
   Caller(Stream stream, Shared& shared, std::unique_ptr<Gate::Pass> pass, const std::string& peer)
       : stream_(std::move(stream)), shared_(shared), pass_(std::move(pass)), peer_(peer) {}
 
   void wait_for_turn() {
-    pass_->begin([self = this->shared_from_this()] { self->begin(); }, now());
+    pass_->begin([self = shared_from_this()] { self->begin(); }, now());
   }
 
  private:
   void begin() {
-    if constexpr (std::is_same_v<Stream, PlainStream>) return read();
-    else {
-      beast::get_lowest_layer(stream_).expires_after(kHandshake);
-      stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](beast::error_code error) {
-        if (!error) self->read();
-      });
-    }
+    beast::get_lowest_layer(stream_).expires_after(kHandshake);
+    stream_.shake_hands(asio::ssl::stream_base::server, [self = shared_from_this()](beast::error_code error) {
+      if (!error) self->read();
+    });
   }
 
   void read() {
@@ -65,7 +61,7 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
     parser_->body_limit(kMostBody);
     beast::get_lowest_layer(stream_).expires_after(kRequest);
     http::async_read(stream_, buffer_, *parser_,
-                     [self = this->shared_from_this()](beast::error_code error, std::size_t) { self->have_read(error); });
+                     [self = shared_from_this()](beast::error_code error, std::size_t) { self->have_read(error); });
   }
 
   void have_read(beast::error_code error) {
@@ -102,7 +98,7 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
                         asking.scheme,
                         text_of(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos,
                         shared_.proxy.empty() && is_own_address(peer_)};
-    shared_.pages->answer(plain, [self = this->shared_from_this(), is_try, address = asking.address](Response response) {
+    shared_.pages->answer(plain, [self = shared_from_this(), is_try, address = asking.address](Response response) {
       if (is_try && response.status == 404) self->shared_.gate.note_failure(address, now());
       self->write(std::move(response));
     });
@@ -145,7 +141,7 @@ class Caller : public std::enable_shared_from_this<Caller<Stream>> {
     if (!is_head_) response_->body() = std::move(response.body);
     response_->content_length(length);
     beast::get_lowest_layer(stream_).expires_after(kRequest + seconds(length / kSlowest));
-    const auto done = [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+    const auto done = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error || !self->keeps_alive_) return self->end();
       self->read();
     };
@@ -275,11 +271,9 @@ class BeastServer : public Server {
     note_reach(socket, end.address(), peer);
     auto pass = shared_.gate.enter(peer, !shared_.proxy.empty() && peer == shared_.proxy);
     if (!pass) return;  // closed
-    if (shared_.tls)
-      std::make_shared<Caller<SecureStream>>(SecureStream(PlainStream(std::move(socket)), *shared_.tls), shared_, std::move(pass),
-                                             peer)
-          ->wait_for_turn();
-    else std::make_shared<Caller<PlainStream>>(PlainStream(std::move(socket)), shared_, std::move(pass), peer)->wait_for_turn();
+    Stream::Lowest plain(std::move(socket));
+    Stream stream = shared_.tls ? Stream(Stream::Encrypted(std::move(plain), *shared_.tls)) : Stream(std::move(plain));
+    std::make_shared<Caller>(std::move(stream), shared_, std::move(pass), peer)->wait_for_turn();
   }
 
   // Of connections within this computer and of a proxy's nobody learns whether phones reach it.

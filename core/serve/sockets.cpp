@@ -2,7 +2,6 @@
 #include <utility>
 
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <deque>
 
 #include <nlohmann/json.hpp>
@@ -28,9 +27,8 @@ constexpr double kFlood = 30;                                   // too fast for 
 // A page says ten things a second, and thirty in a burst; who sends more waits, because nothing more is read.
 constexpr double kPageRate = 10, kPageBurst = 30, kDesignerRate = 60, kFollowerRate = 1000;
 
-// One WebSocket. The stream is plain or encrypted.
-template <class Stream>
-class SocketGuest : public Guest, public Watched, public std::enable_shared_from_this<SocketGuest<Stream>> {
+// One WebSocket.
+class SocketGuest : public Guest, public Watched, public std::enable_shared_from_this<SocketGuest> {
  public:
   SocketGuest(Stream stream, Shared& shared, Visit visit)
       : socket_(std::move(stream)), timer_(shared.context), shared_(shared), watched_(shared.watched), visit_(std::move(visit)) {
@@ -53,7 +51,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     }));
     socket_.read_message_max(kMostHello);
     socket_.text(true);
-    socket_.async_accept(request, [self = this->shared_from_this()](beast::error_code error) {
+    socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
       self->opened_ = self->heard_ = now();
       self->read();
@@ -96,7 +94,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
  private:
   void read() {
     socket_.async_read_some(buffer_, 0,
-                            [self = this->shared_from_this()](beast::error_code error, std::size_t) { self->have_read(error); });
+                            [self = shared_from_this()](beast::error_code error, std::size_t) { self->have_read(error); });
   }
 
   void have_read(beast::error_code error) {
@@ -146,7 +144,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     is_greeted_ = true;
     socket_.read_message_max(is_program ? kMostDesignerFrame : kMostPageFrame);
     rate_ = hello->kind == "follower" ? kFollowerRate : is_program ? kDesignerRate : kPageRate;
-    if (!room_->greet(this->shared_from_this(), *hello)) return;
+    if (!room_->greet(shared_from_this(), *hello)) return;
     visit_.pass->open();
   }
 
@@ -160,7 +158,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     if (time - fast_since_ > kFlood) return close(CloseCode::flood, "too much was sent for half a minute");
     is_throttled_ = true;
     timer_.expires_after(milliseconds(static_cast<int>(-tokens_ / rate_ * 1000) + 1));
-    timer_.async_wait([self = this->shared_from_this()](beast::error_code error) {
+    timer_.async_wait([self = shared_from_this()](beast::error_code error) {
       self->is_throttled_ = false;
       self->heard_ = now();  // nobody has listened meanwhile
       if (!error) self->read();
@@ -168,7 +166,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
   }
 
   void write() {
-    socket_.async_write(asio::buffer(*queue_.front()), [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+    socket_.async_write(asio::buffer(*queue_.front()), [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->gone();
       self->unsent_ -= self->queue_.front()->size();
       self->queue_.pop_front();
@@ -181,7 +179,7 @@ class SocketGuest : public Guest, public Watched, public std::enable_shared_from
     if (std::exchange(has_said_goodbye_, true)) return;
     closing_ = now();
     timer_.cancel();
-    socket_.async_close(reason_, [self = this->shared_from_this()](beast::error_code) { self->gone(); });
+    socket_.async_close(reason_, [self = shared_from_this()](beast::error_code) { self->gone(); });
   }
 
   void cut() {
@@ -225,11 +223,8 @@ void add_security(http::fields& fields, const std::string& host, const std::stri
   fields.set("Permissions-Policy", "camera=(), microphone=(), geolocation=()");
 }
 
-template <class Stream>
 void begin_visit(Stream stream, Shared& shared, Visit visit, const http::request<http::string_body>& request) {
-  std::make_shared<SocketGuest<Stream>>(std::move(stream), shared, std::move(visit))->accept(request);
+  std::make_shared<SocketGuest>(std::move(stream), shared, std::move(visit))->accept(request);
 }
-template void begin_visit(PlainStream, Shared&, Visit, const http::request<http::string_body>&);
-template void begin_visit(SecureStream, Shared&, Visit, const http::request<http::string_body>&);
 
 }  // namespace bl::serve
