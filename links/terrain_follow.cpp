@@ -1,4 +1,4 @@
-// Keeps nodes at a height above the ground.
+// Keeps nodes at a height above the ground, and volumes that stand on it.
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -22,9 +22,11 @@ struct TerrainFollow {
     Shared<Table> rows;
     double west = 0, north = 0, cell = 1, lowest = 0, step = 1;
     Point3 position;
+    std::optional<double> footing;
   };
   struct Out {
     std::optional<Vector3> move;
+    std::optional<double> footing;
   };
 
   static void declare(LinkBuilder<TerrainFollow>& l) {
@@ -32,7 +34,7 @@ struct TerrainFollow {
         .label("Terrain follow")
         .doc(
             "Moves nodes vertically to a height above the ground, a share in every tick. Their position in plan does not "
-            "change.");
+            "change. A volume that stands gets its lowest floor there at once.");
     l.family(LinkFamily::ground);
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
     l.param(&In::stiffness, "stiffness")
@@ -46,7 +48,9 @@ struct TerrainFollow {
     l.reads(&Ends::cell, End::from, "terrain.cell", Unit::metre).reads(&Ends::lowest, End::from, "terrain.lowest", Unit::metre);
     l.reads(&Ends::step, End::from, "terrain.step", Unit::metre);
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
+    l.reads_if_there(&Ends::footing, End::to, "footprint.ground", Unit::metre);
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+    l.proposes_if_there(&Out::footing, End::to, "footprint.ground", Unit::metre);
   }
 
   // The grid is kept for the other nodes of the link in the same tick. Each terrain has a table of its own.
@@ -78,9 +82,10 @@ struct TerrainFollow {
                    "there is no ground at (" + fixed(ends.position.x, 1) + ", " + fixed(ends.position.y, 1) +
                        "): move the node onto the terrain, or turn `needs_ground` off"};
     if (!ground) return Out{};
+    if (ends.footing) return Out{std::nullopt, *ground + in.offset};
     const double error = *ground + in.offset - ends.position.z;
     if (std::abs(error) < 1e-6) return Out{};
-    return Out{Vector3{0, 0, in.stiffness * error}};
+    return Out{Vector3{0, 0, in.stiffness * error}, std::nullopt};
   }
 };
 

@@ -7,13 +7,15 @@ namespace bl {
 
 namespace {
 
+constexpr double kAsLowAsPossible = -1e4;  // [m]
+
 struct Footprint {
   using Form = geometry::FootprintForm;
   struct In {
     Form form = Form::block;
     double angle = 0, aspect = 1;
     int storeys = 4, storeys_min = 1;
-    double height_limit = 1e6, setback = 0, depth = 1000;
+    double height_limit = 1e6, setback = 0, depth = 1000, ground = kAsLowAsPossible;
     int full_storeys = 0;
     bool has_party_walls = true;
     std::vector<std::string> bases;
@@ -91,6 +93,14 @@ struct Footprint {
             "Id of the volume on whose roof it stands; empty for the ground. Its footprint is clipped to the plate of the "
             "highest "
             "storeys there, and its own storeys begin on it. Links of the kind `stack` add to it; of several the first counts.");
+    t.in(&In::ground, "ground")
+        .unit(Unit::metre)
+        .range(kAsLowAsPossible, 1e4)
+        .soft(0, 30)
+        .combine(CombineRule::blend)
+        .doc(
+            "Height of the ground where the volume stands, from which its storeys count; without effect on a roof. It stands "
+            "no lower than the boundary. Links of the kind `terrain_follow` propose here.");
     t.in(&In::setback, "setback")
         .unit(Unit::metre)
         .range(0, 100)

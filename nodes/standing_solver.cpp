@@ -28,7 +28,7 @@ struct StandingSolver {
     Point3 position;
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0;
     std::string form;
-    double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0;
+    double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0;
     bool has_party_walls = true, was_limited = false;
     std::vector<std::string> bases;
@@ -112,7 +112,7 @@ struct StandingSolver {
     set.reads(&Member::setback, "footprint.setback").reads(&Member::depth, "footprint.depth");
     set.reads(&Member::storeys, "footprint.storeys").reads(&Member::storeys_min, "footprint.storeys_min");
     set.reads(&Member::full_storeys, "footprint.full_storeys").reads(&Member::has_party_walls, "footprint.party_walls");
-    set.reads(&Member::bases, "footprint.bases");
+    set.reads(&Member::bases, "footprint.bases").reads(&Member::ground, "footprint.ground", Unit::metre);
     set.reads(&Member::built, "footprint.storeys_built").writes(&Reply::storeys_built, "footprint.storeys_built");
     set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::radius, "smart_volume.radius");
@@ -152,6 +152,7 @@ struct StandingSolver {
     wish.was_limited = m.was_limited;
     wish.setback = m.setback;
     wish.full_storeys = m.full_storeys;
+    wish.ground = m.ground;
     return wish;
   }
 
@@ -230,6 +231,9 @@ struct StandingSolver {
         words += "; `" + kept.names[i] + "` has " + how_many(static_cast<std::size_t>(wish.least), "storey") +
                  ", the least that it may have, and not " + std::to_string(wish.storeys) +
                  ": lower `storeys_min`, or raise `storeys`";
+      if (wish.base < 0 && results[i].bottom < wish.ground && results[i].body)
+        words += "; `" + kept.names[i] + "` stands at " + fixed(results[i].bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
+                 " m, because the boundary leaves no storey above that";
       // On their way to what they want, volumes are smaller.
       if (!results[i].body || error_of(wish, results[i].volume) > tolerance) continue;
       int with_area = 0;

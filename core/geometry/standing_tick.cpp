@@ -92,14 +92,14 @@ StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& si
   return result;
 }
 
-// The sites of a level, with the storeys that they may have below `highest`.
+// The sites of a level, with the storeys that they may have below `highest`. `bottom`: of the ground, or the roof.
 std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const StandingTick::Level& level, double bottom,
                                    double highest) {
   std::vector<StandingSite> sites;
   for (const std::uint32_t i : level.members) {
     StandingSite& site = sites.emplace_back(wishes[i].site);
-    site.site.position.z = bottom;
-    site.runs = runs_of(wishes[i], storeys_of(wishes[i], highest - bottom).count);
+    site.site.position.z = level.base < 0 ? floor_of(wishes[i], bottom, highest) : bottom;
+    site.runs = runs_of(wishes[i], storeys_of(wishes[i], highest - site.site.position.z).count);
   }
   return sites;
 }
@@ -180,6 +180,10 @@ Storeys storeys_of(const StandingWish& wish, double highest) {
   return {std::max({1, wish.least, std::min(wished, allowed)}), allowed < wished};
 }
 
+double floor_of(const StandingWish& wish, double underside, double top) {
+  return std::max(underside, std::min(wish.ground, top - wish.site.storey_height));
+}
+
 Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level,
                                      Cache& kept, Outcome& outcome) const {
   const bool is_roof = level.base >= 0;
@@ -212,7 +216,7 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
   }
   for (std::uint32_t k = 0; k < sites.size(); ++k) {
     const std::uint32_t i = level.members[k];
-    const Storeys storeys = storeys_of(wishes[i], ground.maximum.z - bottom);
+    const Storeys storeys = storeys_of(wishes[i], ground.maximum.z - sites[k].site.position.z);
     const bool is_touched = std::binary_search(touched.begin(), touched.end(), k);
     // A site that has nothing may get another weight and still have nothing: no footprint is touched then.
     const double weight = sites[k].site.weight;

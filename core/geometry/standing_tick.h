@@ -25,6 +25,7 @@ struct StandingWish {
   bool was_limited = false;    ///< by the height limit, in the last tick
   double setback = 0;          ///< [m], of the storeys above the first `full_storeys`
   int full_storeys = 0;
+  double ground = -1e4;         ///< height of the ground where it stands, unless that is a roof [m]
   std::int32_t base = kGround;  ///< the wish on whose roof it stands
   bool operator==(const StandingWish&) const = default;
 };
@@ -40,6 +41,10 @@ struct Storeys {
 };
 /// `highest`: the height of the boundary above the lowest floor [m].
 Storeys storeys_of(const StandingWish& wish, double highest);
+
+/// The height of the lowest floor of a volume on the ground: never below `underside`, nor so high that no storey is left below
+/// `top` [m].
+double floor_of(const StandingWish& wish, double underside, double top);
 
 /// What one volume has got.
 struct StandingResult {

@@ -32,6 +32,34 @@ TEST(TerrainFollow, BesideTheGroundIsAnErrorOrLeftAlone) {
   EXPECT_FALSE(beside.moves(End::to));
 }
 
+// A volume that stands is not moved: it is told the ground, which may be anything else the moment before.
+TEST(TerrainFollow, AVolumeThatStandsIsToldItsGround) {
+  LinkCase standing = over(5, 5, 0);
+  ASSERT_EQ(standing.to("footprint.ground", 30.0).set("offset", -0.5).run(), "");
+  EXPECT_FALSE(standing.moves(End::to));
+  EXPECT_DOUBLE_EQ(standing.number(End::to, "footprint.ground"), 1.0);
+}
+
+TEST(TerrainFollow, VolumesStandOnASlopeFromTheFirstTickOn) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "hill", "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"}, {"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"},
+     {"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"}, {"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"}, {"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"},
+     {"heights": "AAAABkADIAEsAGQAH0AJYAK8AMg"}], "west": -10, "north": 45, "lowest": 2}}},
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [60, 0, 0], [60, 40, 0], [0, 40, 0]], "height": 40}}},
+    {"id": "solver", "types": {"standing_solver": {}}},
+    {"id": "low", "position": [10, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"storeys": 3}}},
+    {"id": "high", "position": [50, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"storeys": 3}}}], "links": [
+    {"id": "on", "kind": "terrain_follow", "from": "hill", "to": {"typification": "footprint"}}]})");
+  world.tick(12);
+  for (const char* node : {"low", "high"}) {
+    EXPECT_EQ(world.text(node, "smart_volume.reason"), "");
+    EXPECT_GT(world.number(node, "smart_volume.bottom"), 0) << node;
+    EXPECT_NEAR(world.number(node, "smart_volume.bottom"), world.number(node, "footprint.ground"), 1e-12) << node;
+    EXPECT_NEAR(world.point(node, "node.position").z, 0, 1e-12) << "it is not moved";
+  }
+  EXPECT_GT(world.number("high", "smart_volume.bottom"), world.number("low", "smart_volume.bottom"));
+}
+
 TEST(TerrainFollow, SceneStandsFiveMetresAboveTheSlope) {
   World world = World::from_file("scenes/links/terrain_follow.json");
   ASSERT_TRUE(world.settle());

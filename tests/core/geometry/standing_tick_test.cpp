@@ -1,6 +1,8 @@
 // Volumes on the roofs of others: clipped to the plate that carries them, exact as on the ground, and lost nowhere.
 #include "core/geometry/standing_tick.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
@@ -55,6 +57,36 @@ TEST(StandingTick, ATowerStandsOnAPodium) {
   EXPECT_TRUE(podium.walls.empty()) << "they do not compete";
   EXPECT_NEAR(tower.free_facade_area, tower.facade_area, 1e-9);
   EXPECT_TRUE(outcome.on_roofs.empty());
+}
+
+// The boundary reaches from 0 to 20 m: a ground in it counts, one below it is its underside, and a storey is always left.
+TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
+  std::vector<StandingWish> wishes;
+  for (const double x : {10.0, 30.0, 50.0, 70.0}) wishes.push_back(wish(FootprintForm::block, {x, 20, 0}, 4, 400));
+  wishes.push_back(wish(FootprintForm::block, {30, 20, 0}, 2, 60, 1));
+  wishes[0].ground = -3;
+  wishes[1].ground = 2.5;
+  wishes[2].ground = 12.5;
+  wishes[3].ground = 90;
+  wishes[4].ground = 7;  // on a roof it is without effect
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(80, 40, 20), wishes, kept);
+  const std::vector<double> bottoms{0, 2.5, 12.5, 17, 14.5};
+  const std::vector<int> storeys{4, 4, 2, 1, 1};
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    EXPECT_DOUBLE_EQ(outcome.results[i].bottom, bottoms[i]) << i;
+    EXPECT_EQ(outcome.results[i].storeys.count, storeys[i]) << i;
+    EXPECT_NEAR(outcome.results[i].floor_area, wishes[i].volume / 3, 1e-5) << i;
+    EXPECT_DOUBLE_EQ(outcome.results[i].body->stacks.front().bottom, bottoms[i]) << i;
+  }
+  // The ground of one volume alone moves.
+  wishes[2].ground = 11;
+  const auto moved = StandingTick{.steps = 20, .tolerance = 1e-9}.run(plot(80, 40, 20), wishes, kept).value();
+  EXPECT_TRUE(std::binary_search(moved.differing.begin(), moved.differing.end(), 2u));
+  EXPECT_DOUBLE_EQ(moved.results[2].bottom, 11);
+  EXPECT_EQ(moved.results[2].storeys.count, 3);
+  EXPECT_NEAR(moved.results[2].floor_area, 400, 1e-5);
+  EXPECT_DOUBLE_EQ(moved.results[1].bottom, 2.5);
 }
 
 // A cell fills the roof: where it is clipped, half of it is beyond the edge, and the rest is what the roof has.
