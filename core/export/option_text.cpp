@@ -96,6 +96,27 @@ std::string formats_text() {
   return text;
 }
 
+std::string formats_json() {
+  Json formats = Json::array();
+  for (const FormatDefinition& format : all_formats()) {
+    Json options = Json::array();
+    for (const PortDefinition& option : format.ports) {
+      Json one = {{"id", option.id},
+                  {"doc", option.doc},
+                  {"kind", option.choices.empty() ? std::string(name_of(option.kind)) : "choice"},
+                  {"default", value_to_json(option.default_value, option)}};
+      if (const std::string unit(info(option.unit).pretty); !unit.empty()) one["unit"] = unit;
+      if (std::isfinite(option.hard_minimum)) one["minimum"] = option.hard_minimum;
+      if (std::isfinite(option.hard_maximum)) one["maximum"] = option.hard_maximum;
+      for (const ChoiceDefinition& choice : option.choices) one["choices"].push_back({{"id", choice.id}, {"doc", choice.doc}});
+      options.push_back(std::move(one));
+    }
+    formats.push_back(
+        {{"id", format.id}, {"label", format.label}, {"doc", format.doc}, {"ending", format.ending}, {"options", options}});
+  }
+  return write_json_line(formats) + "\n";
+}
+
 std::string format_page(const FormatDefinition& format) {
   std::string page = "# " + format.label + "\n\n`" + format.id + "` · export format · `" + format.ending + "`" +
                      (format.may_fill_folder ? ", or a folder" : "") + "\n\n" + format.doc + "\n";

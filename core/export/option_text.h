@@ -16,6 +16,9 @@ Result<void> check_option_names(const std::vector<const FormatDefinition*>& form
 
 /// "dxf  AutoCAD drawing ...", and a line for each option under it.
 std::string formats_text();
+/// All formats with their options, for pages: a list of `{id, label, doc, ending, options: [{id, doc, kind, unit, default,
+/// minimum, maximum, choices: [{id, doc}]}]}`; what an option has not is left out.
+std::string formats_json();
 /// A page of the catalogue.
 std::string format_page(const FormatDefinition& format);
 

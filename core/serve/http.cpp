@@ -45,6 +45,18 @@ std::map<std::string, std::string> form_fields(const std::string& text) {
   return fields;
 }
 
+std::string form_text(std::string_view text) {
+  static constexpr std::string_view kDigits = "0123456789ABCDEF", kPlain = "-._";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (is_letter || kPlain.find(c) != std::string_view::npos) out += c;
+    else (((out += '%') += kDigits[byte >> 4]) += kDigits[byte & 15]);
+  }
+  return out;
+}
+
 std::string path_of(const std::string& target) { return target.substr(0, target.find_first_of("?#")); }
 
 }  // namespace bl::serve

@@ -26,6 +26,8 @@ using Reply = std::function<void(Response)>;
 
 /// The fields of a form: `a=1&b=two+words`, with its escapes undone. A field that stands twice has its last value.
 std::map<std::string, std::string> form_fields(const std::string& text);
+/// A text as the value of a field of a form, in letters that may stand anywhere.
+std::string form_text(std::string_view text);
 /// The path without its query.
 std::string path_of(const std::string& target);
 

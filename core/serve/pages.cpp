@@ -9,6 +9,7 @@
 #include "core/base/moment.h"
 #include "core/define/json_text.h"
 #include "core/drawing/markup.h"
+#include "core/export/option_text.h"
 #include "core/file/file_io.h"
 #include "core/room/secrets.h"
 #include "core/serve/plain_page.h"
@@ -143,6 +144,22 @@ Response Pages::qr(const std::string& name, const Request& request) const {
              : sentence(414, svg.error().message);
 }
 
+// What was made for one person alone, and is kept nowhere.
+Response file_for_one(const Errands::Made& made) {
+  Response response{.type = type_of_file(made.name), .body = made.content, .fields = {{"Cache-Control", "no-store"}}};
+  response.fields["Content-Disposition"] = "attachment; filename=\"" + made.name.substr(made.name.rfind('/') + 1) + "\"";
+  std::string notes;
+  for (const std::string& note : made.notes) notes += (notes.empty() ? "" : "\n") + note;
+  // Fields of HTTP hold no line ends, and letters of English only.
+  if (!notes.empty()) response.fields["Notes"] = form_text(notes);
+  return response;
+}
+
+Response no_file(const std::string& what, const Error& error) {
+  const bool is_busy = error.code == ErrorCode::conflict, is_refused = !error.place.empty() && !is_busy;
+  return sentence(is_busy ? 409 : is_refused ? 400 : 500, what + ": " + error.text() + ".");
+}
+
 // A form, so that the token stands in no address. Rooms that there are not are answered as wrong tokens are: nobody learns codes
 // here.
 void Pages::minutes(const Request& request, const Reply& reply) const {
@@ -152,17 +169,30 @@ void Pages::minutes(const Request& request, const Reply& reply) const {
     return reply(sentence(403, "Only who leads a room gets its minutes."));
   const auto zone = fields["zone"].empty() ? 0 : read_zone(fields["zone"]);
   if (!zone) return reply(sentence(400, "The field `zone` is UTC, or hours and minutes such as +01:00."));
-  room->second->make_minutes(fields["file"], *zone, [reply, name = fields["file"]](const Result<std::string>& made) {
-    if (made) {
-      Response response{.type = type_of_file(name), .body = *made, .fields = {{"Cache-Control", "no-store"}}};
-      if (name == "minutes.html") response.inline_sources = inline_sources_of(response.body);
-      else response.fields["Content-Disposition"] = "attachment";
-      return reply(std::move(response));
+  room->second->make_minutes(fields["file"], *zone, [reply](const Result<Errands::Made>& made) {
+    if (!made && made.error().code == ErrorCode::not_found) return reply(sentence(404, "These minutes have no such file."));
+    if (!made) return reply(no_file("The minutes cannot be made", made.error()));
+    Response response = file_for_one(*made);
+    if (made->name == "minutes.html") {
+      response.inline_sources = inline_sources_of(response.body);
+      response.fields.erase("Content-Disposition");
     }
-    if (made.error().code == ErrorCode::conflict)
-      return reply(sentence(409, "The minutes are being made for somebody else; try again in a moment."));
-    if (made.error().code == ErrorCode::not_found) return reply(sentence(404, "These minutes have no such file."));
-    reply(sentence(500, "The minutes cannot be made: " + made.error().text() + "."));
+    reply(std::move(response));
+  });
+}
+
+// As minutes are asked for. The fields `option.NAME` are those of the format.
+void Pages::plan_file(const Request& request, const Reply& reply) const {
+  static constexpr std::string_view kOption = "option.";
+  auto fields = form_fields(request.body);
+  const auto room = rooms_->find(code_in(fields["room"]));
+  if (room == rooms_->end() || !room->second->may_export(room->second->seat_of_token(fields["token"])))
+    return reply(sentence(403, "Only who leads a room, and its designers, get files of its plan."));
+  ExportWish wish{.format = fields["format"], .options = {}, .page_folder = folder_};
+  for (const auto& [name, value] : fields)
+    if (name.starts_with(kOption)) wish.options.push_back(name.substr(kOption.size()) + "=" + value);
+  room->second->make_export(wish, [reply](const Result<Errands::Made>& made) {
+    reply(made ? file_for_one(*made) : no_file("The file cannot be made", made.error()));
   });
 }
 
@@ -204,8 +234,11 @@ void Pages::answer(const Request& request, const Reply& reply) {
                      : sentence(414, svg.error().message));
   }
   if (!is_read && path == "/minutes") return minutes(request, reply);
+  if (!is_read && path == "/export") return plan_file(request, reply);
   if (!is_read) return reply(sentence(404, "There is no such form."));
   if (path == "/health") return reply(health(request.is_local));
+  if (path == "/formats")
+    return reply({.type = "application/json", .body = exporting::formats_json(), .fields = {{"Cache-Control", "no-cache"}}});
   if (path.starts_with("/qr/")) return reply(qr(path.substr(4), request));
   if (path == "/plain.css")
     return reply({.type = "text/css; charset=utf-8", .body = plain_style(), .fields = {{"Cache-Control", "no-cache"}}});

@@ -28,6 +28,7 @@ class Pages {
   Response health(bool is_local) const;
   Response qr(const std::string& name, const Request& request) const;
   void minutes(const Request& request, const Reply& reply) const;
+  void plan_file(const Request& request, const Reply& reply) const;
   Response file(const std::string& path, bool is_immutable, bool takes_gzip) const;
   void plain(RoomHost& room, const Request& request, const std::string& what, const Reply& reply);
 

@@ -14,10 +14,10 @@
 #include "core/host/live_session.h"
 #include "core/journal/writer.h"
 #include "core/room/room.h"
+#include "core/serve/errands.h"
 #include "core/serve/followers.h"
 #include "core/serve/guest.h"
 #include "core/serve/machine.h"
-#include "core/serve/minutes_maker.h"
 #include "core/serve/room_windows.h"
 #include "core/serve/trial_runner.h"
 #include "core/session/session.h"
@@ -40,6 +40,13 @@ struct RoomHostOptions {
   std::function<void(const RoomHost&)> keys_renewed = {};
   std::function<Surroundings()> surroundings = {};  ///< on the thread of the host; none: nothing is known of them
   bool takes_over = false;  ///< another laptop had the room, and may have had more of it: its windows begin anew
+};
+
+/// A file in the format of another program.
+struct ExportWish {
+  std::string format;
+  std::vector<std::string> options;  ///< each `name=value`
+  std::string page_folder;           ///< where the built page is that some formats are made of; empty where there is none
 };
 
 /// All of it belongs to one thread, but for the ticks and the disk, which have threads of their own.
@@ -83,8 +90,13 @@ class RoomHost {
   wire::View view(std::string_view name, std::int64_t seat);
 
   bool leads(std::int64_t seat) const;
-  /// One file of the minutes; for those who lead. Once at a time: whoever comes meanwhile is told so at once.
-  void make_minutes(const std::string& file, int zone, MinutesMaker::Done done) { minutes_->make(file, zone, std::move(done)); }
+  // One file at a time: whoever asks meanwhile is told so at once.
+  /// One file of the minutes of all that is stored by now, such as `minutes.html`; for those who lead. `zone`: of its times, so
+  /// far ahead of UTC [min].
+  void make_minutes(const std::string& file, int zone, Errands::Done done);
+  /// The plan as it is now, once it is stored; for those who may.
+  void make_export(const ExportWish& wish, Errands::Done done);
+  bool may_export(std::int64_t seat) const;
 
   struct Health {
     std::size_t seats = 0, guests = 0, followers = 0;
@@ -201,7 +213,7 @@ class RoomHost {
   std::unique_ptr<room::Room> room_;
   std::unique_ptr<journal::Writer> writer_;
   std::unique_ptr<Followers> followers_;
-  std::unique_ptr<MinutesMaker> minutes_;
+  std::unique_ptr<Errands> errands_;
   std::string beginning_;  // the scene file before the first entry
   /// Grows where the room begins anew on another laptop, and with each return to a scenario: never the same one twice.
   std::int64_t epoch() const { return (epoch_ - 1) * kMostReturns + room_->state().epoch; }

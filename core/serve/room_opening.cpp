@@ -66,7 +66,7 @@ Result<std::unique_ptr<RoomHost>> RoomHost::open(const std::string& journal_path
                                                   [clock](std::condition_variable& wake, std::unique_lock<std::mutex>& lock,
                                                           double until) { clock->wait(wake, lock, until); }});
   host->followers_ = std::make_unique<Followers>(*host->writer_, host->options_.on_own_thread, *clock);
-  host->minutes_ = std::make_unique<MinutesMaker>(*host->writer_, host->options_.on_own_thread);
+  host->errands_ = std::make_unique<Errands>(*host->writer_, host->options_.on_own_thread);
   if (auto begun = host->begin(*loaded); !begun) return begun.error();
   host->flush();
   return host;
@@ -283,7 +283,7 @@ void RoomHost::close() {
   is_alive_.reset();
   session_.reset();
   followers_.reset();
-  minutes_.reset();
+  errands_.reset();
   writer_.reset();  // stores what waits
 }
 

@@ -130,7 +130,8 @@ struct GeoJsonFormat {
       if (options.coordinates == GeoFrame::wgs84) {
         auto found = WayToEarth::make(proposal);
         if (!found)
-          return Error{found.error().code, "", found.error().message + "; or write its own metres by --option coordinates=scene"};
+          return Error{found.error().code, "",
+                       found.error().message + "; or choose `scene` for the option `coordinates`, which writes its own metres"};
         way.emplace(std::move(*found));
       } else {
         made.notes.push_back(

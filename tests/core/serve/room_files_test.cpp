@@ -1,4 +1,4 @@
-// The minutes of a room that runs: who gets them, what they say, and that one is made at a time.
+// Files of a room that runs, its minutes and its plan: who gets them, what they hold, and that one is made at a time.
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
+#include "core/export/format.h"
 #include "core/journal/journal.h"
 #include "core/minutes/minutes.h"
 #include "core/serve/pages.h"
@@ -30,10 +31,10 @@ struct QuietGuest : Guest {
   int answered = 0;
 };
 
-class MinutesOfRooms : public ::testing::Test {
+class FilesOfRooms : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("behaviourlinks_minutes_" + std::to_string(::getpid()) + "_" +
+    folder_ = std::filesystem::temp_directory_path() / ("behaviourlinks_files_" + std::to_string(::getpid()) + "_" +
                                                         ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
     RoomHostOptions options;
@@ -96,8 +97,8 @@ class MinutesOfRooms : public ::testing::Test {
   std::string form(const std::string& token, const std::string& file = "minutes.html") const {
     return "room=BKRT&file=" + file + "&token=" + token;
   }
-  Response answered(const std::string& body) {
-    const auto answer = post(body);
+  Response answered(const std::string& body, const std::string& target = "/minutes") {
+    const auto answer = post(body, target);
     run_until([&] { return answer->has_value(); });
     return **answer;
   }
@@ -111,7 +112,7 @@ class MinutesOfRooms : public ::testing::Test {
   std::deque<std::function<void()>> tasks_;
 };
 
-TEST_F(MinutesOfRooms, AreThoseOfTheSessionFile) {
+TEST_F(FilesOfRooms, MinutesAreThoseOfTheSessionFile) {
   say(*guest_, R"({"t": "room", "id": 1, "e": {"event": "comment", "arguments": {"id": "c1", "text": "Keep <the> willow"}}})");
   close_room();
   const std::vector<std::string> names = {"minutes.html", "decisions.csv", "comments.csv",
@@ -139,7 +140,7 @@ TEST_F(MinutesOfRooms, AreThoseOfTheSessionFile) {
   EXPECT_EQ(served["minutes.html"].body.find("<script"), std::string::npos);
 }
 
-TEST_F(MinutesOfRooms, AreForThoseWhoLead) {
+TEST_F(FilesOfRooms, MinutesAreForThoseWhoLead) {
   close_room();
   const Response refused = answered(form(guest_->token));
   EXPECT_EQ(refused.status, 403);
@@ -156,7 +157,7 @@ TEST_F(MinutesOfRooms, AreForThoseWhoLead) {
   EXPECT_EQ((*in_address)->status, 403);
 }
 
-TEST_F(MinutesOfRooms, OneIsMadeAtATime) {
+TEST_F(FilesOfRooms, OneIsMadeAtATime) {
   const auto first = post(form(lead_->token)), second = post(form(lead_->token));
   ASSERT_TRUE(second->has_value()) << "it is told at once";
   EXPECT_EQ((*second)->status, 409);
@@ -170,13 +171,93 @@ TEST_F(MinutesOfRooms, OneIsMadeAtATime) {
   EXPECT_NE(answered(form(lead_->token)).body.find("Still here"), std::string::npos);
 }
 
-TEST_F(MinutesOfRooms, ARoomThatEndsMeanwhileEndsInOrder) {
+TEST_F(FilesOfRooms, ARoomThatEndsMeanwhileEndsInOrder) {
   const auto answer = post(form(lead_->token));
   room().turn();
   const bool was_answered = answer->has_value();
   rooms_.clear();
   for (auto& task : std::exchange(tasks_, {})) task();
   EXPECT_EQ(answer->has_value(), was_answered) << "nothing of a room is touched that is gone";
+}
+
+std::string plan_form(const std::string& token, const std::string& format, const std::string& more = "") {
+  return "room=BKRT&token=" + token + "&format=" + format + more;
+}
+
+TEST_F(FilesOfRooms, ThePlanComesInEveryFormat) {
+  const auto designer = join("designer");
+  for (const exporting::FormatDefinition& format : exporting::all_formats()) {
+    const std::string own_metres =
+        format.id == "geojson" ? "&option.coordinates=scene" : "";  // the quarter lies nowhere on Earth
+    const Response got = answered(plan_form(designer->token, format.id, own_metres), "/export");
+    if (!format.shell.empty()) {  // the built page is not there
+      EXPECT_EQ(got.status, 400) << format.id;
+      EXPECT_NE(got.body.find("page"), std::string::npos) << got.body;
+      continue;
+    }
+    ASSERT_EQ(got.status, 200) << format.id << ": " << got.body;
+    const bool begins = std::any_of(format.beginnings.begin(), format.beginnings.end(),
+                                    [&](const std::string& beginning) { return got.body.starts_with(beginning); });
+    EXPECT_TRUE(begins || format.beginnings.empty()) << format.id << ": " << got.body.substr(0, 40);
+    EXPECT_EQ(got.fields.at("Content-Disposition"), "attachment; filename=\"plan" + format.ending + "\"");
+    EXPECT_EQ(got.fields.at("Cache-Control"), "no-store");
+  }
+}
+
+// The state of the room as it is: a volume that somebody has added a moment ago is in it, and the hash is the one of the room.
+TEST_F(FilesOfRooms, ThePlanIsTheOneOfNow) {
+  say(*lead_,
+      R"({"t": "op", "id": 1, "c": {"command": "rename_node", "arguments": {"id": "library", "name": "Reading \u4e66 room"}}})");
+  const Response got = answered(plan_form(lead_->token, "csv"), "/export");
+  ASSERT_EQ(got.status, 200) << got.body;
+  EXPECT_NE(got.body.find("Reading \u4e66 room"), std::string::npos) << got.body.substr(0, 400);
+}
+
+TEST_F(FilesOfRooms, ThePlanIsForThoseWhoMay) {
+  EXPECT_EQ(answered(plan_form(lead_->token, "csv"), "/export").status, 200);
+  const Response refused = answered(plan_form(guest_->token, "csv"), "/export");
+  EXPECT_EQ(refused.status, 403);
+  EXPECT_EQ(answered(plan_form("", "csv"), "/export").status, 403);
+  EXPECT_EQ(answered("room=QQQQ&format=csv&token=" + lead_->token, "/export").body, refused.body);
+  const auto said = [&](const std::string& format, const std::string& more) {
+    const Response got = answered(plan_form(lead_->token, format, more), "/export");
+    EXPECT_EQ(got.status, 400) << format << more;
+    return got.body;
+  };
+  EXPECT_NE(said("dwg", "").find("there is no format `dwg`"), std::string::npos);
+  EXPECT_NE(said("svg", "&option.scale=tall").find("`tall`"), std::string::npos);
+  EXPECT_NE(said("svg", "&option.scal=200").find("did you mean `scale`"), std::string::npos) << said("svg", "&option.scal=200");
+}
+
+TEST_F(FilesOfRooms, OptionsAreThoseOfTheDeclaration) {
+  std::optional<Response> list;
+  Pages(rooms_, "").answer({.method = "GET", .target = "/formats", .body = "", .host = "192.168.1.5"}, [&](Response response) {
+    list = std::move(response);
+  });
+  ASSERT_TRUE(list.has_value());
+  const auto formats = parse_json(list->body);
+  ASSERT_TRUE(formats.ok());
+  ASSERT_EQ(formats->size(), exporting::all_formats().size());
+  std::map<std::string, Json> options;
+  for (const Json& format : *formats) {
+    EXPECT_FALSE(format.at("label").get<std::string>().empty() || format.at("doc").get<std::string>().empty());
+    if (format.at("id") == "svg")
+      for (const Json& option : format.at("options")) options[option.at("id").get<std::string>()] = option;
+  }
+  ASSERT_TRUE(options.contains("scale")) << list->body;
+  const Response usual = answered(plan_form(lead_->token, "svg"), "/export"),
+                 smaller = answered(plan_form(lead_->token, "svg", "&option.scale=1000"), "/export");
+  ASSERT_EQ(smaller.status, 200) << smaller.body;
+  EXPECT_EQ(usual.body.find("scale 1:1000"), std::string::npos);
+  EXPECT_NE(smaller.body.find("scale 1:1000"), std::string::npos);
+  EXPECT_NE(smaller.body.find("room.blsession"), std::string::npos) << "it says where it comes from";
+}
+
+TEST(FormTexts, ComeBackAsTheyWere) {
+  std::string all;
+  for (int c = 1; c < 256; ++c) all += static_cast<char>(c);
+  EXPECT_EQ(form_fields("a=" + form_text(all)).at("a"), all);
+  EXPECT_EQ(form_text("für A"), "f%C3%BCr%20A");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 export * from "./areas";
 export * from "./ballots";
 export * from "./connection";
+export * from "./files";
 export * from "./format";
 export * from "./handover";
 export * from "./health";

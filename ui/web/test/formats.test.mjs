@@ -15,8 +15,11 @@ import {
   in_steps,
   kLanguages,
   ko,
+  export_form,
+  file_from_server,
   minutes_form,
-  minutes_from_server,
+  option_name,
+  saved_as,
   minutes_of,
   nl,
   number,
@@ -233,21 +236,46 @@ function read_wifi(text) {
   return fields;
 }
 
-test("minutes are asked for by a form, and each way to get none has a sentence", async () => {
+const answering =
+  (asked, status, text, headers = {}) =>
+  async (address, how) => {
+    asked.push({ address, method: how.method, body: how.body.toString() });
+    return new Response(text, { status, headers });
+  };
+
+test("files are asked for by a form, and each way to get none has a sentence", async () => {
   const asked = [],
-    form = minutes_form("BKRT", "secret", "votes.csv", zone_text(-60)),
-    answering = (status, text) => async (address, how) => {
-      asked.push({ address, method: how.method, body: how.body.toString() });
-      return new Response(text, { status });
-    };
-  const got = await minutes_from_server(form, answering(200, "vote,round"));
-  assert.equal(await got.text(), "vote,round");
+    form = minutes_form("BKRT", "secret", "votes.csv", zone_text(-60));
+  const got = await file_from_server("minutes", form, answering(asked, 200, "vote,round"));
+  assert.equal(await got.blob.text(), "vote,round");
+  assert.deepEqual(got.notes, []);
   assert.deepEqual(asked, [{ address: "/minutes", method: "POST", body: "room=BKRT&token=secret&file=votes.csv&zone=%2B01%3A00" }]);
-  const why = async (ask) => (await minutes_from_server(form, ask)).why;
-  assert.equal(await why(answering(409, "busy")), "minutes_busy");
-  assert.equal(await why(answering(403, "no")), "minutes_right");
-  assert.deepEqual(await minutes_from_server(form, answering(500, "The disk is full.\n")), { why: "minutes_failed", text: "The disk is full." });
-  assert.equal(await why(() => Promise.reject(new TypeError("no network"))), "minutes_offline");
+  for (const what of ["minutes", "export"]) {
+    const why = async (ask) => (await file_from_server(what, form, ask)).why;
+    assert.equal(await why(answering(asked, 409, "busy")), `${what}_busy`);
+    assert.equal(await why(answering(asked, 403, "no")), `${what}_right`);
+    const full = await file_from_server(what, form, answering(asked, 500, "The disk is full.\n"));
+    assert.deepEqual(full, { why: `${what}_failed`, text: "The disk is full." });
+    assert.equal(await why(() => Promise.reject(new TypeError("no network"))), "files_offline");
+  }
+});
+
+test("the plan is asked for with what differs from the defaults, and what it cannot hold is told", async () => {
+  const format = {
+    id: "dxf",
+    ending: ".dxf",
+    options: [
+      { id: "scale", kind: "integer", default: 200 },
+      { id: "with_frame", kind: "boolean", default: true },
+      { id: "paper", kind: "choice", default: "a3" },
+    ],
+  };
+  const form = export_form("BKRT", "secret", format, { scale: "200", with_frame: "no", paper: "a1", other: "x" });
+  assert.deepEqual(form, { room: "BKRT", token: "secret", format: "dxf", "option.with_frame": "no", "option.paper": "a1" });
+  const got = await file_from_server("export", form, answering([], 200, "0", { notes: "f%C3%BCr%20A%0Aand%20B" }));
+  assert.deepEqual(got.notes, ["für A", "and B"]);
+  assert.equal(saved_as("BKRT", "scenes/end.json"), "BKRT-end.json");
+  assert.equal(option_name("with_frame"), "With frame");
 });
 
 test("the zone of a device is written as the server reads it", () => {

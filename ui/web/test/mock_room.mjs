@@ -10,6 +10,7 @@ export class MockRoom {
   tokens = new Map();
   areas = {};
   asked_minutes = [];
+  asked_plans = [];
   minutes_fault = 0; // the status of the answer, where there are none
   runs = new Map();
   links = new Set();

@@ -41,6 +41,29 @@ async function minutes(room, request, answer) {
   return answer.writeHead(200, { ...head, "Content-Type": "text/csv; charset=utf-8" }).end("number,entry\n1,2\n");
 }
 
+// The formats of a plan, and a plan that cannot hold everything.
+const kFormats = [
+  {
+    id: "dxf",
+    label: "Drawing for CAD (DXF)",
+    doc: "Plans at scale for drawing programs, with a layer for each use.",
+    ending: ".dxf",
+    options: [
+      { id: "scale", doc: "So many metres are one metre on paper.", kind: "number", default: 200, minimum: 1, maximum: 10000 },
+      { id: "paper", doc: "The sheet.", kind: "choice", default: "a3", choices: [{ id: "a3", doc: "420 by 297 mm." }, { id: "a1", doc: "841 by 594 mm." }] },
+      { id: "with_dimensions", doc: "Whether lengths are written.", kind: "boolean", default: true },
+    ],
+  },
+  { id: "pdf", label: "Plans at scale (PDF)", doc: "Sheets to print.", ending: ".pdf", options: [] },
+];
+async function plan_file(room, request, answer) {
+  let body = "";
+  for await (const part of request) body += part;
+  const form = Object.fromEntries(new URLSearchParams(body));
+  room.asked_plans.push({ ...form, token: room.seats[room.tokens.get(form.token)]?.role });
+  answer.writeHead(200, { "Content-Type": "application/octet-stream", Notes: "Gard%C3%AAn%3A%20no%20shape%0ATerrain%3A%20left%20out" }).end("drawing");
+}
+
 /// Starts on a free port, or on the one that is named.
 export async function serve(port = 0) {
   const room = new MockRoom(),
@@ -49,6 +72,8 @@ export async function serve(port = 0) {
   const server = createServer((request, answer) => {
     const path = new URL(request.url, "http://x").pathname;
     if (path === "/minutes") return minutes(room, request, answer);
+    if (path === "/export") return plan_file(room, request, answer);
+    if (path === "/formats") return answer.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(kFormats));
     if (path.startsWith("/qr"))
       return answer
         .writeHead(200, { "Content-Type": "image/svg+xml" })

@@ -238,6 +238,7 @@ async function walk_facilitator(server, size, scheme) {
   await page.waitForSelector(".codes img >> nth=1");
   await look(page, `lead_code_${at}`);
   await page.click('button:has-text("Close")');
+  await look_at_export(page, room, at);
   room.open_votes("bridge");
   await page.waitForSelector('p:has-text("still open. Close it first")');
   room.open_votes();
@@ -252,6 +253,23 @@ async function walk_facilitator(server, size, scheme) {
   await look(page, `lead_minutes_command_${at}`);
   room.room.closed = false;
   await page.context().close();
+}
+
+// A format with options, and what the file cannot hold.
+async function look_at_export(page, room, at) {
+  room.asked_plans.length = 0;
+  await page.selectOption('label:has-text("Format") select', "dxf");
+  await page.click('summary:has-text("Options")');
+  await page.selectOption('label:has-text("Paper") select', "a1");
+  await page.click('label:has-text("With dimensions")');
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click('button:has-text("Save the file")')]);
+  assert.equal(file.suggestedFilename(), "BCDF-plan.dxf");
+  await page.waitForSelector('[role=status] li:has-text("Terrain: left out")');
+  await page.locator('button:has-text("Save the file")').scrollIntoViewIfNeeded();
+  await look(page, `lead_export_${at}`);
+  assert.deepEqual(room.asked_plans, [
+    { room: "BCDF", token: "facilitator", format: "dxf", "option.paper": "a1", "option.with_dimensions": "no" },
+  ]);
 }
 
 // They open as a page, and are saved as files; the token stands in no address.

@@ -13,6 +13,7 @@ import { AreasPart } from "./areas";
 import { Answer, Decide } from "./deciding";
 import { HealthPart } from "./health";
 import { JoinPart, KeysPart, join_address } from "./invitations";
+import { ExportPart } from "./files";
 import { MinutesPart } from "./minutes";
 import { People, at_door } from "./people";
 import { ScenariosPart } from "./scenarios";
@@ -317,6 +318,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <>
         <Title>{t("tab_lead")}</Title>
         <MinutesPart s={s} />
+        <ExportPart s={s} />
       </>
     );
   const join = <JoinPart key="join" s={s} ui={ui} />;
@@ -371,6 +373,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <AreasPart s={s} ui={ui} />
       <KeysPart s={s} />
       <HealthPart s={s} />
+      <ExportPart s={s} />
       <EndPart s={s} />
     </>
   );

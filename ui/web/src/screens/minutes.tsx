@@ -1,22 +1,14 @@
 // After the session: its minutes, to open and to save.
 import type { JSX } from "preact";
-import { useState } from "preact/hooks";
-import { kMinutes, minutes_form, minutes_from_server, minutes_of, saved_as, zone_text } from "../minutes";
+import { saved_as } from "../files";
+import { kMinutes, minutes_form, minutes_of, zone_text } from "../minutes";
 import { Icon } from "../parts";
 import type { Session } from "../session";
 import { Key, t } from "../words";
+import { SaidOfFile, useFile } from "./files";
 import { AddressRow } from "./invitations";
 
 const zone_here = (): string => zone_text(new Date().getTimezoneOffset());
-
-function save(blob: Blob, name: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  // Some browsers begin to read only after the click.
-  window.setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-}
 
 // A page of its own, which the browser asks for as for any form. It is not taken from memory, because the policy of this page would
 // forbid its style.
@@ -35,28 +27,18 @@ function OpenMinutes({ room, token }: { room: string; token: string }): JSX.Elem
 }
 
 function SaveMinutes({ room, token }: { room: string; token: string }): JSX.Element {
-  const [said, say] = useState<{ state: "making" | "saved" | "failed"; text: string } | null>(null);
-  const get = async (file: string): Promise<void> => {
-    if (said?.state === "making") return;
-    say({ state: "making", text: t("minutes_making") });
-    const got = await minutes_from_server(minutes_form(room, token, file, zone_here()), window.fetch.bind(window));
-    if (!(got instanceof Blob)) return say({ state: "failed", text: t(got.why, { why: got.text }) });
-    save(got, saved_as(room, file));
-    say({ state: "saved", text: t("minutes_saved", { file: saved_as(room, file) }) });
-  };
+  const { said, get } = useFile("minutes");
   return (
     <>
       <h3>{t("minutes_save")}</h3>
       <div class="row">
         {Object.entries(kMinutes).map(([what, file]) => (
-          <button key={what} class="quiet" aria-disabled={said?.state === "making"} onClick={() => void get(file)}>
+          <button key={what} class="quiet" aria-disabled={said?.state === "making"} onClick={() => void get(minutes_form(room, token, file, zone_here()), saved_as(room, file))}>
             {t(`minutes_of_${what}` as Key)}
           </button>
         ))}
       </div>
-      <p role="status" class={said?.state === "failed" ? "notice" : "small"}>
-        {said?.text ?? ""}
-      </p>
+      <SaidOfFile said={said} />
     </>
   );
 }
