@@ -96,6 +96,21 @@ std::string formats_text() {
   return text;
 }
 
+namespace {
+
+// How a page asks for it: what is none of these is typed as a text.
+const char* kind_word(const PortDefinition& option) {
+  if (!option.choices.empty()) return "choice";
+  switch (option.kind) {
+    case ValueKind::boolean: return "boolean";
+    case ValueKind::integer: return "integer";
+    case ValueKind::number: return "number";
+    default: return "text";
+  }
+}
+
+}  // namespace
+
 std::string formats_json() {
   Json formats = Json::array();
   for (const FormatDefinition& format : all_formats()) {
@@ -103,7 +118,7 @@ std::string formats_json() {
     for (const PortDefinition& option : format.ports) {
       Json one = {{"id", option.id},
                   {"doc", option.doc},
-                  {"kind", option.choices.empty() ? std::string(name_of(option.kind)) : "choice"},
+                  {"kind", kind_word(option)},
                   {"default", value_to_json(option.default_value, option)}};
       if (const std::string unit(info(option.unit).pretty); !unit.empty()) one["unit"] = unit;
       if (std::isfinite(option.hard_minimum)) one["minimum"] = option.hard_minimum;

@@ -12,9 +12,10 @@ rm -rf "$new"
 mkdir -p "$new/assets"
 target=es2019,chrome70,safari13,firefox68
 bundled() { "$esbuild" "$@" --bundle --minify --target=$target --charset=utf8 --legal-comments=none --log-level=warning; }
-# The picture in three dimensions comes when somebody asks for it.
+# The picture in three dimensions, and what asks for files, come when somebody asks for them.
 bundled src/space/picture.ts --format=esm --entry-names='space-[hash]' --outdir="$new/assets"
-chunks=$(cd "$new/assets" && printf '{"space":"/assets/%s"}' "$(ls space-*.js)")
+bundled src/files/show.tsx --format=esm --jsx=automatic --jsx-import-source=preact --entry-names='files-[hash]' --outdir="$new/assets"
+chunks=$(cd "$new/assets" && printf '{"space":"/assets/%s","files":"/assets/%s"}' "$(ls space-*.js)" "$(ls files-*.js)")
 bundled src/page.tsx --format=iife --define:CHUNKS="$chunks" --jsx=automatic --jsx-import-source=preact --supported:dynamic-import=true \
   --entry-names='[name]-[hash]' --outdir="$new/assets"
 script=$(cd "$new/assets" && ls page-*.js)

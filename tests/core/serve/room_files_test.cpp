@@ -245,6 +245,10 @@ TEST_F(FilesOfRooms, OptionsAreThoseOfTheDeclaration) {
       for (const Json& option : format.at("options")) options[option.at("id").get<std::string>()] = option;
   }
   ASSERT_TRUE(options.contains("scale")) << list->body;
+  EXPECT_EQ(options.at("scale").at("kind"), "number");
+  EXPECT_EQ(options.at("labels").at("kind"), "boolean");
+  EXPECT_EQ(options.at("paper").at("kind"), "choice");
+  EXPECT_TRUE(options.at("paper").contains("choices"));
   const Response usual = answered(plan_form(lead_->token, "svg"), "/export"),
                  smaller = answered(plan_form(lead_->token, "svg", "&option.scale=1000"), "/export");
   ASSERT_EQ(smaller.status, 200) << smaller.body;

@@ -18,6 +18,8 @@ export function zone_text(behind: number): string {
   return `${behind > 0 ? "-" : "+"}${two(Math.floor(minutes / 60))}:${two(minutes % 60)}`;
 }
 
+export const zone_here = (): string => zone_text(new Date().getTimezoneOffset());
+
 /// The form that asks for a file.
 export const minutes_form = (room: string, token: string, file: string, zone: string): Record<string, string> => ({ room, token, file, zone });
 

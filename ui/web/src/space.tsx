@@ -1,6 +1,7 @@
 // The plan, or the picture in three dimensions in its place: a button chooses. The picture's script comes when it is asked for.
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { script } from "./chunks";
 import { Plan, PlanProps } from "./plan";
 import type { Session } from "./session";
 import type { Look, Mark, Picture, Step } from "./space/picture";
@@ -9,25 +10,7 @@ import { Buttons, North, kKeys, looks_of } from "./space_controls";
 import { Binding, Ui, is_of_browser, useBinding, useMedia, useWide } from "./ui";
 import { t } from "./words";
 
-// The build fills in the address.
-declare const CHUNKS: { space: string };
-
-type Script = { Picture: typeof Picture };
 type Stage = "loading" | "ready" | "no_script" | "no_webgl";
-
-let coming: Promise<Script> | null = null,
-  failures = 0;
-// What did not come is asked for again by the next who wants it: under another name, because browsers remember what failed.
-function script(): Promise<Script> {
-  if (coming) return coming;
-  const made = import(failures > 0 ? `${CHUNKS.space}#${failures}` : CHUNKS.space) as Promise<Script>;
-  coming = made;
-  made.catch(() => {
-    coming = null;
-    failures += 1;
-  });
-  return made;
-}
 
 /// What the plan says of each thing, by node.
 function names_of(s: Session): Map<string, Look> {
@@ -56,7 +39,7 @@ function Space({ s, binding, selected, isStill, label }: PlanProps): JSX.Element
   useEffect(() => {
     let isGone = false;
     setStage("loading");
-    script().then(
+    script("space").then(
       ({ Picture: Made }) => {
         if (isGone || !canvas.current || !overlay.current || !box.current) return;
         try {

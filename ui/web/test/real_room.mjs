@@ -199,9 +199,11 @@ try {
   assert.ok(Object.values(room.lead.views.room.seats).some((seat) => seat.role === "viewer" && seat.here));
 
   // The plan as it is now goes to the programs of others, with an option that is not the usual one.
+  await lead.click('summary:has-text("Choose a format")');
   await lead.selectOption('label:has-text("Format") select', "svg");
   await lead.click('summary:has-text("Options")');
   await lead.fill('label:has-text("Scale") input', "1000");
+  await lead.click('label:has-text("Labels")');
   const [drawing] = await Promise.all([lead.waitForEvent("download"), lead.click('button:has-text("Save the file")')]);
   assert.match(drawing.suggestedFilename(), /-plan\.svg$/);
   assert.match(readFileSync(await drawing.path(), "utf8"), /^<\?xml[^]*scale 1:1000/);
@@ -209,7 +211,10 @@ try {
   await lead.fill('label:has-text("Scale") input', "huge");
   await lead.click('button:has-text("Save the file")');
   await lead.waitForSelector('[role=status]:has-text("huge")');
+  await lead.locator('button:has-text("Save the file")').scrollIntoViewIfNeeded();
   await picture(lead, "plan_as_a_file");
+  const refused = faults.splice(0);
+  assert.ok(refused.length === 1 && refused[0].endsWith("/export"), "the browser notes the refusal, and nothing else");
 
   // The session ends, and the facilitator reads what came of it and takes it along.
   await lead.click('.rows li:has-text("Where is a tower good?") button:has-text("Close")');

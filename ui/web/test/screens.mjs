@@ -258,6 +258,7 @@ async function walk_facilitator(server, size, scheme) {
 // A format with options, and what the file cannot hold.
 async function look_at_export(page, room, at) {
   room.asked_plans.length = 0;
+  await page.click('summary:has-text("Choose a format")');
   await page.selectOption('label:has-text("Format") select', "dxf");
   await page.click('summary:has-text("Options")');
   await page.selectOption('label:has-text("Paper") select', "a1");

@@ -1,14 +1,11 @@
 // After the session: its minutes, to open and to save.
 import type { JSX } from "preact";
-import { saved_as } from "../files";
-import { kMinutes, minutes_form, minutes_of, zone_text } from "../minutes";
+import { kMinutes, minutes_form, minutes_of, zone_here } from "../minutes";
 import { Icon } from "../parts";
 import type { Session } from "../session";
-import { Key, t } from "../words";
-import { SaidOfFile, useFile } from "./files";
+import { t } from "../words";
+import { Part } from "./files";
 import { AddressRow } from "./invitations";
-
-const zone_here = (): string => zone_text(new Date().getTimezoneOffset());
 
 // A page of its own, which the browser asks for as for any form. It is not taken from memory, because the policy of this page would
 // forbid its style.
@@ -26,23 +23,6 @@ function OpenMinutes({ room, token }: { room: string; token: string }): JSX.Elem
   );
 }
 
-function SaveMinutes({ room, token }: { room: string; token: string }): JSX.Element {
-  const { said, get } = useFile("minutes");
-  return (
-    <>
-      <h3>{t("minutes_save")}</h3>
-      <div class="row">
-        {Object.entries(kMinutes).map(([what, file]) => (
-          <button key={what} class="quiet" aria-disabled={said?.state === "making"} onClick={() => void get(minutes_form(room, token, file, zone_here()), saved_as(room, file))}>
-            {t(`minutes_of_${what}` as Key)}
-          </button>
-        ))}
-      </div>
-      <SaidOfFile said={said} />
-    </>
-  );
-}
-
 export function MinutesPart({ s }: { s: Session }): JSX.Element {
   const { command, page } = minutes_of(s.health?.file || "FILE.blsession"),
     room = s.views.room.code ?? "",
@@ -52,7 +32,8 @@ export function MinutesPart({ s }: { s: Session }): JSX.Element {
       <h2>{t("minutes_title")}</h2>
       <p>{t("minutes_about")}</p>
       <OpenMinutes room={room} token={token} />
-      <SaveMinutes room={room} token={token} />
+      <h3>{t("minutes_save")}</h3>
+      <Part s={s} what="minutes" />
       <details>
         <summary>{t("minutes_by_command")}</summary>
         <p>{t("minutes_make")}</p>

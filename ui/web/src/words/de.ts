@@ -516,6 +516,7 @@ export const de: Record<Key, Text> = {
   files_offline: "Der Server antwortet nicht. Versuchen Sie es wieder, wenn er erreichbar ist.",
   export_title: "Der Plan als Datei",
   export_about: "Der Plan, wie er jetzt ist, für die Programme von Planern, Ingenieuren und Städten.",
+  export_choose: "Format wählen",
   export_format: "Format",
   export_options: "Optionen",
   export_save: "Datei speichern",

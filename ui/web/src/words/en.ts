@@ -528,6 +528,7 @@ export const en = {
   files_offline: "The server does not answer. Try again when it can be reached.",
   export_title: "The plan as a file",
   export_about: "The plan as it is now, for the programs of planners, engineers and cities.",
+  export_choose: "Choose a format",
   export_format: "Format",
   export_options: "Options",
   export_save: "Save the file",

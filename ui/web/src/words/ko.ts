@@ -512,6 +512,7 @@ export const ko: Record<Key, Text> = {
   files_offline: "서버가 응답하지 않습니다. 연결되면 다시 시도하세요.",
   export_title: "계획을 파일로",
   export_about: "지금의 계획을 계획가, 기술자, 도시의 프로그램에서 쓸 수 있는 파일로 저장합니다.",
+  export_choose: "형식 선택",
   export_format: "형식",
   export_options: "옵션",
   export_save: "파일 저장",

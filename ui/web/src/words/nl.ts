@@ -516,6 +516,7 @@ export const nl: Record<Key, Text> = {
   files_offline: "De server antwoordt niet. Probeer het opnieuw als hij bereikbaar is.",
   export_title: "Het plan als bestand",
   export_about: "Het plan zoals het nu is, voor de programma’s van planners, ingenieurs en gemeenten.",
+  export_choose: "Kies een formaat",
   export_format: "Formaat",
   export_options: "Opties",
   export_save: "Bestand opslaan",

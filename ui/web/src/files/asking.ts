@@ -1,5 +1,5 @@
 // Files that the server makes for one person: the minutes, and the plan in the formats of other programs.
-import type { Key } from "./words";
+import type { Key } from "../words";
 
 /// One way in which a format can be wanted otherwise.
 export interface FormatOption {
@@ -28,6 +28,11 @@ export interface MadeFile {
   notes: string[]; ///< what it cannot hold
 }
 
+const kWhy: Record<"minutes" | "export", Record<"busy" | "right" | "failed", Key>> = {
+  minutes: { busy: "minutes_busy", right: "minutes_right", failed: "minutes_failed" },
+  export: { busy: "export_busy", right: "export_right", failed: "export_failed" },
+};
+
 /// Posts a form, so that the token stands in no address. The file, or why there is none: a sentence, and what the server says.
 export async function file_from_server(
   what: "minutes" | "export",
@@ -41,7 +46,7 @@ export async function file_from_server(
       return { blob: await answer.blob(), notes: notes === "" ? [] : notes.split("\n") };
     }
     const why = answer.status === 409 ? "busy" : answer.status === 403 ? "right" : "failed";
-    return { why: `${what}_${why}`, text: (await answer.text()).trim() };
+    return { why: kWhy[what][why], text: (await answer.text()).trim() };
   } catch {
     return { why: "files_offline", text: "" };
   }
