@@ -156,8 +156,11 @@ Response file_for_one(const Errands::Made& made) {
 }
 
 Response no_file(const std::string& what, const Error& error) {
-  const bool is_busy = error.code == ErrorCode::conflict, is_refused = !error.place.empty() && !is_busy;
-  return sentence(is_busy ? 409 : is_refused ? 400 : 500, what + ": " + error.text() + ".");
+  if (error.code == ErrorCode::conflict) return sentence(409, what + ": " + error.text() + ".");
+  if (error.place.empty()) return sentence(500, what + ": " + error.text() + ".");
+  // What somebody has asked for wrongly. Places of options are named as in commands, which nobody has typed here.
+  const std::string text = error.text();
+  return sentence(400, (text.starts_with("--") ? text.substr(2) : text) + ".");
 }
 
 // A form, so that the token stands in no address. Rooms that there are not are answered as wrong tokens are: nobody learns codes

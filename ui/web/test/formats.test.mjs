@@ -132,8 +132,8 @@ test("all languages say everything, with the same gaps to fill", () => {
 
 test("every sentence is used, and every reason has one", () => {
   const folder = new URL("../src/", import.meta.url),
-    screens = new URL("screens/", folder);
-  const source = [folder, screens]
+    rooms = ["screens/", "files/"].map((name) => new URL(name, folder));
+  const source = [folder, ...rooms]
     .flatMap((at) =>
       readdirSync(at)
         .filter((name) => /\.tsx?$/.test(name))

@@ -53,7 +53,7 @@ export function PlanFiles({ room, token, t }: Props): JSX.Element {
   const format = formats?.find((one) => one.id === chosen) ?? formats?.[0];
   const of_format = format ? wanted[format.id] ?? {} : {};
   return (
-    <>
+    <div class="stack">
       {formats && formats.length === 0 ? (
         <p class="notice" role="status">
           {t("files_offline")}{" "}
@@ -78,14 +78,16 @@ export function PlanFiles({ room, token, t }: Props): JSX.Element {
           {format.options.length > 0 ? (
             <details>
               <summary>{t("export_options")}</summary>
-              {format.options.map((option) => (
+              <div class="stack">
+                {format.options.map((option) => (
                 <OptionField
                   key={`${format.id}/${option.id}`}
                   option={option}
                   value={of_format[option.id] ?? option_text(option.default)}
                   onChange={(value) => want({ ...wanted, [format.id]: { ...of_format, [option.id]: value } })}
                 />
-              ))}
+                ))}
+              </div>
             </details>
           ) : null}
           <button
@@ -98,6 +100,6 @@ export function PlanFiles({ room, token, t }: Props): JSX.Element {
           <SaidOfFile said={said} />
         </>
       ) : null}
-    </>
+    </div>
   );
 }

@@ -44,7 +44,7 @@ export function useFile(what: "minutes" | "export", t: typeof Words): { said: Sa
 
 export function SaidOfFile({ said }: { said: Said | null }): JSX.Element {
   return (
-    <div role="status">
+    <div role="status" class="stack">
       <p class={said?.state === "failed" ? "notice" : "small"}>{said?.text ?? ""}</p>
       {said && said.notes.length > 0 ? (
         <ul class="small">
