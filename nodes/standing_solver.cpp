@@ -222,7 +222,8 @@ struct StandingSolver {
   }
 
   // What is built otherwise than people have set it. Sentences after semicolons.
-  static std::string find_other_storeys(const Kept& kept, std::span<const geometry::StandingResult> results, double tolerance) {
+  static std::string find_other_storeys(const Kept& kept, std::span<const geometry::StandingResult> results, double top,
+                                        double tolerance) {
     std::string words;
     for (std::size_t i = 0; i < results.size(); ++i) {
       const geometry::StandingWish& wish = kept.wishes[i];
@@ -234,6 +235,9 @@ struct StandingSolver {
       if (wish.base < 0 && results[i].bottom < wish.ground && results[i].body)
         words += "; `" + kept.names[i] + "` stands at " + fixed(results[i].bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
                  " m, because the boundary leaves no storey above that";
+      if (results[i].body && results[i].bottom + results[i].height > top + 1e-6)
+        words += "; `" + kept.names[i] + "` reaches " + fixed(results[i].bottom + results[i].height, 1) +
+                 " m, and the boundary " + fixed(top, 1) + " m: the least of its storeys need more height than there is";
       // On their way to what they want, volumes are smaller.
       if (!results[i].body || error_of(wish, results[i].volume) > tolerance) continue;
       int with_area = 0;
@@ -300,7 +304,7 @@ struct StandingSolver {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] + "` stands on the ground, because it would stand upon itself: change its `bases`";
     }
-    words += find_other_storeys(kept, done->results, in.tolerance);
+    words += find_other_storeys(kept, done->results, (*domain)->maximum.z, in.tolerance);
     add_up(kept, done->results, out);
     for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(kept.wishes[i], done->results[i], kept.names));
     out.message = done->message;

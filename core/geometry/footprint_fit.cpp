@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSmallShare = 0.02;
-constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kStepsOfATry = 30, kRings = 2;
+constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kStepsOfATry = 30, kRings = 2,
+              kMostLeftOut = 4;
 constexpr std::uint32_t kNoDemand = 0xffffffffu;
 
 class Fit {
@@ -41,13 +42,29 @@ class Fit {
   bool fills_plot() const { return fills_plot_; }
   double factor() const { return factor_; }
   bool is_stalled() const { return is_stalled_; }
-  std::size_t doubled() const { return static_cast<std::size_t>(std::count(is_out_.begin(), is_out_.end(), std::uint8_t{1})); }
+  std::size_t doubled() const { return count_of(kDoubled); }
+  std::size_t left_out() const { return count_of(kLeftOut); }
+
+  // Where the demands cannot be met in any share, one of them may need what nobody can give it, such as a set-back that leaves
+  // it a plate only on most of the plot. Takes out the one that has least of what it wants; false: nobody is to be taken out.
+  bool leave_out_worst() {
+    std::uint32_t worst = kNoDemand;
+    for (std::uint32_t g = 0; g < demands_.size(); ++g) {
+      if (!counts(g) || !(demands_[g].least > 0)) continue;
+      if (worst == kNoDemand || floors_[g] * demands_[worst].least < floors_[worst] * demands_[g].least) worst = g;
+    }
+    // What has half of what it wants is not what stands in the way of all.
+    if (worst == kNoDemand || floors_[worst] > 0.5 * demands_[worst].least) return false;
+    is_out_[worst] = kLeftOut;
+    return true;
+  }
 
   // Steps until the demands, times `factor`, are met. False: they are not, because no step brings them nearer (`is_stalled`), or
   // because `most_steps` were not enough.
   Result<bool> run(double factor, int most_steps) {
     factor_ = factor;
     is_stalled_ = false;
+    make_room();
     if (auto done = evaluate(); !done) return done.error();
     leave_doubled();
     if (auto done = repair(); !done) return done.error();
@@ -100,6 +117,11 @@ class Fit {
   }
 
  private:
+  static constexpr std::uint8_t kDoubled = 1, kLeftOut = 2;
+
+  std::size_t count_of(std::uint8_t why) const {
+    return static_cast<std::size_t>(std::count(is_out_.begin(), is_out_.end(), why));
+  }
   double wanted(std::uint32_t g) const { return std::clamp(floors_[g], factor_ * demands_[g].least, factor_ * demands_[g].most); }
   bool counts(std::uint32_t g) const { return is_out_[g] == 0 && !demands_[g].sites.empty() && demands_[g].most > 0; }
 
@@ -109,9 +131,16 @@ class Fit {
     for (std::uint32_t g = 0; g < demands_.size(); ++g) {
       const std::vector<std::uint32_t>& sites = demands_[g].sites;
       if (!counts(g) || floors_[g] > 0 || !std::all_of(sites.begin(), sites.end(), is_doubled)) continue;
-      is_out_[g] = 1;
+      is_out_[g] = kDoubled;
       for (const std::uint32_t i : sites) sites_[i].site.weight = 0;
     }
+  }
+  // Those that are left out take no ground from the others.
+  void make_room() {
+    for (std::uint32_t g = 0; g < demands_.size(); ++g)
+      if (is_out_[g] == kLeftOut)
+        for (const std::uint32_t i : demands_[g].sites)
+          sites_[i].site.weight = sites_[i].form == FootprintForm::cell ? -4 * diagram_.plot_area() : 0;
   }
 
   double error() const {
@@ -262,7 +291,7 @@ class Fit {
   const FootprintFitOptions& options_;
   FootprintFit& report_;
   std::vector<std::uint32_t> demand_of_;
-  std::vector<std::uint8_t> is_out_;  // per demand: it cannot have anything
+  std::vector<std::uint8_t> is_out_;  // per demand: why it cannot have anything, or 0
   std::vector<double> floors_;
   double factor_ = 1, least_ratio_ = 0;
   double share_ = 1;  // of the last full step, that was taken
@@ -298,6 +327,24 @@ void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, st
     }
 }
 
+// The largest share of all demands that can be met, by halving: each try starts from the best so far, whose weights `sites` gets.
+Result<double> share_of_all(Fit& fit, double most, const std::vector<StandingSite>& initial, std::vector<StandingSite>& sites,
+                            const FootprintFit& report, const FootprintFitOptions& options) {
+  double low = 0, high = most;
+  std::vector<StandingSite> best = initial;
+  for (int k = 0; k < kScalings && !report.is_stopped; ++k) {
+    const double middle = k == 0 ? 0.9 * most : 0.5 * (low + high);
+    sites = best;
+    const auto met = fit.run(middle, std::max(options.most_steps, kStepsOfATry));
+    if (!met) return met.error();
+    (*met ? low : high) = middle;
+    if (*met) best = sites;
+  }
+  sites = best;
+  if (auto done = fit.evaluate(); !done) return done.error();
+  return low;
+}
+
 }  // namespace
 
 double equal_footprint_weight(const FootprintDiagram& diagram, std::span<const StandingSite> sites,
@@ -314,7 +361,9 @@ double equal_footprint_weight(const FootprintDiagram& diagram, std::span<const S
   const double mean = std::max(fill, 1e-6) * plot / static_cast<double>(count);
   // Discs overlap the more, the fuller the plot is; the mean share that is not covered is then about 1 - fill.
   const double enlarged = fill > 1e-6 ? -mathematics::logarithm_of_one_more(-fill) / fill : 1;
-  const double radius = std::sqrt(mean * enlarged / kPi) + setback;
+  const double own = std::sqrt(mean * enlarged / kPi);
+  // Where all were as large as one with a huge set-back needs, nobody would have a free side, and steps no direction.
+  const double radius = own + std::min(setback, own);
   return radius * radius;
 }
 
@@ -336,27 +385,27 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
                           fixed(100 * report.factor, 1) + " % of the floor area that it asks for";
     }
   } else if (!*met && !report.is_stopped && options.is_final && (most < 1 || fit.is_stalled())) {
-    // The largest share of all demands that can be met, by halving: each try starts from the best so far.
-    double low = 0, high = most;
-    std::vector<StandingSite> best = initial;
-    for (int k = 0; k < kScalings && !report.is_stopped; ++k) {
-      const double middle = k == 0 ? 0.9 * most : 0.5 * (low + high);
-      sites = best;
-      met = fit.run(middle, std::max(options.most_steps, kStepsOfATry));
+    auto share = share_of_all(fit, most, initial, sites, report, options);
+    for (int k = 0; share && *share == 0 && k < kMostLeftOut && !report.is_stopped; ++k) {
+      if (!fit.leave_out_worst()) break;
+      sites = initial;
+      met = fit.run(1, std::max(options.most_steps, kStepsOfATry));
       if (!met) return met.error();
-      (*met ? low : high) = middle;
-      if (*met) best = sites;
+      if (*met) share = 1;
+      else share = share_of_all(fit, 1, initial, sites, report, options);
     }
-    sites = best;
-    report.factor = low;
-    if (auto done = fit.evaluate(); !done) return done.error();
-    report.infeasible = "the demands cannot be met together: " + fixed(100 * low, 1) + " % of each can";
+    if (!share) return share.error();
+    report.factor = *share;
+    if (*share < 1) report.infeasible = "the demands cannot be met together: " + fixed(100 * *share, 1) + " % of each can";
     met = false;
   }
+  if (fit.left_out() > 0)
+    report.infeasible += (report.infeasible.empty() ? "" : "; ") + std::to_string(fit.left_out()) +
+                         " of the demands can have nothing, because no ground that the others leave is large enough";
   if (fit.doubled() > 0)
     report.infeasible += (report.infeasible.empty() ? "" : "; ") + std::to_string(fit.doubled()) +
                          " of the demands can have nothing, because their sites stand in the place of others";
-  report.is_met = *met && fit.doubled() == 0;
+  report.is_met = *met && fit.doubled() == 0 && fit.left_out() == 0;
   for (std::uint32_t g = 0; g < demands.size(); ++g) {
     const double error = fit.error_of(g, 1);
     if (error > report.error) {

@@ -26,7 +26,7 @@ bool FiguresMemo::follow(const State& state, const Brief& brief) {
   }
   if (changed_->empty() && brief == brief_) return true;
   add_up(state, brief, model_.accounts);
-  add_totals(model_);
+  add_totals(state, model_);
   return true;
 }
 

@@ -136,14 +136,15 @@ PlaceProblem hanging_volume(const State& state, std::uint32_t node, const Volume
 }  // namespace
 
 VolumePlaces::Volume VolumePlaces::volume_of(const State& state, std::uint32_t node, const VolumePlace& place) {
-  const bool has_storeys = reading::port_of<&StoreyFigures::storeys>(*state.plan, node).has_value();
-  return {node, place.position, geometry::ball_radius(place.wanted), place.hang,
-          has_storeys ? std::optional(place.bottom) : std::nullopt};
+  std::optional<Level> level;
+  if (const auto storeys = reading::row_of<StoreyFigures>(state, node))
+    level = {place.bottom, storeys->bases.empty() ? "" : storeys->bases.front()};
+  return {node, place.position, geometry::ball_radius(place.wanted), place.hang, std::move(level)};
 }
 
 void VolumePlaces::join(std::size_t a, std::size_t b) {
   // One upon another they share a place in plan, and are no less separate bodies.
-  if (volumes_[a].level && volumes_[b].level && *volumes_[a].level != *volumes_[b].level) return;
+  if (volumes_[a].level && volumes_[b].level && !(*volumes_[a].level == *volumes_[b].level)) return;
   if (distance(volumes_[a].position, volumes_[b].position) > kOnePoint * std::min(volumes_[a].radius, volumes_[b].radius)) return;
   on_one_point_.emplace(a, b);
   on_one_point_.emplace(b, a);

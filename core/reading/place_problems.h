@@ -45,12 +45,17 @@ class VolumePlaces {
   std::vector<PlaceProblem> collapsed(const State& state) const;
 
  private:
+  struct Level {
+    double bottom = 0;  // of its lowest floor [m]
+    std::string base;   // on whose roof it stands, or would if that had one
+    bool operator==(const Level&) const = default;
+  };
   struct Volume {
     std::uint32_t node = 0;
     Point3 position;
-    double radius = 0;            // of a ball of the wanted volume [m]
-    double hang = 0;              // [m]
-    std::optional<double> level;  // of its lowest floor, where it has storeys [m]
+    double radius = 0;           // of a ball of the wanted volume [m]
+    double hang = 0;             // [m]
+    std::optional<Level> level;  // where it has storeys
   };
   using Pair = std::pair<std::size_t, std::size_t>;
 

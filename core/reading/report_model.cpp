@@ -6,7 +6,9 @@
 #include <set>
 
 #include "core/base/hash.h"
+#include "core/geometry/plan_ring.h"
 #include "core/geometry/plates_table.h"
+#include "core/reading/views/plot.h"
 #include "core/reading/views/solver.h"
 #include "core/reading/views/volume.h"
 
@@ -93,8 +95,9 @@ std::vector<std::string> ReportModel::use_names() const {
   return names;
 }
 
-void add_totals(ReportModel& model) {
-  model.plan_area = model.site_volume = 0;
+void add_totals(const State& state, ReportModel& model) {
+  model.plan_area = model.site_volume = model.plots_area = 0;
+  for (const auto& [node, plot] : rows<PlotFigures>(state)) model.plots_area += std::abs(geometry::signed_area(plot.polygon));
   model.shapes = 0;
   model.worst = nullptr;
   for (const SiteRow& site : model.sites) {
@@ -110,7 +113,7 @@ void add_totals(ReportModel& model) {
 void read_figures(const State& state, ReportModel& model) {
   model.tolerance = state.plan->settings.tolerance;
   read_volumes(state, model, false);
-  add_totals(model);
+  add_totals(state, model);
 }
 
 void read_model(const State& state, ReportModel& model) {
@@ -126,7 +129,7 @@ void read_model(const State& state, ReportModel& model) {
   read_volumes(state, model, true);
   for (const auto& boundary : reading::rows<reading::BoundaryFigures>(state)) model.sites.push_back(site_of(state, boundary));
   model.surroundings = read_surroundings(state);
-  add_totals(model);
+  add_totals(state, model);
   model.mesh_note = mesh_note_of(state, model);
   read_conflicts(state, model);
   read_problems(state, model);

@@ -86,6 +86,7 @@ struct ReportModel {
   std::vector<PullerRow> pullers;      ///< the participants of the conflicts, the largest share first
   std::vector<ProblemRow> problems;
   double plan_area = 0, site_volume = 0;
+  double plots_area = 0;  ///< of all plots, which may be more than the ground within boundaries; 0 where there are none [m²]
   std::size_t shapes = 0;
   std::string mesh_note;             ///< the fineness of the meshes and its meaning; empty where there are none
   const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
@@ -105,8 +106,8 @@ bool has_error(const State& state, std::size_t link);
 /// Names, figures and accounts of volumes and uses, and their totals, without shapes, sites, conflicts and problems. Readers in
 /// every tick keep a FiguresMemo.
 void read_figures(const State& state, ReportModel& model);
-/// What follows from sites and volumes together; `worst` points into the model.
-void add_totals(ReportModel& model);
+/// What follows from sites, plots and volumes together; `worst` points into the model.
+void add_totals(const State& state, ReportModel& model);
 
 /// A tension below this share of the value's size is too small to be listed.
 inline constexpr double kMinorSeverity = 0.002;

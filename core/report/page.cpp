@@ -31,8 +31,10 @@ void write_keys(drawing::Markup& page, const reading::ReportModel& model) {
       all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
   key(page, "Floor area reached", reading::quantity(all.floor_area, Unit::square_metre),
       reading::share_of(all.floor_area, all.asked_area) + " of what is asked for");
-  key(page, "Floor space index", has_site ? reading::grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93",
-      "floor area to plan area");
+  // As in the table of plots, whose rules mean the whole plot, courts and gardens that nobody may build on included.
+  const double land = model.plots_area > 0 ? model.plots_area : model.plan_area;
+  key(page, "Floor space index", land > 0 ? reading::grouped(all.floor_area / land, 2) : "\xE2\x80\x93",
+      model.plots_area > 0 ? "floor area to plot area" : "floor area to plan area");
   key(page, "Volume", reading::quantity(all.volume, Unit::cubic_metre),
       reading::share_of(all.volume, all.asked) + " of what is asked for");
   key(page, "Fill", reading::share_of(all.volume, model.site_volume), "of the space inside the boundary");
@@ -96,8 +98,8 @@ void write_notes(drawing::Markup& page, const reading::ReportModel& model, const
   note(
       "Floor area is the sum of horizontal sections through the middle of each storey, gross, without deductions for walls, "
       "shafts or stairs. It follows the "
-      "shape, so it differs a little from volume divided by storey height. Floor space index is floor area divided by the plan "
-      "area of the boundary.");
+      "shape, so it differs a little from volume divided by storey height. Floor space index is floor area divided by the "
+      "area of the plots, or by the plan area of the boundary where there are none.");
   note(
       "Footprint is what a volume covers seen from above, whether it stands on the ground or not; volumes above each other both "
       "count theirs. Surface is the "

@@ -51,6 +51,7 @@ void StoreyFigures::declare(ViewBuilder<StoreyFigures>& v) {
   v.reads(&StoreyFigures::storeys_built, "footprint.storeys_built");
   v.reads(&StoreyFigures::height_limit, "footprint.height_limit", Unit::metre);
   v.reads(&StoreyFigures::is_limited, "footprint.is_limited");
+  v.reads(&StoreyFigures::bases, "footprint.bases");
 }
 BL_VIEW(StoreyFigures)
 

@@ -56,6 +56,7 @@ struct StoreyFigures {
   std::int64_t storeys = 0, storeys_built = 0;  ///< wished; and there
   double height_limit = 0;                      ///< [m] above the ground
   bool is_limited = false;                      ///< it takes storeys that are wished
+  std::vector<std::string> bases;               ///< id of the volume on whose roof it stands; none: the ground
 
   static void declare(ViewBuilder<StoreyFigures>& v);
   static const ViewDefinition& view();

@@ -59,6 +59,32 @@ TEST(StandingTick, ATowerStandsOnAPodium) {
   EXPECT_TRUE(outcome.on_roofs.empty());
 }
 
+// One has a set-back that only most of the plot, or not even all of it, would leave a plate: the others get what they want, from
+// the first tick and from any later one, and nobody gets more.
+TEST(StandingTick, WhoCanHaveNothingTakesNothingFromOthers) {
+  for (const double setback : {26.0, 40.0}) {
+    SCOPED_TRACE(setback);
+    std::vector<StandingWish> wishes;
+    for (const double x : {12.0, 36.0, 60.0})
+      for (const double y : {12.0, 36.0}) wishes.push_back(wish(FootprintForm::block, {x, y, 0}, 3, 900));
+    StandingTick::Cache kept;
+    const auto expect_the_others = [&](const StandingTick::Outcome& outcome) {
+      EXPECT_EQ(outcome.results[2].floor_area, 0);
+      EXPECT_NE(outcome.message.find("1 of the demands can have nothing"), std::string::npos) << outcome.message;
+      for (std::size_t i = 0; i < wishes.size(); ++i)
+        if (i != 2) { EXPECT_NEAR(outcome.results[i].floor_area, 900, 1e-4) << i; }
+      ASSERT_EQ(outcome.losses.size(), 1u);
+      EXPECT_EQ(outcome.losses[0].demand, 2u);
+    };
+    wishes[2].setback = setback;
+    expect_the_others(run(plot(72, 48), wishes, kept, 10));
+    wishes[2].setback = 0;
+    EXPECT_NEAR(run(plot(72, 48), wishes, kept, 10).results[2].floor_area, 900, 1e-4) << "it comes back";
+    wishes[2].setback = setback;
+    expect_the_others(run(plot(72, 48), wishes, kept, 10));
+  }
+}
+
 // The boundary reaches from 0 to 20 m: a ground in it counts, one below it is its underside, and a storey is always left.
 TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
   std::vector<StandingWish> wishes;

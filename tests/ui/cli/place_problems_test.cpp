@@ -45,6 +45,24 @@ TEST(PlaceProblems, NamesWhatHangsWithItsHeight) {
   EXPECT_NE(model.problems[0].message.find("13.8 m above the ground"), std::string::npos);
 }
 
+// The flats stand on the shop, which its set-back leaves no ground: that is what is wrong with both, and not that they share a
+// place.
+TEST(PlaceProblems, WhoStandsOnAVolumeWithoutABodyLiesOnNoPointWithIt) {
+  const std::string text = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40}}},
+    {"id": "solver", "types": {"standing_solver": {}}},
+    {"id": "shop", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"setback": 35}}},
+    {"id": "flats", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {BASES}}}]})";
+  const auto collapses = [&text](const std::string& bases) {
+    World world = World::from_text(std::string(text).replace(text.find("BASES"), 5, bases));
+    world.tick(5);
+    EXPECT_EQ(world.number("shop", "smart_volume.floor_area"), 0);
+    return reading::collapsed_volumes(world.state()).size();
+  };
+  EXPECT_EQ(collapses(R"("bases": ["shop"])"), 0u);
+  EXPECT_EQ(collapses(""), 1u) << "on the ground they do";
+}
+
 TEST(PlaceProblems, TellsACollapseAsOneWithThosePulling) {
   World world = World::from_text(placed_scene(
       volume_at("a", "[20, 20, 6]") + "," + volume_at("b", "[22, 20, 6]") + "," + volume_at("c", "[20, 22, 6]") + "," +
