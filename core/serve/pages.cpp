@@ -157,8 +157,8 @@ Response file_for_one(const Errands::Made& made) {
 
 Response no_file(const std::string& what, const Error& error) {
   if (error.code == ErrorCode::conflict) return sentence(409, what + ": " + error.text() + ".");
-  if (error.place.empty()) return sentence(500, what + ": " + error.text() + ".");
-  // What somebody has asked for wrongly. Places of options are named as in commands, which nobody has typed here.
+  if (error.code == ErrorCode::io || error.code == ErrorCode::internal) return sentence(500, what + ": " + error.text() + ".");
+  // What somebody has asked for wrongly, or what this plan cannot give. Places of options are named as in commands, which nobody has typed here.
   const std::string text = error.text();
   return sentence(400, (text.starts_with("--") ? text.substr(2) : text) + ".");
 }

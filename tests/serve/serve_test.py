@@ -483,9 +483,12 @@ class Minutes(RoomCase):
     scene = VOTE
 
     def ask(self, token, file="minutes.html"):
-        data = urllib.parse.urlencode({"room": self.server.code, "token": token, "file": file}).encode()
+        return self.post("/minutes", token=token, file=file)
+
+    def post(self, path, **fields):
+        data = urllib.parse.urlencode({"room": self.server.code, **fields}).encode()
         try:
-            with urllib.request.urlopen(urllib.request.Request(self.server.url("/minutes"), data=data), timeout=60) as answer:
+            with urllib.request.urlopen(urllib.request.Request(self.server.url(path), data=data), timeout=60) as answer:
                 return answer.status, answer.headers, answer.read().decode()
         except urllib.error.HTTPError as refused:
             return refused.code, refused.headers, refused.read().decode()
@@ -519,7 +522,7 @@ class Minutes(RoomCase):
         self.assertNotIn("<script", page)
         self.assertEqual(headers["Cache-Control"], "no-store")
         status, headers, table = self.ask(lead, "comments.csv")
-        self.assertEqual((status, headers["Content-Disposition"]), (200, "attachment"))
+        self.assertEqual((status, headers["Content-Disposition"]), (200, 'attachment; filename="comments.csv"'))
         self.assertIn("<b>More trees</b>", table)
         votes = self.ask(lead, "votes.csv")[2]
         self.assertIn("23.5", votes)
@@ -529,6 +532,14 @@ class Minutes(RoomCase):
         with self.assertRaises(urllib.error.HTTPError) as refused:
             self.server.get(f"/minutes?room={self.server.code}&file=minutes.html&token={lead}")
         self.assertEqual(refused.exception.code, 404, "an address opens nothing")
+        # The plan can be saved in any format, by the same people and by designers.
+        formats = json.loads(urllib.request.urlopen(self.server.url("/formats"), timeout=60).read())
+        self.assertIn("ifc", [one["id"] for one in formats])
+        status, _, why = self.post("/export", token=lead, format="dxf")
+        self.assertEqual(status, 400)
+        self.assertIn("the scene has no volumes", why)
+        self.assertEqual(self.post("/export", token=guest, format="dxf")[0], 403)
+        self.assertEqual(self.post("/export", token=lead, format="dwg")[0], 400)
 
 
 class BadRequests(RoomCase):
