@@ -20,6 +20,11 @@ constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScali
               kMostLeftOut = 4;
 constexpr std::uint32_t kNoDemand = 0xffffffffu;
 
+// Of who has no footprint: no form, or so light a cell that there is none of it.
+double weight_of_nothing(const StandingSite& site, const FootprintDiagram& diagram) {
+  return site.form == FootprintForm::cell ? -4 * diagram.plot_area() : 0;
+}
+
 class Fit {
  public:
   Fit(FootprintDiagram& diagram, std::vector<StandingSite>& sites, std::span<const FloorDemand> demands,
@@ -139,8 +144,7 @@ class Fit {
   void make_room() {
     for (std::uint32_t g = 0; g < demands_.size(); ++g)
       if (is_out_[g] == kLeftOut)
-        for (const std::uint32_t i : demands_[g].sites)
-          sites_[i].site.weight = sites_[i].form == FootprintForm::cell ? -4 * diagram_.plot_area() : 0;
+        for (const std::uint32_t i : demands_[g].sites) sites_[i].site.weight = weight_of_nothing(sites_[i], diagram_);
   }
 
   double error() const {
@@ -318,8 +322,7 @@ void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, st
   const double equal = is_fresh ? equal_footprint_weight(diagram, sites, demands) : 0;
   for (const FloorDemand& demand : demands)
     for (const std::uint32_t i : demand.sites) {
-      // Who wants nothing has no form, and so light a cell that there is none of it.
-      if (!(demand.most > 0)) sites[i].site.weight = sites[i].form == FootprintForm::cell ? -4 * diagram.plot_area() : 0;
+      if (!(demand.most > 0)) sites[i].site.weight = weight_of_nothing(sites[i], diagram);
       if (has_weight(sites[i]) || !(demand.most > 0)) continue;
       // Newcomers among others start with half of what they need, so that they hide nobody.
       const double own = 0.5 * demand.least / (kPi * std::max(1, sites[i].storeys()) * static_cast<double>(demand.sites.size()));

@@ -144,21 +144,31 @@ Response Pages::qr(const std::string& name, const Request& request) const {
              : sentence(414, svg.error().message);
 }
 
+constexpr std::size_t kMostNotes = 1500;  // [bytes] before they are escaped
+
 // What was made for one person alone, and is kept nowhere.
 Response file_for_one(const Errands::Made& made) {
   Response response{.type = type_of_file(made.name), .body = made.content, .fields = {{"Cache-Control", "no-store"}}};
   response.fields["Content-Disposition"] = "attachment; filename=\"" + made.name.substr(made.name.rfind('/') + 1) + "\"";
+  // Browsers take fields of some kilobytes; what is beyond that is counted.
   std::string notes;
-  for (const std::string& note : made.notes) notes += (notes.empty() ? "" : "\n") + note;
+  std::size_t told = 0;
+  for (; told < made.notes.size() && notes.size() < kMostNotes; ++told) notes += (told == 0 ? "" : "\n") + made.notes[told];
+  if (told < made.notes.size()) notes += "\nand " + std::to_string(made.notes.size() - told) + " more";
   // Fields of HTTP hold no line ends, and letters of English only.
   if (!notes.empty()) response.fields["Notes"] = form_text(notes);
   return response;
 }
 
 Response no_file(const std::string& what, const Error& error) {
-  if (error.code == ErrorCode::conflict) return sentence(409, what + ": " + error.text() + ".");
-  if (error.code == ErrorCode::io || error.code == ErrorCode::internal) return sentence(500, what + ": " + error.text() + ".");
-  // What somebody has asked for wrongly, or what this plan cannot give. Places of options are named as in commands, which nobody has typed here.
+  return sentence(error.code == ErrorCode::conflict ? 409 : 500, what + ": " + error.text() + ".");
+}
+
+// What somebody has asked for wrongly, or what this plan cannot give, is no fault of the server. Places of options are named as
+// in commands, which nobody has typed here.
+Response no_plan_file(const Error& error) {
+  const bool is_ours = error.code == ErrorCode::conflict || error.code == ErrorCode::io || error.code == ErrorCode::internal;
+  if (is_ours) return no_file("The file cannot be made", error);
   const std::string text = error.text();
   return sentence(400, (text.starts_with("--") ? text.substr(2) : text) + ".");
 }
@@ -194,9 +204,8 @@ void Pages::plan_file(const Request& request, const Reply& reply) const {
   ExportWish wish{.format = fields["format"], .options = {}, .page_folder = folder_};
   for (const auto& [name, value] : fields)
     if (name.starts_with(kOption)) wish.options.push_back(name.substr(kOption.size()) + "=" + value);
-  room->second->make_export(wish, [reply](const Result<Errands::Made>& made) {
-    reply(made ? file_for_one(*made) : no_file("The file cannot be made", made.error()));
-  });
+  room->second->make_export(
+      wish, [reply](const Result<Errands::Made>& made) { reply(made ? file_for_one(*made) : no_plan_file(made.error())); });
 }
 
 // The build leaves a packed file beside each one.

@@ -81,7 +81,7 @@ void RoomHost::make_export(const ExportWish& wish, Errands::Done done) {
 
 bool RoomHost::may_export(std::int64_t seat) const {
   const room::Seat* const one = room_->state().seat(seat);
-  return leads(seat) || (one != nullptr && one->role == Role::designer);
+  return leads(seat) || (one != nullptr && !one->is_removed && one->role == Role::designer);
 }
 
 }  // namespace bl::serve

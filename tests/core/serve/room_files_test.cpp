@@ -218,6 +218,11 @@ TEST_F(FilesOfRooms, ThePlanIsForThoseWhoMay) {
   const Response refused = answered(plan_form(guest_->token, "csv"), "/export");
   EXPECT_EQ(refused.status, 403);
   EXPECT_EQ(answered(plan_form("", "csv"), "/export").status, 403);
+  // Whoever was sent out gets nothing more.
+  const auto designer = join("designer");
+  EXPECT_EQ(answered(plan_form(designer->token, "csv"), "/export").status, 200);
+  say(*lead_, R"({"t": "room", "id": 1, "e": {"event": "remove_seat", "arguments": {"seat": 3}}})");
+  EXPECT_EQ(answered(plan_form(designer->token, "csv"), "/export").status, 403);
   EXPECT_EQ(answered("room=QQQQ&format=csv&token=" + lead_->token, "/export").body, refused.body);
   const auto said = [&](const std::string& format, const std::string& more) {
     const Response got = answered(plan_form(lead_->token, format, more), "/export");

@@ -80,12 +80,12 @@ export function PlanFiles({ room, token, t }: Props): JSX.Element {
               <summary>{t("export_options")}</summary>
               <div class="stack">
                 {format.options.map((option) => (
-                <OptionField
-                  key={`${format.id}/${option.id}`}
-                  option={option}
-                  value={of_format[option.id] ?? option_text(option.default)}
-                  onChange={(value) => want({ ...wanted, [format.id]: { ...of_format, [option.id]: value } })}
-                />
+                  <OptionField
+                    key={`${format.id}/${option.id}`}
+                    option={option}
+                    value={of_format[option.id] ?? option_text(option.default)}
+                    onChange={(value) => want({ ...wanted, [format.id]: { ...of_format, [option.id]: value } })}
+                  />
                 ))}
               </div>
             </details>
