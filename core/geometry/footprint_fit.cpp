@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/base/mathematics.h"
@@ -14,7 +15,6 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSmallShare = 0.02;
 constexpr int kMostSmallSteps = 4, kMostHalvings = 10, kMostRepairs = 12, kScalings = 7, kStepsOfATry = 30, kRings = 2,
               kMostLeftOut = 4;
@@ -325,7 +325,8 @@ void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, st
       if (!(demand.most > 0)) sites[i].site.weight = weight_of_nothing(sites[i], diagram);
       if (has_weight(sites[i]) || !(demand.most > 0)) continue;
       // Newcomers among others start with half of what they need, so that they hide nobody.
-      const double own = 0.5 * demand.least / (kPi * std::max(1, sites[i].storeys()) * static_cast<double>(demand.sites.size()));
+      const double own =
+          0.5 * demand.least / (std::numbers::pi * std::max(1, sites[i].storeys()) * static_cast<double>(demand.sites.size()));
       sites[i].site.weight = is_fresh ? equal : std::max(own, 1e-6);
     }
 }
@@ -364,7 +365,7 @@ double equal_footprint_weight(const FootprintDiagram& diagram, std::span<const S
   const double mean = std::max(fill, 1e-6) * plot / static_cast<double>(count);
   // Discs overlap the more, the fuller the plot is; the mean share that is not covered is then about 1 - fill.
   const double enlarged = fill > 1e-6 ? -mathematics::logarithm_of_one_more(-fill) / fill : 1;
-  const double own = std::sqrt(mean * enlarged / kPi);
+  const double own = std::sqrt(mean * enlarged / std::numbers::pi);
   // Where all were as large as one with a huge set-back needs, nobody would have a free side, and steps no direction.
   const double radius = own + std::min(setback, own);
   return radius * radius;

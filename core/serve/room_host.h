@@ -22,6 +22,7 @@
 #include "core/serve/trial_runner.h"
 #include "core/session/session.h"
 #include "core/wire/messages.h"
+#include "core/wire/past_view.h"
 #include "core/wire/views.h"
 
 namespace bl::serve {
@@ -169,6 +170,9 @@ class RoomHost {
   void publish_after(double seconds);
   void publish();
   void hold_shapes(Published& made);
+  /// Keeps the plan that was shown when something was decided. Without one nothing is kept: what was decided is older than this
+  /// run.
+  void keep_past(const State* shown);
   void show();
   void show(Visitor& visitor);
   bool has_events_since(std::int64_t seq) const;
@@ -205,7 +209,9 @@ class RoomHost {
   bool hear_window(Visitor& visitor, const std::string& t, const Json& frame, std::size_t size);
   void forget_presence(std::int64_t seat);
   void tell_presences();
-  wire::ViewSources sources(const State& state) const { return {state, *room_, code_, title_, &trials_.shown(), &invites_}; }
+  wire::ViewSources sources(const State& state) const {
+    return {state, *room_, code_, title_, &trials_.shown(), &invites_, &past_};
+  }
 
   std::string code_, title_;
   RoomHostOptions options_;
@@ -237,6 +243,8 @@ class RoomHost {
   std::shared_ptr<const host::Moment> seen_;  // the moment of the last views
   std::optional<Published> next_, now_;       // views that wait for the disk, and those that are shown
   std::map<std::pair<const wire::View*, const wire::View*>, Step> steps_;  // to the views that are shown
+  wire::PastPlans past_;
+  std::int64_t past_seq_ = 0;     // decisions up to this entry have been looked at
   double shapes_after_ = -1e9;    // before then no newer shapes are sent: whoever got the largest frame is still taking it [s]
   bool are_shapes_held_ = false;  // those of the last views may be older than their state
   std::map<std::int64_t, std::int64_t> plain_operations_;  // by seat

@@ -22,6 +22,7 @@ void RoomHost::publish() {
   const bool are_shapes_due = are_shapes_held_ && options_.clock->now() >= shapes_after_;
   if (next_ || (moment == seen_ && !is_changed_ && !are_shapes_due)) return;
   const bool is_same_state = seen_ && now_ && seen_->state == moment->state;
+  keep_past(seen_ ? seen_->state.get() : nullptr);
   seen_ = moment;
   is_changed_ = false;
   Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
@@ -45,6 +46,19 @@ void RoomHost::publish() {
     }
   next_ = std::move(made);
   show();
+}
+
+void RoomHost::keep_past(const State* shown) {
+  std::shared_ptr<const wire::View> plan;
+  wire::PastPlans kept;
+  for (const room::Decision& decision : room_->decisions()) {
+    if (const auto known = past_.find(decision.seq); known != past_.end()) kept.insert(*known);
+    if (shown == nullptr || decision.seq <= past_seq_) continue;
+    if (!plan) plan = std::make_shared<const wire::View>(wire::make_view("plan", sources(*shown), 0));
+    kept[decision.seq] = plan;
+  }
+  past_ = std::move(kept);
+  past_seq_ = session_->last_seq();
 }
 
 // Until more shapes may be sent, those that are shown go on. Who is new gets these, and all go on from the same ones.

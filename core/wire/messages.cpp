@@ -85,7 +85,7 @@ void Want::declare(MessageBuilder<Want>& m) {
       .required()
       .doc(
           "`room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, "
-          "`draft_plans`, `keys`, `shapes`, `decisions`.");
+          "`draft_plans`, `keys`, `shapes`, `decisions`, `past`.");
   m.field(&Want::drafts, "drafts").doc("The drafts that are on the screen, four at most: these are tried beside the room.");
 }
 void Seen::declare(MessageBuilder<Seen>& m) {

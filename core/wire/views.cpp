@@ -15,6 +15,7 @@
 #include "core/wire/draft_views.h"
 #include "core/wire/lead_view.h"
 #include "core/wire/messages.h"
+#include "core/wire/past_view.h"
 #include "core/wire/plan_view.h"
 #include "core/wire/shapes_view.h"
 #include "core/wire/view_parts.h"
@@ -340,6 +341,7 @@ View make_view(std::string_view name, const ViewSources& sources, std::int64_t s
   if (name == "keys") return keys_view(sources, seat);
   if (name == "lead") return lead_view(sources, seat);
   if (name == "decisions") return decisions_view(sources);
+  if (name == "past") return past_view(sources);
   if (name == "shapes") return shapes_view(sources.state);
   return {};
 }

@@ -25,13 +25,14 @@ struct ViewSources {
   const DraftTrials* trials = nullptr;  ///< none where no draft is tried
   const std::map<std::string, std::string>* invites =
       nullptr;  ///< by role: the key of its invitation; none where nobody is invited
+  const std::map<std::int64_t, std::shared_ptr<const View>>* past = nullptr;  ///< as `PastPlans`; none where nothing is kept
 };
 
 /// The names of all views. Of these, `card`, `votes`, `comments`, `drafts`, `draft_steps`, `draft_plans`, `keys` and `lead` are
 /// different for each seat.
 inline constexpr std::string_view kViewNames[] = {"room",     "plan",      "figures",   "card",        "votes",
                                                   "comments", "proposals", "drafts",    "draft_steps", "draft_plans",
-                                                  "keys",     "shapes",    "decisions", "lead"};
+                                                  "keys",     "shapes",    "decisions", "past",        "lead"};
 bool is_view(std::string_view name);
 bool is_of_seat(std::string_view view);
 /// Whether it is the same as long as the scene's state is, whatever happens in the room.

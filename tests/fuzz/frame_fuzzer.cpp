@@ -43,10 +43,10 @@ struct World {
   room::Room room;
 };
 
-// How many operations were answered, told at the end: inputs have some ten each.
+// Told at the end, because an input is a session of many frames.
 struct Count {
-  ~Count() { std::fprintf(stderr, "%lld operations were answered\n", operations); }
-  long long operations = 0;
+  ~Count() { std::fprintf(stderr, "%lld frames were read, and %lld operations of them answered\n", frames, operations); }
+  long long frames = 0, operations = 0;
 };
 
 }  // namespace
@@ -55,14 +55,17 @@ struct Count {
 // the time goes into fresh pages, and into the stacks of those who have asked for them.
 extern "C" const char* __asan_default_options() { return "quarantine_size_mb=8:malloc_context_size=8"; }
 
-// Choosing inputs by how rare their paths are costs more than these inputs themselves: ten of them took the time of a hundred.
+// Choosing inputs by how rare their paths are costs more than these inputs themselves: ten of them took the time of a hundred. To
+// name the functions that an input is the first to reach takes a minute. Long inputs judge more frames for each room that is
+// made.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-  static char choice[] = "-entropic=0";
+  static char choice[] = "-entropic=0", names[] = "-print_funcs=0", length[] = "-max_len=16384";
   static std::vector<char*> all(*arguments, *arguments + *count);
-  all.insert(all.begin() + 1, choice);  // what the caller says comes later, and counts
+  for (char* option : {choice, names, length})
+    all.insert(all.begin() + 1, option);  // what the caller says comes later, and counts
   all.push_back(nullptr);
   *arguments = all.data();
-  ++*count;
+  *count = static_cast<int>(all.size()) - 1;
   return 0;
 }
 
@@ -71,7 +74,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
   if (seed % 2 == 0) return LLVMFuzzerMutate(data, size, most);
   bl::fuzz::FrameMutator mutator(start(), seed);
-  const std::string text = mutator.changed({reinterpret_cast<const char*>(data), size});
+  const std::string text = seed % 16 == 1 ? mutator.session(most) : mutator.changed({reinterpret_cast<const char*>(data), size});
   // Half a frame would be refused for its form alone.
   if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
   std::copy(text.begin(), text.end(), data);
@@ -87,6 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t end = std::min(text.find('\n'), text.size());
     const auto frame = wire::read_frame(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
+    ++count.frames;
     if (!frame || !wire::is_operation((*frame)["t"].get<std::string>())) continue;
     World& world = made ? *made : made.emplace(start());
     const std::string run = "run " + std::to_string(seat);

@@ -40,6 +40,13 @@ class FrameMutator {
     return all;
   }
 
+  /// As many new frames as fit.
+  std::string session(std::size_t most) {
+    std::string all;
+    for (std::string line = frame() + "\n"; all.size() + line.size() <= most; line = frame() + "\n") all += line;
+    return all;
+  }
+
  private:
   static std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;

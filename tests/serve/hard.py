@@ -3,7 +3,7 @@ import asyncio
 import json
 import os
 import random
-import socket
+import sqlite3
 import ssl
 import subprocess
 import sys
@@ -16,6 +16,7 @@ from room_client import Page, Server
 
 PROGRAM, ROOT = sys.argv[1], sys.argv[2]
 QUARTER = os.path.join(ROOT, "scenes/start/quarter.json")
+VOTED = os.path.join(ROOT, "scenes/studies/vote_on_demands.json")
 THOUSAND = os.path.join(ROOT, "scenes/studies/thousand_volumes.json")
 
 
@@ -225,8 +226,77 @@ async def rooms(folder):
     process.kill()
 
 
+def recounted(journal, vote, before):
+    """The coins of each option by the ballots in the file, the last one of each voter; and the entries that are ballots of this vote."""
+    rows = [json.loads(line) for (line,) in sqlite3.connect(journal).execute("SELECT line FROM entry ORDER BY seq")]
+    ballots = [row for row in rows if row.get("command") == "cast_vote" and row["arguments"]["node"] == vote]
+    last = {**before, **{row["arguments"]["voter"]: row["arguments"]["ballot"] for row in ballots}}
+    coins = {}
+    for ballot in last.values():
+        for option, count in ballot.items() if isinstance(ballot, dict) else ():
+            coins[option] = coins.get(option, 0) + count
+    return coins, ballots, len(last)
+
+
+async def vote(folder):
+    """Fifty phones share out coins, and choose a height in secret; half of them sleep before the close. The shares move demands."""
+    server = Server(PROGRAM, VOTED, folder).start()
+    with open(VOTED) as file:
+        node = next(node for node in json.load(file)["nodes"] if node["id"] == "people")["types"]["vote"]
+    before = {row["voter"]: dict(zip(row["answer"].split(), row["coins"])) for row in node["ballots"]}
+    lead = await Page(server, server.invites["facilitator"], kind="desktop", views=["votes", "plan"]).connect()
+    await lead.until(lambda: "n/culture-1" in lead.view.get("plan", {}) and "people" in lead.view.get("votes", {}))
+    figures = lambda name: json.dumps(lead.view["plan"]["n/" + name]["figures"])
+    for name in ("people", "storeys"):
+        answer = await lead.event("open_vote", vote=name)
+        assert answer["t"] == "ack", answer
+    phones = [await Page(server, server.invites["participant"], views=["room", "votes"], seed=k).connect() for k in range(50)]
+    chance = random.Random(1)
+    await asyncio.sleep(2)
+    seen, began = figures("culture-1"), time.monotonic()
+    for k, phone in enumerate(phones):
+        await phone.until(lambda: phone.view.get("votes", {}).get("people", {}).get("open"))
+        culture = chance.randint(6, 10)
+        for name, ballot in (("people", {"culture": culture, "work": 10 - culture}), ("storeys", round(chance.uniform(2.6, 3.4), 1))):
+            answer = await phone.command("cast_vote", node=name, voter=f"seat {phone.you['seat']}", ballot=ballot)
+            assert answer["t"] == "ack", answer
+        if k % 2:
+            await phone.close()
+    print(f"vote: 50 phones gave two ballots each in {time.monotonic() - began:.1f} s; 25 of them sleep")
+    if figures("culture-1") != seen:
+        print("vote: culture-1 moved while the vote was open")
+    seen, began = figures("culture-1"), time.monotonic()
+    for name in ("people", "storeys"):
+        assert (await lead.event("close_vote", vote=name))["t"] == "ack"
+    closed = time.monotonic() - began
+    await lead.until(lambda: figures("culture-1") != seen, 20)
+    print(f"vote: closed after {closed * 1000:.0f} ms; figures change {(time.monotonic() - began) * 1000:.0f} ms after the close was asked for (wanted 2000 ms)")
+    last = time.monotonic()
+    while time.monotonic() - last < 3:
+        seen = figures("culture-1")
+        await asyncio.sleep(0.1)
+        if figures("culture-1") != seen:
+            last = time.monotonic()
+    print(f"vote: nothing moves any more {last - began:.1f} s after the close; culture-1: {figures('culture-1')}")
+    shown = lead.view["votes"]["people"]
+    await lead.close()
+    for phone in phones:
+        await phone.close()
+    assert server.stop() == 0
+    coins, ballots, count = recounted(server.journal, "people", before)
+    told = {row["option"]: row["points"] for row in shown["result"]}
+    print(f"vote: {len(ballots)} ballots in the file; recounted with those of the scene {coins} of {count} voters, shown {told} of {shown['count']}")
+    _, secret, _ = recounted(server.journal, "storeys", {})
+    voters = [row["arguments"]["voter"] for row in secret]
+    threes = [voters[k:k + 3] for k in range(0, len(voters), 3)]
+    print(f"vote: {len(secret)} secret ballots by {sorted({row['author'] for row in secret})}, without {sorted({'origin', 'operation', 'at'} - set().union(*secret))}; "
+          f"each three in the order of their names: {all(three == sorted(three) for three in threes)}; voters like {voters[0]!r}")
+    replay = subprocess.run([PROGRAM, "replay", server.journal], capture_output=True, text=True)
+    print("vote: replay:", replay.stdout.strip().splitlines()[-1])
+
+
 async def main():
-    parts = {"memory": memory, "tls": lambda folder: memory(folder, True), "flood": flood, "joins": joins, "slow": slow, "rooms": rooms}
+    parts = {"memory": memory, "tls": lambda folder: memory(folder, True), "flood": flood, "joins": joins, "slow": slow, "rooms": rooms, "vote": vote}
     for part in sys.argv[3:] or parts:
         with tempfile.TemporaryDirectory() as folder:
             await parts[part](folder)

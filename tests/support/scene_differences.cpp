@@ -6,13 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/define/json_text.h"
 #include "core/define/registry.h"
 
 namespace bl {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Calls `both` for what is in both maps, and notes what is in one only.
 template <class Map, class Both>

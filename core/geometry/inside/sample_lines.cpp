@@ -10,7 +10,7 @@ namespace bl::geometry {
 namespace {
 
 // A plane whose normal is this much at right angles to a line is taken to run along it.
-constexpr double kAlong = 1e-12;
+constexpr double kParallel = 1e-12;
 
 // Counts and lower corner from the corners of the domain; the grid is as much too large on either side.
 void spread(const Domain& domain, SampleFrame& frame, double step) {
@@ -47,7 +47,7 @@ struct FramePiece {
 // Cuts a line by one plane; false where nothing is left.
 bool clip(const FramePlane& plane, std::size_t along, double rest, SampleLines::Stretch& stretch) {
   const double slope = plane.normal[along], room = plane.offset - rest;
-  if (std::abs(slope) <= kAlong) return room >= 0;
+  if (std::abs(slope) <= kParallel) return room >= 0;
   const double at = room / slope;
   if (slope > 0 && at < stretch.to) {
     stretch.to = at;

@@ -206,14 +206,19 @@ TEST_F(RoomHosts, ItGoesOnWhereItWas) {
   EXPECT_EQ((*lead->last("state"))["set"]["phase"]["name"], "Look");
 }
 
-// The comments as a guest sees them, from all that it was sent.
-std::map<std::string, Json> comments_of(const FakeGuest& guest) {
+// A view as a guest sees it, from all that it was sent.
+std::map<std::string, Json> view_of(const FakeGuest& guest, std::string_view name) {
   std::map<std::string, Json> seen;
-  for (const Json& frame : guest.frames)
-    if (frame["t"] == "state" && frame["view"] == "comments")
-      for (const auto& [id, comment] : frame["set"].items()) seen[id] = comment;
+  for (const Json& frame : guest.frames) {
+    if (frame["t"] != "state" || frame["view"] != name) continue;
+    if (frame.contains("whole")) seen.clear();
+    for (const auto& [key, content] : frame["set"].items()) seen[key] = content;
+    for (const Json& key : frame.value("drop", Json::array())) seen.erase(key.get<std::string>());
+  }
   return seen;
 }
+
+std::map<std::string, Json> comments_of(const FakeGuest& guest) { return view_of(guest, "comments"); }
 
 // Who has rated nothing sees what all others of these see, and whoever rates one sees it as their own from then on.
 TEST_F(RoomHosts, CommentsComeToAllAndARatingIsOnesOwn) {
@@ -245,6 +250,41 @@ TEST_F(RoomHosts, CommentsComeToAllAndARatingIsOnesOwn) {
   const std::int64_t tick = host_->health().tick;
   run_until([&] { return host_->health().tick > tick + 3; });
   EXPECT_EQ(count(), before);
+}
+
+// Who comes late can look at the plan as it was when something was decided.
+TEST_F(RoomHosts, ThePlanOfEachDecisionIsThatOfJustBeforeIt) {
+  auto lead = join("a", "facilitator", {"plan", "past", "decisions"});
+  const std::string token = (*lead->last("welcome"))["token"];
+  run_until([&] { return !view_of(*lead, "plan").empty(); });
+  const auto plan = view_of(*lead, "plan");
+  const auto volume = std::find_if(plan.begin(), plan.end(),
+                                   [](const auto& one) { return one.first.starts_with("n/") && one.second["kind"] == "volume"; });
+  ASSERT_NE(volume, plan.end());
+  const std::string key = volume->first, name = volume->second["name"];
+  const auto decide = [&](int id) {
+    const std::size_t before = view_of(*lead, "decisions").size();
+    host_->hear(*lead,
+                R"({"t": "room", "id": )" + std::to_string(id) + R"(, "e": {"event": "mark", "arguments": {"text": "x"}}})");
+    run_until([&] { return view_of(*lead, "decisions").size() > before; });
+    return view_of(*lead, "decisions").rbegin()->first + "/" + key;  // entries have one digit here
+  };
+  const std::string first = decide(1);
+  run_until([&] { return view_of(*lead, "past").contains(first); });
+  EXPECT_EQ(view_of(*lead, "past")[first]["name"], name);
+  host_->hear(*lead, R"({"t": "op", "id": 2, "c": {"command": "rename_node", "arguments": {"id": ")" + key.substr(2) +
+                         R"(", "name": "Another"}}})");
+  run_until([&] { return view_of(*lead, "plan")[key]["name"] == "Another"; });
+  const std::string second = decide(3);
+  run_until([&] { return view_of(*lead, "past").contains(second); });
+  EXPECT_EQ(view_of(*lead, "past")[second]["name"], "Another");
+  EXPECT_EQ(view_of(*lead, "past")[first]["name"], name) << "those of before stay";
+  // A server that is started again knows the decisions, and has not seen the plans.
+  host_.reset();
+  open();
+  lead = join("a", "", {"past", "decisions"}, token);
+  run_until([&] { return !view_of(*lead, "decisions").empty(); });
+  EXPECT_TRUE(view_of(*lead, "past").empty());
 }
 
 // The indices of the frames that bring shapes.

@@ -99,7 +99,7 @@ export interface FromPage {
   /** The views that are to be followed from now on. */
   want: {
     t: "want";
-    /** `room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, `draft_plans`, `keys`, `shapes`, `decisions`. */
+    /** `room`, `plan`, `figures`, `card`, `votes`, `comments`, `proposals`, `drafts`, `draft_steps`, `draft_plans`, `keys`, `shapes`, `decisions`, `past`. */
     views: string[];
     /** The drafts that are on the screen, four at most: these are tried beside the room. */
     drafts?: string[];

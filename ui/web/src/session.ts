@@ -39,6 +39,7 @@ const kEmpty = (): Views => ({
   keys: {},
   lead: {},
   decisions: {},
+  past: {},
   shapes: {},
 });
 const kMostLooked = 4; // drafts
@@ -220,19 +221,17 @@ export class Session {
 
   /// The things of the plan by node, in the order of the server's keys.
   plan(): [string, PlanItem][] {
-    const out: [string, PlanItem][] = [];
-    for (const [key, value] of Object.entries(this.views.plan))
-      if (key.startsWith("n/") && value !== undefined) out.push([key.slice(2), value as unknown as PlanItem]);
-    return out;
+    return items_of(this.views.plan, "n/");
   }
 
   /// The plan of a draft that was tried.
   draftPlan(draft: string): [string, PlanItem][] {
-    const begin = `${draft}/n/`,
-      out: [string, PlanItem][] = [];
-    for (const [key, value] of Object.entries(this.views.draft_plans))
-      if (key.startsWith(begin)) out.push([key.slice(begin.length), value as unknown as PlanItem]);
-    return out;
+    return items_of(this.views.draft_plans, `${draft}/n/`);
+  }
+
+  /// The plan of just before the decision of that entry; empty where the server does not have it.
+  pastPlan(entry: number): [string, PlanItem][] {
+    return items_of(this.views.past, `${entry}/n/`);
   }
 
   nameOf(node: string): string {
@@ -377,6 +376,13 @@ export class Session {
       for (const watcher of [...this.watchers]) watcher();
     });
   }
+}
+
+function items_of(view: Record<string, Json | undefined>, begin: string): [string, PlanItem][] {
+  const out: [string, PlanItem][] = [];
+  for (const [key, value] of Object.entries(view))
+    if (key.startsWith(begin) && value !== undefined) out.push([key.slice(begin.length), value as unknown as PlanItem]);
+  return out;
 }
 
 /// The name of what was refused, for the sentence about it.

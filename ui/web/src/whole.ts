@@ -83,7 +83,7 @@ function whole_control(value: Content): Control {
 export function whole(view: ViewName, key: string, value: Json): Json {
   if (view === "card" && key === "controls" && Array.isArray(value)) return value.filter(is_object).map(whole_control) as unknown as Json;
   if (!is_object(value)) return value;
-  if (view === "plan" || view === "draft_plans") return whole_item(value) as unknown as Json;
+  if (view === "plan" || view === "draft_plans" || view === "past") return whole_item(value) as unknown as Json;
   if (view === "votes") return whole_vote(value) as unknown as Json;
   if (view === "proposals") return whole_proposal(value) as unknown as Json;
   return value;

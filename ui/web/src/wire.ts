@@ -320,6 +320,7 @@ export interface Views {
   lead: LeadView; ///< empty for all but facilitators
   draft_plans: Record<string, Json>; ///< `DRAFT/box` and `DRAFT/n/ID`
   decisions: Record<string, Decision>; ///< by entry
+  past: Record<string, Json>; ///< `ENTRY/n/ID`: the plan of just before a decision
   shapes: Record<string, Json>; ///< what space/contents has the types of
 }
 export type ViewName = keyof Views;

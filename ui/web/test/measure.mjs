@@ -139,6 +139,8 @@ async function queue_over_reload() {
   door.open();
   await page.waitForSelector('.status:has-text("Everything is saved")', { timeout: 15000 });
   await page.click('nav button:has-text("Ideas")');
+  // An answer says that it is stored; the view follows with the next tick.
+  for (const n of [1, 2, 3]) await page.waitForSelector(`.said:text-is("Kept ${n}")`);
   for (const n of [1, 2, 3]) assert.equal(await page.locator(`.said:text-is("Kept ${n}")`).count(), 1);
   await browser.close();
   door.end();

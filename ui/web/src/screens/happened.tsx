@@ -1,12 +1,13 @@
 // What happened: the last decisions as cards, for those who come late or looked elsewhere.
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { amount, clock_time, share } from "../format";
 import { Icon, IconName } from "../parts";
 import type { Session } from "../session";
 import type { Decision, Vote } from "../wire";
 import { Key, t } from "../words";
 import { option_label } from "./ballot_forms";
+import { Swipe } from "./trials";
 
 const kIcons: Record<Decision["kind"], IconName> = {
   proposal: "check",
@@ -43,6 +44,28 @@ function words_of(s: Session, one: Decision): { title: string; text: string } {
   }
 }
 
+// What was there before and what is there now: told of by the server while somebody looks.
+function BeforeAndNow({ s, entry }: { s: Session; entry: number }): JSX.Element {
+  useEffect(() => {
+    s.want("past");
+    return () => s.release("past");
+  }, []);
+  const before = s.pastPlan(entry);
+  if (!s.has("past")) return <p class="small">{t("happened_coming")}</p>;
+  if (before.length === 0) return <p class="small">{t("happened_no_plan")}</p>;
+  return <Swipe s={s} first={before} second={s.plan()} titles={[t("happened_then"), t("compare_now")]} />;
+}
+
+function Before({ s, entry }: { s: Session; entry: number }): JSX.Element {
+  const [isOpen, open] = useState(false);
+  return (
+    <details onToggle={(event) => open(event.currentTarget.open)}>
+      <summary>{t("happened_before")}</summary>
+      {isOpen ? <BeforeAndNow s={s} entry={entry} /> : null}
+    </details>
+  );
+}
+
 /// The newest first; nothing where nothing was decided yet.
 export function Happened({ s }: { s: Session }): JSX.Element | null {
   useEffect(() => s.want("decisions"), []);
@@ -68,6 +91,7 @@ export function Happened({ s }: { s: Session }): JSX.Element | null {
                   <b>{title}</b>
                 </p>
                 {text ? <p class="small">{text}</p> : null}
+                <Before s={s} entry={seq} />
               </div>
             </li>
           );

@@ -98,43 +98,56 @@ export function PlanPicture({
   );
 }
 
-/// Two plans, one over the other: a slider or two buttons say how much of each is seen. Thick outlines differ from the model.
+/// The plans of two drafts.
 export function TwoPlans({ s, left, right }: { s: Session; left: string; right: string }): JSX.Element | null {
+  const title = (id: string): string => s.views.proposals[id]?.title || id;
+  return <Swipe s={s} first={s.draftPlan(left)} second={s.draftPlan(right)} titles={[title(left), title(right)]} />;
+}
+
+/// Two plans, one over the other: a slider or two buttons say how much of each is seen. Thick outlines differ from the model.
+export function Swipe({
+  s,
+  first,
+  second,
+  titles: [left, right],
+}: {
+  s: Session;
+  first: [string, PlanItem][];
+  second: [string, PlanItem][];
+  titles: [string, string];
+}): JSX.Element | null {
   const [share, set] = useState(50);
-  const first = s.draftPlan(left),
-    second = s.draftPlan(right);
   if (first.length === 0 || second.length === 0) return null;
   const all = extent_of([...first, ...second].flatMap(([, item]) => points_of(item.d)));
   if (!all) return null;
   const margin = 0.03 * Math.max(all.width, all.height, 1);
   const box = `${all.x - margin} ${all.y - margin} ${all.width + 2 * margin} ${all.height + 2 * margin}`;
   const live = new Map(s.plan().map(([id, item]) => [id, item.d]));
-  const title = (id: string): string => s.views.proposals[id]?.title || id;
   const step = (by: number): void => set(Math.min(100, Math.max(0, share + by)));
   return (
     <section class="swipe">
       <h3>{t("compare_plans")}</h3>
       <div class="layers" style={{ aspectRatio: `${all.width + 2 * margin} / ${all.height + 2 * margin}` }}>
         <div class="layer">
-          <PlanPicture items={second} box={box} live={live} label={title(right)} />
+          <PlanPicture items={second} box={box} live={live} label={right} />
         </div>
         <div class="layer" style={{ clipPath: `inset(0 ${100 - share}% 0 0)` }}>
-          <PlanPicture items={first} box={box} live={live} label={title(left)} />
+          <PlanPicture items={first} box={box} live={live} label={left} />
         </div>
         <b class="corner first" aria-hidden="true">
-          {share > 0 ? title(left) : ""}
+          {share > 0 ? left : ""}
         </b>
         <b class="corner second" aria-hidden="true">
-          {share < 100 ? title(right) : ""}
+          {share < 100 ? right : ""}
         </b>
         <i class="edge" aria-hidden="true" style={{ left: `${share}%` }} />
       </div>
       <div class="row">
         <button class="quiet" disabled={share >= 100} onClick={() => step(25)}>
-          {t("compare_more_of", { title: title(left) })}
+          {t("compare_more_of", { title: left })}
         </button>
         <button class="quiet" disabled={share <= 0} onClick={() => step(-25)}>
-          {t("compare_more_of", { title: title(right) })}
+          {t("compare_more_of", { title: right })}
         </button>
       </div>
       <input
@@ -142,7 +155,7 @@ export function TwoPlans({ s, left, right }: { s: Session; left: string; right: 
         min={0}
         max={100}
         value={share}
-        aria-label={t("compare_swipe", { title: title(left) })}
+        aria-label={t("compare_swipe", { title: left })}
         aria-valuetext={`${share} %`}
         style={{ "--filled": `${share}%` }}
         onInput={(event) => set(Number(event.currentTarget.value))}
