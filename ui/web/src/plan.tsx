@@ -110,12 +110,14 @@ function PinShape({ pin, unit, size }: { pin: Pin; unit: number; size: number })
 
 function OutlineShape({ outline: { corners, name, isOpen }, font }: { outline: Outline; font: number }): JSX.Element {
   const all = corners.map(([x, y]) => `${x} ${-y}`),
-    middle = (k: 0 | 1): number => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length;
+    top = Math.max(...corners.map(([, y]) => y)),
+    // Its name stands where it is highest, because the names of things stand inside.
+    highest = corners.filter(([, y]) => y > top - font).map((corner) => corner[0]);
   return (
     <g class={`outline ${name === "" ? "own" : ""}`}>
       <path d={`M${all.join("L")}${isOpen ? "" : "Z"}`} />
       {name === "" ? null : (
-        <text class="name" x={middle(0)} y={-middle(1)} font-size={font} stroke-width={font * 0.22}>
+        <text class="name" x={(Math.min(...highest) + Math.max(...highest)) / 2} y={0.35 * font - top} font-size={font} stroke-width={font * 0.3}>
           {name}
         </text>
       )}

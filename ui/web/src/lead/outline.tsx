@@ -45,9 +45,16 @@ function Numbers({ corners, change }: { corners: Corner[]; change(corners: Corne
   };
   const put = (i: number, corner: Corner): void => change(corners.map((one, k) => (k === i ? corner : one)));
   return (
-    <details>
+    <details class="numbers">
       <summary>{t("outline_numbers")}</summary>
-      <ol class="corners stack">
+      <ol class="corners">
+        {corners.length === 0 ? null : (
+          <li aria-hidden="true">
+            <i />
+            <span>x [m]</span>
+            <span>y [m]</span>
+          </li>
+        )}
         {corners.map(([u, v], i) => (
           <li key={i}>
             <b>{number(i + 1)}</b>
@@ -59,7 +66,7 @@ function Numbers({ corners, change }: { corners: Corner[]; change(corners: Corne
           </li>
         ))}
       </ol>
-      <div class="pick">
+      <div class="pair">
         {(["x", "y"] as const).map((axis) => (
           <label key={axis} class="field">
             <span>{t(`outline_new_${axis}` as Key)}</span>
@@ -72,10 +79,10 @@ function Numbers({ corners, change }: { corners: Corner[]; change(corners: Corne
             />
           </label>
         ))}
-        <button class="quiet" disabled={fresh.includes(null)} onClick={add}>
-          {t("outline_add")}
-        </button>
       </div>
+      <button class="quiet" disabled={fresh.includes(null)} onClick={add}>
+        {t("outline_add")}
+      </button>
     </details>
   );
 }
