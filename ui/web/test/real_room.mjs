@@ -180,7 +180,14 @@ try {
   await lead.waitForSelector(`${areas} li:has-text("Inside an outline with 3 corners")`);
   await lead.waitForSelector('aside .outline:has-text("corner")');
   await picture(lead, "outline");
-  // Who leads gives a pen to somebody who works there, and takes it away.
+  // A designer takes a pen; who leads takes it away, and gives it back.
+  await tab(other, "Plan");
+  await other.click('#pens button:has-text("Take the pen")');
+  await other.waitForSelector('#pens p:has-text("You have the pen.")');
+  await picture(other, "pens");
+  await lead.waitForSelector(`${areas} li:has-text("Badger has the pen.")`);
+  await lead.click(`${areas} li:has-text("living") button:has-text("Take the pen away")`);
+  await other.waitForSelector('#pens p:has-text("Nobody has the pen.")');
   await lead.selectOption(`${areas} label:has-text("Give the pen of living to") select`, { label: "Badger" });
   await lead.waitForSelector(`${areas} li:has-text("Badger has the pen.")`);
   await lead.click(`${areas} li:has-text("living") button:has-text("Take the pen away")`);
