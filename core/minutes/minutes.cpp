@@ -14,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPage = "minutes.html";
 constexpr std::string_view kLogBegin = "{\"format\": \"behaviourlinks-log\"";
 
 Result<void> make_directory(const fs::path& directory) {
@@ -44,10 +43,10 @@ Result<void> may_replace(const fs::path& file, std::string_view begin) {
 
 // A scene of somebody looks like ours: it is ours where the page beside it is.
 Result<void> may_put_scenes(const fs::path& folder, const Account& account) {
-  const auto page = content_of(folder / kPage);
+  const auto page = content_of(folder / kMinutesPage);
   if (!page) return page.error();
   if (page->starts_with(page_beginning(account))) return {};
-  if (!page->empty()) return taken(folder / kPage, "holds the minutes of another session");
+  if (!page->empty()) return taken(folder / kMinutesPage, "holds the minutes of another session");
   std::error_code none;
   if (!fs::is_empty(folder / "scenes", none) && !none) return taken(folder / "scenes", "is not of earlier minutes");
   return {};
@@ -57,7 +56,7 @@ Result<void> may_put_scenes(const fs::path& folder, const Account& account) {
 
 Result<void> may_fill_with_minutes(const std::string& directory) {
   const fs::path folder(directory);
-  auto may = may_replace(folder / kPage, page_beginning());
+  auto may = may_replace(folder / kMinutesPage, page_beginning());
   for (const auto& [name, begin] : table_beginnings())
     if (may) may = may_replace(folder / name, begin);
   if (may) may = may_replace(folder / "log.jsonl", kLogBegin);
@@ -65,7 +64,7 @@ Result<void> may_fill_with_minutes(const std::string& directory) {
 }
 
 std::vector<std::pair<std::string, std::string>> files_of(const Account& account) {
-  std::vector<std::pair<std::string, std::string>> files = {{kPage, write_page(account)},
+  std::vector<std::pair<std::string, std::string>> files = {{std::string(kMinutesPage), write_page(account)},
                                                             {"decisions.csv", decisions_csv(account)},
                                                             {"comments.csv", comments_csv(account)},
                                                             {"votes.csv", votes_csv(account)},

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/minutes/account.h"
 
 namespace bl::minutes {
+
+/// The file that people read.
+inline constexpr std::string_view kMinutesPage = "minutes.html";
 
 /// All files of the minutes, by their names in the folder, the page first. They depend on the account alone.
 std::vector<std::pair<std::string, std::string>> files_of(const Account& account);

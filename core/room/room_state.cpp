@@ -139,6 +139,7 @@ Json to_json(const RoomState& state) {
   json["door"] = kDoorNames[static_cast<std::size_t>(state.door)];
   json["paused"] = state.is_paused;
   json["closed"] = state.is_closed;
+  if (state.shares_minutes) json["shares_minutes"] = true;  // hashes of earlier logs stay
   return json;
 }
 

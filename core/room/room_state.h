@@ -120,6 +120,7 @@ struct RoomState {
   std::int64_t key_renewals = 0;                    ///< how often the keys of invitations were made anew
   Door door = Door::open;
   bool is_paused = false, is_closed = false;
+  bool shares_minutes = false;  ///< of a closed room: whoever took part may open its minutes
   bool operator==(const RoomState&) const = default;
 
   const Seat* seat(std::int64_t number) const;

@@ -79,6 +79,12 @@ void RoomHost::make_export(const ExportWish& wish, Errands::Done done) {
                   std::move(done));
 }
 
+bool RoomHost::may_read_minutes(std::int64_t seat, const std::string& file) const {
+  const room::Seat* const one = room_->state().seat(seat);
+  const bool took_part = one != nullptr && !one->is_removed && !one->is_waiting;
+  return leads(seat) || (took_part && room_->state().shares_minutes && file == minutes::kMinutesPage);
+}
+
 bool RoomHost::may_export(std::int64_t seat) const {
   const room::Seat* const one = room_->state().seat(seat);
   return leads(seat) || (one != nullptr && !one->is_removed && one->role == Role::designer);

@@ -92,9 +92,12 @@ class RoomHost {
 
   bool leads(std::int64_t seat) const;
   // One file at a time: whoever asks meanwhile is told so at once.
-  /// One file of the minutes of all that is stored by now, such as `minutes.html`; for those who lead. `zone`: of its times, so
+  /// One file of the minutes of all that is stored by now, such as `minutes.html`; for those who may. `zone`: of its times, so
   /// far ahead of UTC [min].
   void make_minutes(const std::string& file, int zone, Errands::Done done);
+  /// Who leads gets all files; the page is for all seats of a room that was closed so, but for those that were sent out, or never
+  /// let in.
+  bool may_read_minutes(std::int64_t seat, const std::string& file) const;
   /// The plan as it is now, once it is stored; for those who may.
   void make_export(const ExportWish& wish, Errands::Done done);
   bool may_export(std::int64_t seat) const;

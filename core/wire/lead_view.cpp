@@ -14,8 +14,11 @@ namespace {
 
 Json areas_of(const room::RoomState& state) {
   Json areas = Json::object();
-  for (const auto& [name, area] : state.areas)
-    areas[name] = {{"nodes", selection_to_json(area.nodes)}, {"corners", area.outline.size()}};
+  for (const auto& [name, area] : state.areas) {
+    Json told = {{"nodes", selection_to_json(area.nodes)}, {"corners", area.outline.size()}};
+    for (const Point3& corner : area.outline) told["outline"].push_back({corner.x, corner.y});
+    areas[name] = std::move(told);
+  }
   return areas;
 }
 

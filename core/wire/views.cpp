@@ -97,6 +97,7 @@ View room_view(const ViewSources& sources) {
   put(view, "layout", state.layout);
   put(view, "paused", state.is_paused);
   put(view, "closed", state.is_closed);
+  put(view, "shares_minutes", state.shares_minutes);
   put(view, "rate", state.rate);
   return view;
 }

@@ -12,11 +12,23 @@ rm -rf "$new"
 mkdir -p "$new/assets"
 target=es2019,chrome70,safari13,firefox68
 bundled() { "$esbuild" "$@" --bundle --minify --target=$target --charset=utf8 --legal-comments=none --log-level=warning; }
-# The picture in three dimensions, and what asks for files, come when somebody asks for them.
+preact='--jsx=automatic --jsx-import-source=preact'
+# What comes when somebody asks for it: the picture in three dimensions, files, and the page of who leads, each with its words.
 bundled src/space/picture.ts --format=esm --entry-names='space-[hash]' --outdir="$new/assets"
-bundled src/files/show.tsx --format=esm --jsx=automatic --jsx-import-source=preact --entry-names='files-[hash]' --outdir="$new/assets"
-chunks=$(cd "$new/assets" && printf '{"space":"/assets/%s","files":"/assets/%s"}' "$(ls space-*.js)" "$(ls files-*.js)")
-bundled src/page.tsx --format=iife --define:CHUNKS="$chunks" --jsx=automatic --jsx-import-source=preact --supported:dynamic-import=true \
+named() { (cd "$new/assets" && printf '"%s":"/assets/%s"' "$1" "$(ls "$2"-*.js)"); }
+chunks=$(named space space)
+parts='' part_words=''
+for part in files lead; do
+  bundled src/$part/show.tsx --format=esm $preact --supported:dynamic-import=true --define:CHUNKS="{$chunks}" --entry-names="$part-[hash]" --outdir="$new/assets"
+  parts=$parts,$(named $part $part)
+  of_part=''
+  for language in de ko nl; do
+    bundled src/$part/words/$language.ts --format=esm --entry-names="words-$part-$language-[hash]" --outdir="$new/assets"
+    of_part=$of_part,$(named $language words-$part-$language)
+  done
+  part_words=$part_words,'"'$part'"':{${of_part#,}}
+done
+bundled src/page.tsx --format=iife --define:CHUNKS="{$chunks$parts,\"words\":{${part_words#,}}}" $preact --supported:dynamic-import=true \
   --entry-names='[name]-[hash]' --outdir="$new/assets"
 script=$(cd "$new/assets" && ls page-*.js)
 bundled src/words/de.ts src/words/ko.ts src/words/nl.ts --format=esm --entry-names='[name]-[hash]' --outdir="$new/assets"
@@ -34,7 +46,7 @@ while IFS= read -r line; do
 done <src/index.html >"$new/index.html"
 rm "$new/early.js" "$new/style.css"
 # The page of a proposal is one file, with its script and its looks in it; an export puts its data there.
-bundled src/proposal/page.tsx --format=iife --jsx=automatic --jsx-import-source=preact --outfile="$new/proposal.js"
+bundled src/proposal/page.tsx --format=iife $preact --outfile="$new/proposal.js"
 bundled src/proposal/style.css --outfile="$new/proposal.css"
 while IFS= read -r line; do
   case $line in

@@ -96,6 +96,18 @@ TEST(Room, ForgettingAPersonLeavesTheFoldAsItIs) {
   EXPECT_EQ(world.room().seat_of_token(world.tokens[seat]), 0);
 }
 
+TEST(Room, MinutesAreSharedOnlyWhereTheCloseSaysSo) {
+  RoomWorld as_before, shared;
+  for (RoomWorld* world : {&as_before, &shared}) (void)world->seat(Role::facilitator);
+  EXPECT_EQ(sentence(as_before.event(1, "close_room")), "") << "as logs of earlier programs have it";
+  EXPECT_FALSE(as_before.room().state().shares_minutes);
+  EXPECT_EQ(sentence(shared.event(1, "close_room", R"({"shares_minutes": true})")), "");
+  EXPECT_TRUE(shared.room().state().shares_minutes);
+  EXPECT_NE(hash_of(shared.room().state()), hash_of(as_before.room().state()));
+  shared.crash();
+  EXPECT_TRUE(shared.room().state().shares_minutes);
+}
+
 TEST(Room, PhasesDecideWhatPeopleMayDo) {
   RoomWorld world;
   const auto lead = world.seat(Role::facilitator);

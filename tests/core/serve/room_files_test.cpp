@@ -157,6 +157,27 @@ TEST_F(FilesOfRooms, MinutesAreForThoseWhoLead) {
   EXPECT_EQ((*in_address)->status, 403);
 }
 
+TEST_F(FilesOfRooms, TheirPageIsSharedWhereTheCloseSaysSo) {
+  const auto out = join("designer"), viewer = join("viewer");
+  say(*lead_, R"({"t": "room", "id": 1, "e": {"event": "set_door", "arguments": {"door": "asks"}}})");
+  const auto admitted = room().admit_by_code();
+  const std::string waiting = std::get<room::Admission>(admitted).token;
+  EXPECT_EQ(answered(form(guest_->token)).status, 403) << "the session goes on";
+  say(*lead_, R"({"t": "room", "id": 2, "e": {"event": "remove_seat", "arguments": {"seat": 3}}})");
+  say(*lead_, R"({"t": "room", "id": 3, "e": {"event": "close_room", "arguments": {"shares_minutes": true}}})");
+  const Response page = answered(form(guest_->token));
+  ASSERT_EQ(page.status, 200) << page.body;
+  EXPECT_NE(page.body.find("the room was closed"), std::string::npos);
+  EXPECT_EQ(answered(form(viewer->token)).status, 200);
+  for (const std::string file :
+       {"decisions.csv", "comments.csv", "votes.csv", "log.jsonl", "scenes/end.json", "", "../minutes.html"})
+    EXPECT_EQ(answered(form(guest_->token, file)).status, 403) << file;
+  EXPECT_EQ(answered(form(out->token)).status, 403) << "sent out";
+  EXPECT_EQ(answered(form(waiting)).status, 403) << "never let in";
+  EXPECT_EQ(answered(form("")).status, 403);
+  EXPECT_EQ(answered(form(lead_->token, "log.jsonl")).status, 200);
+}
+
 TEST_F(FilesOfRooms, OneIsMadeAtATime) {
   const auto first = post(form(lead_->token)), second = post(form(lead_->token));
   ASSERT_TRUE(second->has_value()) << "it is told at once";

@@ -57,6 +57,7 @@ TEST(LeadView, HasAreasAndWhatTheyCanBeMadeOf) {
   EXPECT_EQ(key("areas")["volumes"]["nodes"]["typification"], "smart_volume");
   EXPECT_EQ(key("areas")["two"]["nodes"], Json::array({"hotel", "library"}));
   EXPECT_EQ(key("areas")["north"]["corners"], 3);
+  EXPECT_EQ(key("areas")["north"]["outline"], *parse_json("[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0]]"));
 }
 
 TEST(LeadView, TellsWhereARewindTakesNothingBack) {

@@ -77,6 +77,7 @@ struct PanelMemory {
   std::uint64_t agenda_revision = 0;
   std::map<std::string, std::string> room_texts;           ///< what is being typed in the tab Room, by field
   std::optional<std::set<std::string>> room_activities;    ///< of the next phase; none: nothing was chosen yet
+  bool room_shares_minutes = false;                        ///< with everybody who took part, when the session ends
   std::map<std::string, vote::Ballot> ballots;             ///< that are filled in and not cast yet, by vote
   std::optional<DotPlacing> placing;                       ///< clicks in the 3D view set dots
   std::map<std::string, std::set<std::int64_t>> left_out;  ///< steps of proposals, by draft

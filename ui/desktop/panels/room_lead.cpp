@@ -152,8 +152,11 @@ void draw_house(const RoomDesk& desk) {
     desk.say("mark", JsonValue::of({{"kind", "decision"}, {"text", decision}}));
     decision.clear();
   }
+  bool& shares = memory_of(desk.editor).room_shares_minutes;
+  ImGui::Checkbox("Everybody may open the minutes afterwards", &shares);
+  note_place(desk.editor, "roompanel/share_minutes");
   if (desk.sure_button("End the session", "roompanel/end", "From then on nothing is changed or said. End it?", "End the session"))
-    desk.say("close_room", JsonValue::of(Json::object()));
+    desk.say("close_room", JsonValue::of({{"shares_minutes", shares}}));
 }
 
 void draw_seat_menu(const RoomDesk& desk, const AgendaSeat& seat) {

@@ -1,9 +1,11 @@
 // The page: finds the room in the address, opens the connection, and shows the screen that is wanted.
+import "./english";
 import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { browser_world, early_run, keep, kept, socket_address, speak, tab_keep, tab_kept, wanted_language } from "./browser";
-import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine } from "./parts";
+import { part } from "./chunks";
+import { Announcer, Avatar, Icon, IconName, Moved, Notices, Refusals, Sheet, StatusLine, Title } from "./parts";
 import { unpacked } from "./handover";
 import { kFirstViews } from "./hello";
 import { Beamer } from "./screens/beamer";
@@ -11,12 +13,14 @@ import { Card } from "./screens/card";
 import { Form } from "./screens/form";
 import { Ideas } from "./screens/ideas";
 import { CodeScreen, Join, LanguageChoice, Message } from "./screens/join";
-import { LargeCode } from "./screens/invitations";
-import { Lead, proposals_waiting } from "./screens/lead";
-import { at_door } from "./screens/people";
+import { LargeCode } from "./screens/codes";
 import { Now } from "./screens/now";
+import { OpenMinutes } from "./screens/open_minutes";
+import { Part } from "./screens/part";
 import { PlanScreen } from "./screens/plan_screen";
 import { Votes } from "./screens/votes";
+import { at_door, pens_asked, proposals_waiting } from "./screens/waiting";
+import { tab_of_pens } from "./pens";
 import { Queue } from "./queue";
 import { PlanOrSpace } from "./space";
 import { Session } from "./session";
@@ -67,7 +71,7 @@ function Navigation({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const isDue = (tab: Tab): boolean =>
     tab === "votes"
       ? Object.entries(s.views.votes).some(([id, vote]) => vote.open && !s.hasVoted(id, vote))
-      : tab === "lead" && proposals_waiting(s).length + at_door(s).length > 0;
+      : tab === "lead" && proposals_waiting(s).length + at_door(s).length + pens_asked(s).length > 0;
   return (
     <nav aria-label={t("navigation")}>
       {tabs_of(s).map((tab) => (
@@ -93,7 +97,13 @@ function screen_of(s: Session, ui: Ui, isWide: boolean): JSX.Element {
       return <Ideas s={s} ui={ui} />;
     case "lead":
       // Somebody may have got another role meanwhile.
-      return s.you?.role === "facilitator" ? <Lead s={s} ui={ui} /> : <Now s={s} ui={ui} />;
+      if (s.you?.role !== "facilitator") return <Now s={s} ui={ui} />;
+      return (
+        <>
+          <Title>{t("tab_lead")}</Title>
+          <Part s={s} ui={ui} name="lead" />
+        </>
+      );
     case "form":
       return <Form s={s} ui={ui} />;
     default:
@@ -134,12 +144,19 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
       <main key={ui.tab}>
         <Moved s={s} />
         <Notices s={s} />
-        <Refusals s={s} />
+        <Refusals
+          s={s}
+          toPens={() => {
+            ui.isToPens = true;
+            ui.go(tab_of_pens(s));
+          }}
+        />
         {s.views.room.closed ? (
           <p class="notice" role="status">
             <b>{t("closed_title")}.</b> {you?.role === "facilitator" ? t("closed_minutes", { tab: t("tab_lead") }) : t("closed")}
           </p>
         ) : null}
+        {s.views.room.shares_minutes && you?.role !== "facilitator" ? <OpenMinutes s={s}>{t("minutes_home")}</OpenMinutes> : null}
         {screen_of(s, ui, isWide)}
       </main>
       {isYou && you ? (
@@ -165,7 +182,12 @@ function App({ s, ui, address }: { s: Session; ui: Ui; address: Address }): JSX.
       again((count) => count + 1);
     });
   };
-  const { stage } = s.connection;
+  const { stage } = s.connection,
+    isLead = s.you?.role === "facilitator";
+  // Who leads needs that page first: it comes while they read who they are.
+  useEffect(() => {
+    if (isLead && !address.isBeamer) part("lead", language_now()).catch(() => undefined);
+  }, [isLead]);
   document.title = s.views.room.title ?? "BehaviourLinks";
   if (address.isBeamer) return <Beamer s={s} />;
   if (stage === "removed") return <Message title={t("removed_title")} text={t("removed")} />;

@@ -2,6 +2,7 @@
 import type { ComponentChildren, JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { amount, countdown, duration, in_steps, number, typed_number, unit_sign } from "./format";
+import { own_pens } from "./pens";
 import { Refusal, Session, subject_of, why_of } from "./session";
 import { useClock } from "./ui";
 import { Key, t } from "./words";
@@ -165,7 +166,7 @@ function labelOf(s: Session, refusal: Refusal): string {
   return t("what_control", { label: control?.label ?? s.nameOf(node) });
 }
 
-function RefusalLine({ s, refusal }: { s: Session; refusal: Refusal }): JSX.Element {
+function RefusalLine({ s, refusal, toPens }: { s: Session; refusal: Refusal; toPens(): void }): JSX.Element {
   const { answer, item } = refusal;
   const { key, args } = why_of(answer);
   const wanted = typeof item.shown === "number" ? number(item.shown) : null;
@@ -196,6 +197,17 @@ function RefusalLine({ s, refusal }: { s: Session; refusal: Refusal }): JSX.Elem
             {t("set_anyway", { wanted })}
           </button>
         ) : null}
+        {key === "why_area_pen" && own_pens(s).includes(String(args.area)) ? (
+          <button
+            class="quiet"
+            onClick={() => {
+              s.dismiss(refusal);
+              toPens();
+            }}
+          >
+            {t("pens_open")}
+          </button>
+        ) : null}
         <button class="quiet" onClick={() => s.dismiss(refusal)}>
           {t(isStale ? "leave_it" : "understood")}
         </button>
@@ -205,14 +217,14 @@ function RefusalLine({ s, refusal }: { s: Session; refusal: Refusal }): JSX.Elem
 }
 
 /// What was not taken stays on the screen until the person has seen why.
-export function Refusals({ s }: { s: Session }): JSX.Element | null {
+export function Refusals({ s, toPens }: { s: Session; toPens(): void }): JSX.Element | null {
   if (s.refusals.length === 0) return null;
   return (
     <section class="refusals" role="alert">
       <h2>{t("refused_n", { n: s.refusals.length })}</h2>
       <ul>
         {s.refusals.slice(0, 5).map((refusal) => (
-          <RefusalLine key={refusal.number} s={s} refusal={refusal} />
+          <RefusalLine key={refusal.number} s={s} refusal={refusal} toPens={toPens} />
         ))}
       </ul>
     </section>

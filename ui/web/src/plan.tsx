@@ -5,13 +5,14 @@ import { middle_of } from "./outline";
 import { Icon } from "./parts";
 import { Frame, Name, extent, names_of } from "./plan_names";
 import type { Session } from "./session";
-import { Binding, Pin, is_of_browser } from "./ui";
+import { Binding, Outline, Pin, is_of_browser } from "./ui";
 import type { PlanItem } from "./wire";
 import { t } from "./words";
 
 const kMost = 12,
   kTap = 10,
   kNear = 14,
+  kReach = 22, // of a target, around its middle
   kLongTap = 600,
   kMargin = 0.03;
 const kOrder = ["boundary", "plot", "street", "building", "volume"];
@@ -107,6 +108,23 @@ function PinShape({ pin, unit, size }: { pin: Pin; unit: number; size: number })
   );
 }
 
+function OutlineShape({ outline: { corners, name, isOpen }, font }: { outline: Outline; font: number }): JSX.Element {
+  const all = corners.map(([x, y]) => `${x} ${-y}`),
+    top = Math.max(...corners.map(([, y]) => y)),
+    // Its name stands where it is highest, because the names of things stand inside.
+    highest = corners.filter(([, y]) => y > top - font).map((corner) => corner[0]);
+  return (
+    <g class={`outline ${name === "" ? "own" : ""}`}>
+      <path d={`M${all.join("L")}${isOpen ? "" : "Z"}`} />
+      {name === "" ? null : (
+        <text class="name" x={(Math.min(...highest) + Math.max(...highest)) / 2} y={0.35 * font - top} font-size={font} stroke-width={font * 0.3}>
+          {name}
+        </text>
+      )}
+    </g>
+  );
+}
+
 export interface PlanProps {
   s: Session;
   binding: Binding | null;
@@ -178,10 +196,10 @@ export function Plan({ s, binding, selected, label = 12, isStill, children }: Pl
       unit: () => live.current.frame.width / live.current.size[0],
     },
     (place, node) =>
-      binding?.onTap(
-        [round(place[0]), round(-place[1]), 0],
-        node ?? nearest(items, place, kNear * (live.current.frame.width / live.current.size[0])),
-      ),
+{
+      const scale = live.current.frame.width / live.current.size[0];
+      binding?.onTap([round(place[0]), round(-place[1]), 0], node ?? nearest(items, place, kNear * scale), kReach * scale);
+    },
   );
 
   // What is chosen elsewhere comes into sight.
@@ -221,6 +239,9 @@ export function Plan({ s, binding, selected, label = 12, isStill, children }: Pl
           {children}
           {names_of(items, isStill ? [label * unit] : [label * unit, label * unit * 0.82], frame).map((name) => (
             <Label key={name.id} name={name} />
+          ))}
+          {(binding?.outlines ?? []).map((outline) => (
+            <OutlineShape key={outline.id} outline={outline} font={label * unit} />
           ))}
           {(binding?.pins ?? []).map((pin) => (
             <PinShape key={pin.id} pin={pin} unit={unit} size={label} />

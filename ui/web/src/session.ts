@@ -403,6 +403,8 @@ export function subject_of(item: Item): Key {
       return "what_propose";
     case "form":
       return "what_form";
+    case "pen":
+      return "what_pen";
     case "undo":
       return "what_undo";
     case "lead":

@@ -1,10 +1,8 @@
 // Steps of drafts and places of the model as words, from the parts that the server tells of them.
 import { amount, number, unit_sign } from "./format";
 import type { Conflict, Json, Said } from "./wire";
-import { Key, t } from "./words";
-import { en } from "./words/en";
+import { Key, is_key, t } from "./words";
 
-const is_known = (key: string): key is Key => key in en;
 // What is set to a value: the value says it.
 const kSet = ["set_port", "set_cell", "set_setting", "set_link_strength", "set_link_parameter"];
 
@@ -17,7 +15,7 @@ function name_of(of: Said["of"]): string {
 function port_words(port: string): string {
   const last = port.slice(port.lastIndexOf(".") + 1),
     key = `port_${last}`;
-  return is_known(key) ? t(key) : last.replace(/_/g, " ");
+  return is_key(key) ? t(key) : last.replace(/_/g, " ");
 }
 
 /// A thing and one of its values. Role cards have words for values, which often name the thing as well.
@@ -56,7 +54,7 @@ export function step_words(said: Said | null | undefined, english: string): stri
   if (!said || id === undefined) return english;
   if (id === "add_nodes" || id === "remove_nodes") return t(`step_${id}` as Key, { n });
   const key = `step_${id}`;
-  if (!kSet.includes(id) && !is_known(key)) return english;
+  if (!kSet.includes(id) && !is_key(key)) return english;
   const words = kSet.includes(id)
     ? change_words(said)
     : t(key as Key, { of: name_of(said.of), place: place_words(said), to: said.to === undefined ? "" : String(said.to) });

@@ -13,9 +13,18 @@ export interface Pin {
   tone: string;
   label: string;
 }
+/// A polygon on the plan, such as the outline of an area.
+export interface Outline {
+  id: string;
+  corners: [number, number][]; ///< [m]
+  name: string;
+  isOpen?: boolean; ///< it is still being drawn
+}
 export interface Binding {
   pins: Pin[];
-  onTap(place: Point, node: string | null): void;
+  outlines?: Outline[];
+  /// `reach`: how far a finger that means a place may miss it [m]; nobody knows that of the picture in three dimensions.
+  onTap(place: Point, node: string | null, reach?: number): void;
 }
 
 /// Keys that belong to the browser, such as Ctrl and + to enlarge the page.
@@ -31,6 +40,7 @@ export class Ui {
   draft: { id: string; title: string } | null = null;
   ballots: Record<string, Ballot | null> = {};
   isCodeLarge = false;
+  isToPens = false; ///< somebody was led to the pens of their areas
   binding: Binding | null = null; ///< of the plan that stands beside the screen
   private watchers = new Set<() => void>();
 
@@ -106,12 +116,13 @@ export function useClock(milliseconds: number): void {
 
 /// The plan beside the screen shows these pins and tells these taps while the caller is on the screen.
 export function useBinding(ui: Ui, binding: Binding | null): void {
-  const pins = binding ? JSON.stringify(binding.pins) : "";
+  const drawn = binding ? JSON.stringify([binding.pins, binding.outlines]) : "";
   const latest = useRef(binding);
   latest.current = binding;
   useLayoutEffect(() => {
     if (!latest.current) return;
-    const own: Binding = { pins: latest.current.pins, onTap: (place, node) => latest.current?.onTap(place, node) };
+    const { pins, outlines } = latest.current,
+      own: Binding = { pins, outlines, onTap: (...tap) => latest.current?.onTap(...tap) };
     ui.binding = own;
     ui.tell();
     return () => {
@@ -119,5 +130,5 @@ export function useBinding(ui: Ui, binding: Binding | null): void {
       ui.binding = null;
       ui.tell();
     };
-  }, [pins, binding === null]);
+  }, [drawn, binding === null]);
 }

@@ -108,7 +108,7 @@ export type Selection = string | string[] | { typification?: string; tag?: strin
 /// What only facilitators are told.
 export interface LeadView {
   unchanged?: [number, number][]; ///< spans of entries: a rewind to one of them takes nothing back
-  areas?: Record<string, { nodes: Selection; corners: number }>;
+  areas?: Record<string, { nodes: Selection; corners: number; outline?: [number, number][] }>; ///< corners [m]
   tags?: Record<string, number>; ///< of the scene, with the number of nodes
   roles?: Record<string, { label: string; count: number }>;
 }
@@ -124,6 +124,7 @@ export interface RoomView {
   layout?: Layout | "";
   paused?: boolean;
   closed?: boolean;
+  shares_minutes?: boolean; ///< of a room that is closed: everybody who took part may open the page
   rate?: number;
   scenarios?: Record<string, Scenario>;
 }

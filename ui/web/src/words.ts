@@ -1,9 +1,11 @@
 // Picks sentences by language, with numbers and plural forms as that language has them.
-import { Key, Text, en } from "./words/en";
+import type { Key, Text } from "./words/en";
 
-export type { Key } from "./words/en";
+export type { Key, Text } from "./words/en";
 export type Language = "en" | "nl" | "de" | "ko" | "xx";
 export type Table = Record<Key, Text>;
+/// Any sentences, such as those of a script of its own.
+export type Words = Record<string, Text>;
 
 /// By language: its own name. "xx" is no language: its sentences are longer and marked, so that tests find texts that are cut off or
 /// not in the tables.
@@ -23,19 +25,18 @@ function marked(text: string): string {
   return `[${out}${"~".repeat(Math.ceil(text.length * 0.3))}]`;
 }
 
-function pseudo(): Table {
-  const table: Partial<Table> = {};
-  for (const key of Object.keys(en) as Key[]) {
-    const text: Text = en[key];
-    table[key] = typeof text === "string" ? marked(text) : { one: marked(text.one), other: marked(text.other) };
-  }
-  return table as Table;
+/// English as a language of longer marked words.
+export function pseudo(english: Words): Words {
+  const words: Words = {};
+  for (const [key, text] of Object.entries(english))
+    words[key] = typeof text === "string" ? marked(text) : { one: marked(text.one), other: marked(text.other) };
+  return words;
 }
 
-// English is here from the beginning; the others come when somebody reads them.
-const tables: Partial<Record<Language, Table>> = { en };
+// Each script has its own; those of the page come by `add_table`, and the page tells them to other scripts.
+const tables: Partial<Record<Language, Words>> = {};
 let language: Language = "en";
-let table: Table = en;
+let table: Words = {};
 
 export function add_table(of: Language, words: Table): void {
   tables[of] = words;
@@ -43,11 +44,19 @@ export function add_table(of: Language, words: Table): void {
 
 /// Nothing changes where the words of that language have not come yet.
 export function set_language(next: Language): void {
-  const words = next === "xx" ? pseudo() : tables[next];
-  if (!words) return;
+  const words = next === "xx" ? pseudo(tables.en ?? {}) : tables[next];
+  if (words) told(next, words);
+}
+
+/// A script of its own is told what the page speaks.
+export function told(next: Language, words: Words): void {
   language = next;
   table = words;
 }
+
+export const words_now = (): Words => table;
+
+export const is_key = (key: string): key is Key => key in table;
 
 export function language_now(): Language {
   return language;
@@ -84,7 +93,7 @@ export function written(value: number, style: "decimal" | "percent" = "decimal",
 
 /// The sentence of a key; numbers in `args` are written as the language writes them, and `n` chooses the plural form.
 export function t(key: Key, args: Record<string, string | number> = {}): string {
-  const text = table[key];
+  const text = table[key] ?? key;
   const form = typeof text === "string" ? text : text[args.n === 1 ? "one" : "other"];
   return form.replace(/\{(\w+)\}/g, (whole, name: string) => {
     const value = args[name];

@@ -14,6 +14,7 @@ import {
   extent_of,
   in_steps,
   kLanguages,
+  kScripts,
   ko,
   export_form,
   file_from_server,
@@ -132,20 +133,28 @@ test("all languages say everything, with the same gaps to fill", () => {
 
 test("every sentence is used, and every reason has one", () => {
   const folder = new URL("../src/", import.meta.url),
-    rooms = ["screens/", "files/"].map((name) => new URL(name, folder));
-  const source = [folder, ...rooms]
-    .flatMap((at) =>
-      readdirSync(at)
-        .filter((name) => /\.tsx?$/.test(name))
-        .map((name) => readFileSync(new URL(name, at), "utf8")),
-    )
-    .join("\n");
+    rooms = ["screens/", "files/", "lead/"].map((name) => new URL(name, folder));
+  const all = [folder, ...rooms].map((at) =>
+    readdirSync(at)
+      .filter((name) => /\.tsx?$/.test(name))
+      .map((name) => readFileSync(new URL(name, at), "utf8"))
+      .join("\n"),
+  );
+  const source = all.join("\n"),
+    page = all.slice(0, 2).join("\n");
   const made = [...source.matchAll(/`([a-z]+_(?:[a-z]+_)?)\$\{/g)].map((match) => match[1]);
   for (const key of Object.keys(kTables.en))
     assert.ok(
       new RegExp(`["'\`]${key}["'\`]`).test(source) || made.some((start) => key.startsWith(start)),
       `nobody says ${key}`,
     );
+  // What only the script of a part has, the page cannot say before that script is here; and no sentence stands in two places.
+  const { page: first, files, lead } = kScripts;
+  for (const key of [...Object.keys(files), ...Object.keys(lead)]) {
+    assert.ok(!new RegExp(`["'\`]${key}["'\`]`).test(page), `the page says ${key}`);
+    assert.ok(!(key in first), key);
+  }
+  for (const key of Object.keys(files)) assert.ok(!(key in lead), key);
   const reasons = [
     "bad",
     "gone",

@@ -9,6 +9,7 @@ export class MockRoom {
   seats = {};
   tokens = new Map();
   areas = {};
+  pens = {}; // by area: its holder, and who asks
   asked_minutes = [];
   asked_plans = [];
   minutes_fault = 0; // the status of the answer, where there are none
@@ -60,7 +61,7 @@ export class MockRoom {
 
   view(name, seat) {
     if (name === "room") {
-      const areas = Object.fromEntries(Object.keys(this.areas).map((area) => [area, { pen: 0, asking: [] }]));
+      const areas = Object.fromEntries(Object.keys(this.areas).map((area) => [area, this.pens[area] ?? { pen: 0, asking: [] }]));
       return { ...this.room, seats: this.seats, areas };
     }
     if (name === "lead") return this.seats[seat]?.role === "facilitator" ? this.lead_view() : {};
@@ -350,7 +351,8 @@ export class MockRoom {
         misfits: [],
       };
       draft.state = "proposed";
-    } else if (!leads) return { why: "right", place: "event", text: "only the facilitator" };
+    } else if (event === "ask_pen" || event === "give_pen") return this.pen(seat, event, a);
+    else if (!leads) return { why: "right", place: "event", text: "only the facilitator" };
     else if (event === "answer_comment") Object.assign(this.comments[a.comment], { state: a.state, answer: a.answer });
     else if (event === "decide_proposal")
       Object.assign(this.proposals[a.draft], {
@@ -367,17 +369,38 @@ export class MockRoom {
     else if (event === "set_door") this.room.door = a.door;
     else if (event === "mute") this.seats[a.seat].muted = a.is_muted;
     else if (event === "set_role") Object.assign(this.seats[a.seat], { role: a.role, card: a.card, areas: a.areas, waits: undefined });
-    else if (event === "define_area") this.areas[a.area] = { nodes: a.nodes, corners: 0 };
+    else if (event === "define_area") this.define_area(a);
     else if (event === "drop_area") {
       delete this.areas[a.area];
       for (const one of Object.values(this.seats)) one.areas = one.areas.filter((area) => area !== a.area);
     }
     else if (event === "close_room") {
       if (Object.values(this.votes).some((vote) => vote.open)) return { why: "closed", place: "event", text: "a vote is open" };
-      this.room.closed = true;
+      Object.assign(this.room, { closed: true, shares_minutes: a.shares_minutes === true });
     } else if (event === "save_scenario")
       this.room.scenarios = { ...this.room.scenarios, [a.id]: { name: a.name, note: "", seat, seq: this.seq, tick: 1200 } };
     else if (event === "restart") this.restarted = a.scenario;
+    return null;
+  }
+
+  define_area({ area, nodes = [], outline = [] }) {
+    this.areas[area] = { nodes, corners: outline.length, ...(outline.length > 0 ? { outline: outline.map(([x, y]) => [x, y]) } : {}) };
+  }
+
+  // As the room does it, but for the time that passes.
+  pen(seat, event, { area, asks, seat: to }) {
+    const one = (this.pens[area] = { asking: [], pen: 0, ...this.pens[area] }),
+      { role, areas } = this.seats[seat];
+    if (event === "ask_pen") {
+      if (!areas.includes(area)) return { why: "conflict", place: "area", text: "not yours" };
+      one.asking = one.asking.filter((other) => other !== seat);
+      if (asks && one.pen === 0) one.pen = seat;
+      else if (asks) one.asking.push(seat);
+    } else {
+      if (one.pen !== seat && role !== "facilitator") return { why: "conflict", place: "area", text: "somebody else has the pen" };
+      one.pen = to;
+      one.asking = one.asking.filter((other) => other !== to);
+    }
     return null;
   }
 

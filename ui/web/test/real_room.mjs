@@ -168,6 +168,30 @@ try {
   await lead.waitForSelector(`${designer} summary:has-text("Designer (living)")`);
   await lead.waitForSelector(`${areas} li:has-text("Has it: Badger")`);
   await picture(lead, "areas");
+  // An area by its outline, typed; the room tells its corners, which are drawn over the plan.
+  await lead.click(`${areas} .segments button:has-text("An outline")`);
+  await lead.click(`${areas} summary:has-text("Corners as numbers")`);
+  for (const corner of [["0", "0"], ["80.5", "0"], ["80.5", "60"]]) {
+    for (const [k, axis] of ["x", "y"].entries()) await lead.fill(`${areas} label:has-text("New corner: ${axis}") input`, corner[k]);
+    await lead.click(`${areas} button:has-text("Add the corner")`);
+  }
+  await lead.fill(`${areas} label:has-text("Name of the area") input`, "Corner");
+  await lead.click(`${areas} button:has-text("Make the area")`);
+  await lead.waitForSelector(`${areas} li:has-text("Inside an outline with 3 corners")`);
+  await lead.waitForSelector('aside .outline:has-text("corner")');
+  await picture(lead, "outline");
+  // A designer takes a pen; who leads takes it away, and gives it back.
+  await tab(other, "Plan");
+  await other.click('#pens button:has-text("Take the pen")');
+  await other.waitForSelector('#pens p:has-text("You have the pen.")');
+  await picture(other, "pens");
+  await lead.waitForSelector(`${areas} li:has-text("Badger has the pen.")`);
+  await lead.click(`${areas} li:has-text("living") button:has-text("Take the pen away")`);
+  await other.waitForSelector('#pens p:has-text("Nobody has the pen.")');
+  await lead.selectOption(`${areas} label:has-text("Give the pen of living to") select`, { label: "Badger" });
+  await lead.waitForSelector(`${areas} li:has-text("Badger has the pen.")`);
+  await lead.click(`${areas} li:has-text("living") button:has-text("Take the pen away")`);
+  await lead.waitForSelector(`${areas} li:has-text("Nobody has the pen.") >> nth=1`);
 
   // Who comes to a shut door is told at once; who comes while it asks is counted, and let in by a press.
   await lead.click('.segments button:text-is("Shut")');
@@ -219,6 +243,8 @@ try {
   // The session ends, and the facilitator reads what came of it and takes it along.
   await lead.click('.rows li:has-text("Where is a tower good?") button:has-text("Close")');
   await lead.waitForSelector('.rows li:has-text("Where is a tower good?") button:has-text("Open")');
+  assert.equal(await heron.locator('button:has-text("Take the minutes home")').count(), 0);
+  await lead.check('.tick:has-text("Let everybody who took part") input');
   await lead.click('button:has-text("End the session")');
   await lead.click(".sure .danger");
   const [minutes] = await Promise.all([lead.context().waitForEvent("page"), lead.click('button:has-text("Open the minutes")')]);
@@ -227,6 +253,9 @@ try {
   assert.notEqual(await minutes.evaluate(() => getComputedStyle(document.body).fontFamily), "", "it has its style");
   assert.ok(!minutes.url().includes("token"));
   await picture(minutes, "minutes");
+  const [home] = await Promise.all([heron.context().waitForEvent("page"), heron.click('button:has-text("Take the minutes home")')]);
+  await home.waitForSelector("h1");
+  assert.match(await home.textContent("body"), /Without scripts\./);
   const [file] = await Promise.all([lead.waitForEvent("download"), lead.click('button:has-text("Comments, as a table")')]);
   assert.match(readFileSync(await file.path(), "utf8"), /^number,id,entry[^]*Without scripts\./);
   await picture(lead, "minutes_lead");

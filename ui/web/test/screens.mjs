@@ -56,6 +56,7 @@ async function joined(server, options) {
   await page.waitForSelector(".self");
   await page.click(".join .main");
   await page.waitForSelector("nav");
+  if (options?.fragment === "#k=LEAD") await page.waitForSelector("#lead-join, .part h2");
   return page;
 }
 
@@ -242,7 +243,9 @@ async function walk_facilitator(server, size, scheme) {
   room.open_votes("bridge");
   await page.waitForSelector('p:has-text("still open. Close it first")');
   room.open_votes();
+  await page.check('.tick:has-text("Let everybody who took part") input');
   await page.click('button:has-text("End the session")');
+  await look(page, `lead_end_${at}`);
   await page.click(".sure .danger");
   await page.waitForSelector('h2:has-text("Minutes")');
   await look(page, `lead_minutes_${at}`);
@@ -251,7 +254,7 @@ async function walk_facilitator(server, size, scheme) {
   const command = await page.inputValue('label:has-text("Command for the minutes") input');
   assert.equal(command, "./bl minutes '/home/anna/Sessions of spring/quarter.blsession' --out '/home/anna/Sessions of spring/quarter-minutes'");
   await look(page, `lead_minutes_command_${at}`);
-  room.room.closed = false;
+  Object.assign(room.room, { closed: false, shares_minutes: false });
   await page.context().close();
 }
 
@@ -622,6 +625,190 @@ async function areas(server) {
   await narrow.context().close();
 }
 
+/// An outline is drawn by touches, corrected, and closed by its first corner; or it is typed.
+async function outlines(server) {
+  const { room } = server,
+    part = "#lead-areas";
+  room.define_area({ area: "mill", outline: [[10, 10, 0], [50, 10, 0], [50, 40, 0], [10, 40, 0]] });
+  for (const [size, scheme] of [
+    [[1366, 768], "light"],
+    [[390, 844], "dark"],
+  ]) {
+    const lead = await joined(server, { size, scheme, fragment: "#k=LEAD" }),
+      at = `${size[0]}x${size[1]}_${scheme}`,
+      plan = size[0] >= 900 ? "aside .paper" : `${part} .paper`;
+    await lead.waitForSelector(`${part} li:has-text("Inside an outline with 4 corners")`);
+    await lead.click(`${part} summary`);
+    await lead.click(`${part} .segments button:has-text("An outline")`);
+    await lead.waitForSelector(`${plan} .outline:has-text("mill")`);
+    const touch = async (x, y) => {
+      await lead.locator(plan).scrollIntoViewIfNeeded();
+      const box = await lead.locator(plan).boundingBox();
+      await lead.mouse.click(box.x + box.width * x, box.y + box.height * y);
+    };
+    for (const [x, y] of [[0.3, 0.3], [0.7, 0.3], [0.7, 0.7], [0.9, 0.9]]) await touch(x, y);
+    await lead.waitForSelector(`${part} [role=status]:has-text("4 corners")`);
+    await lead.click(`${part} button:has-text("Take the last corner back")`);
+    await lead.waitForSelector(`${part} [role=status]:has-text("3 corners. Touch the first one again")`);
+    await lead.locator(part).scrollIntoViewIfNeeded();
+    await look(lead, `outline_open_${at}`);
+    await touch(0.305, 0.305);
+    await lead.waitForSelector(`${part} [role=status]:has-text("The outline has 3 corners and")`);
+    await touch(0.1, 0.1);
+    await lead.waitForSelector(`${part} [role=status]:has-text("The outline has 3 corners and")`);
+    await lead.click(`${part} summary:has-text("Corners as numbers")`);
+    for (const [axis, value] of [["x", "20"], ["y", "20.5"]]) await lead.fill(`${part} label:has-text("New corner: ${axis}") input`, value);
+    await lead.click(`${part} button:has-text("Add the corner")`);
+    await lead.waitForSelector(`${part} [role=status]:has-text("4 corners")`);
+    await lead.fill(`${part} [aria-label="Corner 4, x in metres"]`, "1,000");
+    await lead.waitForSelector(`${part} .missing:has-text("crosses itself")`);
+    await lead.fill(`${part} [aria-label="Corner 4, x in metres"]`, "21.5");
+    await lead.keyboard.press("Tab");
+    await lead.fill(`${part} label:has-text("Name of the area") input`, `Court ${size[0]}`);
+    await lead.locator(`${part} .corners`).scrollIntoViewIfNeeded();
+    await look(lead, `outline_numbers_${at}`);
+    await lead.click(`${part} button:has-text("Make the area")`);
+    await lead.waitForSelector(`${part} li:has-text("court_${size[0]}"):has-text("Inside an outline with 4 corners")`);
+    const { outline } = room.areas[`court_${size[0]}`];
+    assert.deepEqual(outline[3], [21.5, 20.5]);
+    assert.ok(outline[0][0] < outline[1][0] && outline[1][1] > outline[2][1], "metres, with y to the north");
+    assert.equal(await lead.locator(`${part} [role=status]:has-text("Touch the plan")`).count(), 1, "the next one begins anew");
+    await lead.context().close();
+  }
+  // By keys and numbers alone, and one that crosses itself is not made.
+  const typed = await joined(server, { size: [1280, 800], fragment: "#k=LEAD" });
+  await typed.click(`${part} summary`);
+  await typed.click(`${part} .segments button:has-text("An outline")`);
+  await typed.click(`${part} summary:has-text("Corners as numbers")`);
+  for (const [x, y] of [["0", "0"], ["10", "10"], ["10", "0"], ["0", "10"]]) {
+    await typed.fill(`${part} label:has-text("New corner: x") input`, x);
+    await typed.fill(`${part} label:has-text("New corner: y") input`, y);
+    await typed.click(`${part} button:has-text("Add the corner")`);
+  }
+  await typed.fill(`${part} label:has-text("Name of the area") input`, "Bow");
+  await typed.waitForSelector(`${part} .missing:has-text("crosses itself")`);
+  assert.ok(await typed.isDisabled(`${part} button:has-text("Make the area")`));
+  await typed.click(`${part} button[aria-label="Remove corner 2"]`);
+  await typed.click(`${part} button:has-text("Make the area")`);
+  await typed.waitForSelector(`${part} li:has-text("bow")`);
+  assert.deepEqual(room.areas.bow.outline, [[0, 0], [10, 0], [0, 10]]);
+  await typed.context().close();
+}
+
+/// Pens: taken, asked for, given and laid down by those who work in an area, and given by who leads.
+async function pens(server) {
+  const { room } = server;
+  room.define_area({ area: "north", nodes: { tag: "living" } });
+  room.phase("Drafting", ["change", "draft"]);
+  const one = await joined(server),
+    seat = Math.max(...[...room.links].map((link) => link.seat)),
+    other = await joined(server, { size: [1366, 768] }),
+    lead = await joined(server, { size: [1366, 768], fragment: "#k=LEAD" });
+  const names = [seat, seat + 1].map((n) => room.seats[n].name);
+  Object.assign(room.seats[seat], { role: "designer", areas: ["north"] });
+  Object.assign(room.seats[seat + 1], { role: "stakeholder", card: "parents", areas: ["north"] });
+  room.publish();
+  await tab(one, "Plan");
+  await tab(other, "Goals");
+  for (const page of [one, other]) await page.waitForSelector('#pens li:has-text("north"):has-text("Nobody has the pen")');
+  await one.click('#pens button:has-text("Take the pen")');
+  await one.waitForSelector('#pens p:has-text("You have the pen.")');
+  // What is refused because of a pen leads to the pens.
+  await other.fill("#control-library-smart_volume-demand-number", "6600");
+  await other.keyboard.press("Enter");
+  await other.waitForSelector('.refusals:has-text("is working on the area north")');
+  await look(other, "pen_refused_1366x768_light");
+  await other.click('.refusals button:has-text("To the pens")');
+  assert.equal(await other.evaluate(() => document.activeElement.id), "pens");
+  assert.equal(await other.locator(".refusals").count(), 0);
+  await other.click('#pens button:has-text("Ask for the pen")');
+  await other.waitForSelector('#pens p:has-text("You have asked for it.")');
+  await look(other, "pen_asks_1366x768_light");
+  await one.waitForSelector(`#pens p:has-text("${names[1]} asks for it.")`);
+  await one.locator("#pens").scrollIntoViewIfNeeded();
+  await look(one, "pen_holds_390x844_light");
+  await lead.click('.waiting button:has-text("1 pen asked for")');
+  await lead.waitForSelector(`#lead-areas li:has-text("${names[0]} has the pen."):has-text("${names[1]} asks for it.")`);
+  await look(lead, "pen_lead_1366x768_light");
+  await other.click('#pens button:has-text("Ask no longer")');
+  await one.waitForSelector(`#pens p:has-text("${names[1]} asks")`, { state: "detached" });
+  await other.click('#pens button:has-text("Ask for the pen")');
+  await one.click('#pens button:has-text("Keep it")');
+  await one.click(`#pens button:has-text("Give it to ${names[1]}")`);
+  await other.waitForSelector('#pens p:has-text("You have the pen.")');
+  await one.waitForSelector(`#pens p:has-text("${names[1]} has the pen.")`);
+  await lead.selectOption('#lead-areas label:has-text("Give the pen of north to") select', String(seat));
+  await one.waitForSelector('#pens p:has-text("You have the pen.")');
+  await lead.click('#lead-areas button:has-text("Take the pen away")');
+  await other.click('#pens button:has-text("Take the pen")');
+  await other.click('#pens button:has-text("Lay it down")');
+  await one.waitForSelector('#pens p:has-text("Nobody has the pen.")');
+  for (const page of [one, other, lead]) await page.context().close();
+}
+
+/// Who took part gets the minutes where the end of the session says so.
+async function minutes_home(server) {
+  const { room } = server;
+  room.open_votes();
+  const guest = await joined(server);
+  Object.assign(room.room, { closed: true, shares_minutes: false });
+  room.publish();
+  await guest.waitForSelector('.notice:has-text("The session is over")');
+  assert.equal(await guest.locator('button:has-text("Take the minutes home")').count(), 0);
+  room.room.shares_minutes = true;
+  room.publish();
+  await guest.waitForSelector('button:has-text("Take the minutes home")');
+  await look(guest, "minutes_home_390x844_light");
+  const [opened] = await Promise.all([guest.context().waitForEvent("page"), guest.click('button:has-text("Take the minutes home")')]);
+  await opened.waitForSelector("h1");
+  assert.deepEqual(room.asked_minutes, [{ address: "/minutes", method: "POST", file: "minutes.html" }]);
+  await guest.context().close();
+}
+
+/// Scripts of their own that do not come: there is a sentence, and they can be asked for again. Their words are those of the person.
+async function parts_that_come(server) {
+  const { room } = server;
+  const known = faults.length;
+  const lead = await person(server, { fragment: "#k=LEAD", language: "de-DE" });
+  await lead.route("**/lead-*.js", (route) => route.abort());
+  await lead.waitForSelector(".self");
+  await lead.click(".join .main");
+  await lead.waitForSelector('.notice:has-text("konnte nicht geladen werden")');
+  await look(lead, "part_lost_390x844_light");
+  await lead.unroute("**/lead-*.js");
+  await lead.click('.notice button:has-text("Noch einmal versuchen")');
+  await lead.waitForSelector('h2:has-text("Bereiche")');
+  assert.equal(await lead.locator('.notice:has-text("geladen")').count(), 0);
+  // Another language is spoken by both scripts.
+  await lead.click(".me");
+  await lead.selectOption(".sheet select", "nl");
+  await lead.waitForSelector('h2:has-text("Gebieden")');
+  await lead.keyboard.press("Escape");
+  await look(lead, "lead_nl_390x844_light");
+  await lead.context().close();
+  // Nobody else loads that page.
+  const designer = await joined(server),
+    seat = Math.max(...[...room.links].map((link) => link.seat));
+  room.seats[seat].role = "designer";
+  room.publish();
+  await tab(designer, "Plan");
+  await designer.route("**/files-*.js", (route) => route.abort());
+  await designer.click('summary:has-text("Choose a format")');
+  await designer.waitForSelector('.notice:has-text("could not be loaded")');
+  await designer.locator('.notice button:has-text("Try again")').scrollIntoViewIfNeeded();
+  await look(designer, "files_lost_390x844_light");
+  await designer.unroute("**/files-*.js");
+  await designer.click('.notice button:has-text("Try again")');
+  await designer.waitForSelector('button:has-text("Save the file")');
+  await look(designer, "files_designer_390x844_light");
+  const loaded = await designer.evaluate(() => performance.getEntriesByType("resource").map((one) => one.name));
+  assert.equal(loaded.filter((name) => name.includes("/lead-")).length, 0);
+  await designer.context().close();
+  // The console says what did not come.
+  const other = faults.splice(known).filter((one) => !/Failed to load resource/.test(one));
+  faults.push(...other);
+}
+
 /// However much others have said: the field for one's own words, and the button that sends them, are in sight on a phone.
 async function own_words(server) {
   const { room } = server;
@@ -870,6 +1057,10 @@ const parts = {
   people_and_cards,
   door,
   areas,
+  outlines,
+  pens,
+  minutes_home,
+  parts_that_come,
   own_words,
   unopened_vote,
   happened,

@@ -1,5 +1,5 @@
 // Files that the server makes for one person: the minutes, and the plan in the formats of other programs.
-import type { Key } from "../words";
+import type { Key } from "./words";
 
 /// One way in which a format can be wanted otherwise.
 export interface FormatOption {

@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { Format, FormatOption, export_form, formats_of_server, option_name, option_text, saved_as } from "./asking";
 import { Props, SaidOfFile, ask, useFile } from "./saving";
+import { t } from "./words";
 
 function OptionField({ option, value, onChange }: { option: FormatOption; value: string; onChange(value: string): void }): JSX.Element {
   const name = option_name(option.id) + (option.unit ? ` (${option.unit})` : "");
@@ -37,12 +38,12 @@ function OptionField({ option, value, onChange }: { option: FormatOption; value:
   );
 }
 
-export function PlanFiles({ room, token, t }: Props): JSX.Element {
+export function PlanFiles({ room, token }: Props): JSX.Element {
   const [formats, know] = useState<Format[] | null>(null),
     [isAsked, ask_again] = useState(0),
     [chosen, choose] = useState("pdf"),
     [wanted, want] = useState<Record<string, Record<string, string>>>({}),
-    { said, get } = useFile("export", t);
+    { said, get } = useFile("export");
   useEffect(() => {
     let isHere = true;
     void formats_of_server(ask).then((all) => isHere && know(all ?? []));
@@ -58,7 +59,7 @@ export function PlanFiles({ room, token, t }: Props): JSX.Element {
         <p class="notice" role="status">
           {t("files_offline")}{" "}
           <button class="quiet" onClick={() => ask_again(isAsked + 1)}>
-            {t("export_again")}
+            {t("try_again")}
           </button>
         </p>
       ) : null}

@@ -2,7 +2,7 @@
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { file_from_server } from "./asking";
-import type { t as Words } from "../words";
+import { t } from "./words";
 
 export const ask: typeof fetch = (...what) => window.fetch(...what);
 
@@ -15,11 +15,10 @@ function save(blob: Blob, name: string): void {
   window.setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/// What the page tells these parts of itself: they have no words of their own.
+/// Of the person who asks.
 export interface Props {
   room: string;
   token: string;
-  t: typeof Words;
 }
 
 interface Said {
@@ -29,7 +28,7 @@ interface Said {
 }
 
 /// Asks for one file at a time, saves it, and says how that went.
-export function useFile(what: "minutes" | "export", t: typeof Words): { said: Said | null; get(form: Record<string, string>, name: string): Promise<void> } {
+export function useFile(what: "minutes" | "export"): { said: Said | null; get(form: Record<string, string>, name: string): Promise<void> } {
   const [said, say] = useState<Said | null>(null);
   const get = async (form: Record<string, string>, name: string): Promise<void> => {
     if (said?.state === "making") return;

@@ -1,9 +1,12 @@
-// Shows one of these parts in an element of the page.
+// Shows the plan as files in an element of the page.
 import { render } from "preact";
-import { MinutesFiles } from "./minutes_files";
+import type { Told } from "../told";
 import { PlanFiles } from "./plan_files";
-import type { Props } from "./saving";
+import { tell } from "./words";
 
-export function show(what: "minutes" | "plan", box: HTMLElement, props: Props): void {
-  render(what === "plan" ? <PlanFiles {...props} /> : <MinutesFiles {...props} />, box);
+/// Called again, it shows the same in other words. What it returns ends it.
+export function show(box: HTMLElement, { s, language, words, own }: Told): () => void {
+  tell(language, words, own);
+  render(<PlanFiles room={s.views.room.code ?? ""} token={s.connection.token ?? ""} />, box);
+  return () => render(null, box);
 }

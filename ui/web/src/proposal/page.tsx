@@ -1,4 +1,5 @@
 // The page of a proposal: everything that it shows stands in it as JSON, so that it needs no network.
+import "../english";
 import { JSX, render } from "preact";
 import { useState } from "preact/hooks";
 import type { Proposal } from "./data";

@@ -10,7 +10,7 @@ import type { Vote } from "../wire";
 import { t } from "../words";
 import { option_label } from "./ballot_forms";
 import { CommentsLayout, CompareLayout } from "./beamer_layouts";
-import { Codes, join_address } from "./invitations";
+import { Codes, join_address } from "./codes";
 import { ResultOf, Turnout } from "./votes";
 
 const kOld = 5000;

@@ -6,6 +6,7 @@ import type { Session } from "../session";
 import type { Ui } from "../ui";
 import type { Control, Goal, Seen } from "../wire";
 import { t } from "../words";
+import { Pens } from "./pens";
 
 // Ports of nodes are written `typification.port`; a link has a strength and parameters.
 const is_parameter = (control: Pick<Control, "port">): boolean => !control.port.includes(".") && control.port !== "strength";
@@ -167,6 +168,7 @@ export function Card({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
           </div>
         </section>
       ) : null}
+      <Pens s={s} ui={ui} on="card" />
       {card.budget && (card.budget.budget > 0 || card.budget.spent > 0) ? <Budget budget={card.budget} /> : null}
     </>
   );

@@ -8,7 +8,9 @@ import type { Session } from "../session";
 import type { Ui } from "../ui";
 import { Key, t } from "../words";
 import { goal_sentence } from "./card";
-import { ExportPart } from "./files";
+import { ExportPart } from "./export";
+import { Part } from "./part";
+import { Pens } from "./pens";
 
 // Figures that every volume has come by the names of their ports.
 const kFigures: Record<string, Key> = {
@@ -152,7 +154,8 @@ export function PlanScreen({ s, ui, isWide }: { s: Session; ui: Ui; isWide: bool
       {isList && !isWide ? null : <PlanHere s={s} ui={ui} binding={{ pins: [], onTap: (_, node) => ui.set({ selected: node }) }} />}
       {isList || isWide ? <PlanList s={s} ui={ui} /> : ui.selected ? <WhatIsThis s={s} ui={ui} /> : <p class="small">{t("plan_hint")}</p>}
       <Figures s={s} />
-      {s.you?.role === "designer" ? <ExportPart s={s} /> : null}
+      <Pens s={s} ui={ui} on="plan" />
+      {s.you?.role === "designer" ? <ExportPart formats={() => <Part s={s} ui={ui} name="files" />} /> : null}
     </>
   );
 }

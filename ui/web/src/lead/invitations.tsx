@@ -3,21 +3,17 @@ import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { MarkState, Segments, Sure } from "../parts";
 import { is_local } from "../places";
-import { CodePicture, WifiPicture } from "../qr_picture";
+import { WifiPicture } from "../qr_picture";
+import { join_address } from "../screens/codes";
 import type { Session } from "../session";
 import { is_password, wifi_to_address } from "../wifi";
 import { useWifi } from "../wifi_kept";
 import type { Ui } from "../ui";
 import type { Door, Role } from "../wire";
-import { Key, t } from "../words";
+import { Key, t } from "./words";
 
 /// In the order in which they are offered.
 export const kRoles: Role[] = ["facilitator", "designer", "stakeholder", "participant", "viewer", "recorder"];
-
-/// The address that people open to join.
-export function join_address(s: Session): string {
-  return `${window.location.protocol}//${window.location.host}/${s.views.room.code ?? ""}`;
-}
 
 // A page without TLS may not use the clipboard itself, so the text is selected and copied as by hand.
 export function AddressRow({ name, address }: { name: string; address: string }): JSX.Element {
@@ -150,47 +146,5 @@ export function JoinPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       />
       <p class="small">{t(`door_${room.door ?? "open"}_text` as Key)}</p>
     </section>
-  );
-}
-
-/// The two codes that a phone needs, beside each other: the Wi-Fi, where it is known, and the room.
-export function Codes({ s }: { s: Session }): JSX.Element {
-  const code = s.views.room.code ?? "",
-    [wifi] = useWifi(code);
-  return (
-    <div class="codes">
-      {wifi ? (
-        <figure>
-          <WifiPicture wifi={wifi} />
-          <figcaption>
-            <span>{t("wifi_join")}</span>
-            <b>{wifi.name}</b>
-            {wifi.password === "" ? null : <span class="password">{wifi.password}</span>}
-          </figcaption>
-        </figure>
-      ) : null}
-      <figure>
-        <CodePicture code={code} address={join_address(s)} />
-        <figcaption>
-          <span>{t(wifi ? "wifi_then" : "beamer_join")}</span>
-          <b class="address">
-            {window.location.host}
-            <wbr />/{code}
-          </b>
-        </figcaption>
-      </figure>
-    </div>
-  );
-}
-
-export function LargeCode({ s, onClose }: { s: Session; onClose(): void }): JSX.Element {
-  return (
-    <main class="largecode">
-      <h1 class="bigcode">{s.views.room.code}</h1>
-      <Codes s={s} />
-      <button class="quiet" onClick={onClose}>
-        {t("close")}
-      </button>
-    </main>
   );
 }

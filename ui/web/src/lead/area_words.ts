@@ -1,5 +1,5 @@
 // Areas of a room in words, and the names that they can have.
-import type { LeadView, Selection } from "./wire";
+import type { LeadView, Selection } from "../wire";
 import { t } from "./words";
 
 const kLongest = 64;

@@ -1,9 +1,10 @@
 // The people of a room, for the facilitator: who waits at the door, roles, cards, areas, mute, remove.
 import type { JSX } from "preact";
 import { Avatar, MarkState, Sure } from "../parts";
+import { at_door } from "../screens/waiting";
 import type { Session } from "../session";
 import type { Seat } from "../wire";
-import { Key, t } from "../words";
+import { Key, t } from "./words";
 import { kRoles } from "./invitations";
 
 // Somebody is away without a connection. With one, the page may still lie in a pocket.
@@ -15,10 +16,6 @@ function presence_words(s: Session, number: string, seat: Seat): string {
   const [node] = presence.holds ?? [];
   return node ? t("lead_looks_at", { what: s.nameOf(node) }) : t("lead_active");
 }
-
-/// Those who stand at the door now.
-export const at_door = (s: Session): [string, Seat][] =>
-  Object.entries(s.views.room.seats ?? {}).filter(([, seat]) => seat.waits === true && seat.here);
 
 // A card makes a participant a stakeholder, and an area a designer: others may not use it.
 function role_with(seat: Seat, change: { card?: string; areas?: string[] }): string {

@@ -3,7 +3,7 @@ import type { JSX } from "preact";
 import { useState } from "preact/hooks";
 import { MarkState, Sure } from "../parts";
 import type { Session } from "../session";
-import { t } from "../words";
+import { t } from "./words";
 
 export function ScenariosPart({ s }: { s: Session }): JSX.Element {
   const [name, set] = useState("");

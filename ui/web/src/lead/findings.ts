@@ -1,6 +1,6 @@
 // How the room and its computer are, as sentences for the facilitator: what needs somebody comes first.
-import { amount, duration, number, share } from "./format";
-import type { Health, Verdict } from "./wire";
+import { amount, duration, number, share } from "../format";
+import type { Health, Verdict } from "../wire";
 import { Key, t } from "./words";
 
 export interface Finding {

@@ -1,8 +1,8 @@
 // How the room and its computer are, for the facilitator: what needs somebody stands open, the rest is folded.
 import type { JSX } from "preact";
-import { findings_of } from "../health";
+import { findings_of } from "./findings";
 import type { Session } from "../session";
-import { Key, t } from "../words";
+import { Key, t } from "./words";
 
 export function HealthPart({ s }: { s: Session }): JSX.Element {
   const { health } = s;

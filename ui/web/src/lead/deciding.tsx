@@ -5,9 +5,9 @@ import { Icon, MarkState } from "../parts";
 import type { Session } from "../session";
 import { steps_words } from "../steps";
 import type { Comment, Json, Proposal } from "../wire";
-import { t } from "../words";
-import { ProposalEntry } from "./proposals";
-import { TrialFigures } from "./trials";
+import { t } from "./words";
+import { ProposalEntry } from "../screens/proposals";
+import { TrialFigures } from "../screens/trials";
 
 export function Decide({ s, id, proposal, isOpen }: { s: Session; id: string; proposal: Proposal; isOpen: boolean }): JSX.Element {
   const [answer, set] = useState(""),

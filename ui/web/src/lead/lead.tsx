@@ -2,22 +2,25 @@
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { typed_number } from "../format";
-import { Icon, MarkState, Segments, Sure, Timer, Title } from "../parts";
+import { Icon, MarkState, Segments, Sure, Timer } from "../parts";
 import type { Session } from "../session";
 import { useClock, useLook, useMedia } from "../ui";
 import type { Ui } from "../ui";
-import type { Activity, Layout, Proposal, Vote } from "../wire";
-import { Key, t } from "../words";
-import { findings_of } from "../health";
+import type { Activity, Layout, Vote } from "../wire";
+import { Key, t } from "./words";
+import { findings_of } from "./findings";
+import { join_address } from "../screens/codes";
+import { ExportPart } from "../screens/export";
+import { at_door, pens_asked, proposals_waiting } from "../screens/waiting";
 import { AreasPart } from "./areas";
 import { Answer, Decide } from "./deciding";
 import { HealthPart } from "./health";
-import { JoinPart, KeysPart, join_address } from "./invitations";
-import { ExportPart } from "./files";
+import { JoinPart, KeysPart } from "./invitations";
 import { MinutesPart } from "./minutes";
-import { People, at_door } from "./people";
+import { PlanFiles } from "../files/plan_files";
+import { People } from "./people";
 import { ScenariosPart } from "./scenarios";
-import { ResultOf, Turnout } from "./votes";
+import { ResultOf, Turnout } from "../screens/votes";
 
 const kActivities: Activity[] = ["change", "draft", "comment", "vote"];
 const kRewind = 30000;
@@ -237,6 +240,7 @@ function DecisionPart({ s }: { s: Session }): JSX.Element {
 }
 
 function EndPart({ s }: { s: Session }): JSX.Element {
+  const [isShared, share] = useState(false);
   // Ballots of an open vote would be counted by nobody, so the server refuses it.
   const open = Object.values(s.views.votes).filter((vote) => vote.open).length;
   if (open > 0)
@@ -250,7 +254,16 @@ function EndPart({ s }: { s: Session }): JSX.Element {
     <section class="panel">
       <h2>{t("lead_end")}</h2>
       <p class="small">{t("lead_end_text")}</p>
-      <Sure class="quiet" text={t("lead_end_sure")} yes={t("lead_end")} onYes={() => s.event("close_room", {}, { mark: "lead/end" })}>
+      <label class="tick">
+        <input type="checkbox" checked={isShared} onChange={() => share(!isShared)} />
+        <span>{t("lead_end_share")}</span>
+      </label>
+      <Sure
+        class="quiet"
+        text={t("lead_end_sure")}
+        yes={t("lead_end")}
+        onYes={() => s.event("close_room", { shares_minutes: isShared }, { mark: "lead/end" })}
+      >
         {t("lead_end")}
       </Sure>
     </section>
@@ -258,19 +271,24 @@ function EndPart({ s }: { s: Session }): JSX.Element {
 }
 
 /// What waits for the facilitator, wherever the page is scrolled to.
-function Waiting({ door, proposals, comments, warnings }: Record<"door" | "proposals" | "comments" | "warnings", number>): JSX.Element | null {
+function Waiting({ door, pens, proposals, comments, warnings }: Record<"door" | "pens" | "proposals" | "comments" | "warnings", number>): JSX.Element | null {
   const go = (id: string): void => {
     const part = document.getElementById(id);
     part?.scrollIntoView({ block: "start" });
     part?.focus({ preventScroll: true });
   };
-  if (door + proposals + comments + warnings === 0) return null;
+  if (door + pens + proposals + comments + warnings === 0) return null;
   return (
     <div class="row waiting">
       <span>{t("lead_waiting")}</span>
       {door > 0 ? (
         <button class="quiet" onClick={() => go("lead-people")}>
           {t("lead_waiting_door", { n: door })}
+        </button>
+      ) : null}
+      {pens > 0 ? (
+        <button class="quiet" onClick={() => go("lead-areas")}>
+          {t("lead_waiting_pens", { n: pens })}
         </button>
       ) : null}
       {proposals > 0 ? (
@@ -292,9 +310,6 @@ function Waiting({ door, proposals, comments, warnings }: Record<"door" | "propo
   );
 }
 
-export const proposals_waiting = (s: Session): [string, Proposal][] =>
-  Object.entries(s.views.proposals).filter(([, proposal]) => proposal.state === "proposed");
-
 export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const votes = Object.entries(s.views.votes),
     proposals = proposals_waiting(s),
@@ -313,12 +328,12 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
     s,
     proposals.map(([id]) => id),
   );
+  const files = <ExportPart key="files" formats={() => <PlanFiles room={s.views.room.code ?? ""} token={s.connection.token ?? ""} />} />;
   if (s.views.room.closed)
     return (
       <>
-        <Title>{t("tab_lead")}</Title>
         <MinutesPart s={s} />
-        <ExportPart s={s} />
+        {files}
       </>
     );
   const join = <JoinPart key="join" s={s} ui={ui} />;
@@ -373,7 +388,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
       <AreasPart s={s} ui={ui} />
       <KeysPart s={s} />
       <HealthPart s={s} />
-      <ExportPart s={s} />
+      {files}
       <EndPart s={s} />
     </>
   );
@@ -381,8 +396,7 @@ export function Lead({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const isBegun = s.views.room.phase !== null && s.views.room.phase !== undefined;
   return (
     <>
-      <Title>{t("tab_lead")}</Title>
-      <Waiting door={at_door(s).length} proposals={proposals.length} comments={comments.length} warnings={warnings} />
+      <Waiting door={at_door(s).length} pens={pens_asked(s).length} proposals={proposals.length} comments={comments.length} warnings={warnings} />
       {isTwo ? (
         <div class="boards">
           <div>{now}</div>

@@ -1,12 +1,12 @@
 // The minutes as files, one button for each.
 import type { JSX } from "preact";
 import { kMinutes, minutes_form, zone_here } from "../minutes";
-import type { Key } from "../words";
-import { saved_as } from "./asking";
-import { Props, SaidOfFile, useFile } from "./saving";
+import { Key, t } from "./words";
+import { saved_as } from "../files/asking";
+import { Props, SaidOfFile, useFile } from "../files/saving";
 
-export function MinutesFiles({ room, token, t }: Props): JSX.Element {
-  const { said, get } = useFile("minutes", t);
+export function MinutesFiles({ room, token }: Props): JSX.Element {
+  const { said, get } = useFile("minutes");
   return (
     <>
       <div class="row">

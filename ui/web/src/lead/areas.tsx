@@ -1,19 +1,62 @@
 // The areas of a room, for the facilitator: what lies in each, who has it, and how a new one is made.
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
-import { area_name, area_words } from "../areas";
+import { area_name, area_words } from "./area_words";
 import { MarkState, Segments, Sure } from "../parts";
+import { writers_of } from "../pens";
 import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
 import type { Json } from "../wire";
-import { t } from "../words";
+import { Drawn, crosses_itself, kLeastCorners } from "./corners";
+import { OutlineField } from "./outline";
+import { t } from "./words";
 
-type By = "tag" | "role" | "things";
+type By = "tag" | "role" | "things" | "outline";
+const kNothing: Drawn = { corners: [], isClosed: false };
+
+// Who changes the area, and who would like to.
+function PenOf({ s, area }: { s: Session; area: string }): JSX.Element {
+  const { pen, asking } = s.views.room.areas?.[area] ?? { pen: 0, asking: [] },
+    others = writers_of(s, area).filter((seat) => seat !== pen && !asking.includes(seat));
+  const give = (seat: number): void => s.event("give_pen", { area, seat }, { mark: `lead/area/${area}` });
+  return (
+    <>
+      <p class="small">
+        {pen === 0 ? t("pen_nobody") : t("pen_of", { name: s.seatName(pen) })}
+        {asking.map((seat) => ` ${t("pen_asked", { name: s.seatName(seat) })}`)}
+      </p>
+      <div class="row">
+        {asking.map((seat) => (
+          <button key={seat} class="quiet" onClick={() => give(seat)}>
+            {t("pen_give", { name: s.seatName(seat) })}
+          </button>
+        ))}
+        {pen === 0 ? null : (
+          <button class="quiet" onClick={() => give(0)}>
+            {t("area_pen_take")}
+          </button>
+        )}
+      </div>
+      {others.length > 0 ? (
+        <label class="field">
+          <span>{t("area_pen_to", { area })}</span>
+          <select value="" onChange={(event) => event.currentTarget.value !== "" && give(Number(event.currentTarget.value))}>
+            <option value="">{t("area_choose")}</option>
+            {others.map((seat) => (
+              <option key={seat} value={seat}>
+                {s.seatName(seat)}
+              </option>
+            ))}
+          </select>
+        </label>
+      ) : null}
+    </>
+  );
+}
 
 function AreaRow({ s, area }: { s: Session; area: string }): JSX.Element {
-  const { areas, roles } = s.views.lead,
-    held = s.views.room.areas?.[area];
+  const { areas, roles } = s.views.lead;
   const who = Object.values(s.views.room.seats ?? {})
     .filter((seat) => seat.areas?.includes(area))
     .map((seat) => seat.name);
@@ -25,10 +68,8 @@ function AreaRow({ s, area }: { s: Session; area: string }): JSX.Element {
         <MarkState s={s} mark={`lead/area/${area}`} />
       </div>
       {content ? <p>{area_words(content, roles, (node) => s.nameOf(node))}</p> : null}
-      <p class="small">
-        {who.length > 0 ? t("area_who", { names: who.join(", ") }) : t("area_nobody")}
-        {held && held.pen !== 0 ? ` ${t("area_pen", { name: s.seatName(held.pen) })}` : ""}
-      </p>
+      <p class="small">{who.length > 0 ? t("area_who", { names: who.join(", ") }) : t("area_nobody")}</p>
+      <PenOf s={s} area={area} />
       <Sure
         text={t("area_drop_sure", { area })}
         yes={t("area_drop")}
@@ -92,17 +133,25 @@ function NewArea({ s, ui, taken }: { s: Session; ui: Ui; taken: string[] }): JSX
     [by, go] = useState<By>(Object.keys(tags).length > 0 ? "tag" : "things"),
     [tag, setTag] = useState(""),
     [role, setRole] = useState(""),
-    [things, setThings] = useState<string[]>([]);
+    [things, setThings] = useState<string[]>([]),
+    [drawn, draw] = useState(kNothing);
   // Who chooses a tag need not think of a name.
   const area = area_name(typed.trim() === "" && by === "tag" ? tag : typed, taken);
-  const nodes: Json | null =
-    by === "tag" ? (tag === "" ? null : { tag }) : by === "role" ? (role === "" ? null : { typification: role }) : things.length > 0 ? things : null;
+  const isDrawn = drawn.corners.length >= kLeastCorners && !crosses_itself(drawn.corners);
+  const contents: Record<By, Record<string, Json> | null> = {
+    tag: tag === "" ? null : { nodes: { tag } },
+    role: role === "" ? null : { nodes: { typification: role } },
+    things: things.length === 0 ? null : { nodes: things },
+    outline: isDrawn ? { outline: drawn.corners.map(([x, y]) => [x, y, 0]) } : null,
+  };
+  const content = contents[by];
   const make = (): void => {
-    s.event("define_area", { area, nodes }, { mark: "lead/area" });
+    s.event("define_area", { area, ...content }, { mark: "lead/area" });
     type("");
     setTag("");
     setRole("");
     setThings([]);
+    draw(kNothing);
   };
   const choose = (node: string): void => setThings(things.includes(node) ? things.filter((one) => one !== node) : [...things, node]);
   return (
@@ -115,6 +164,7 @@ function NewArea({ s, ui, taken }: { s: Session; ui: Ui; taken: string[] }): JSX
           { id: "tag", text: t("area_by_tag") },
           { id: "role", text: t("area_by_role") },
           { id: "things", text: t("area_by_things") },
+          { id: "outline", text: t("area_by_outline") },
         ]}
       />
       {by === "tag" ? (
@@ -131,6 +181,8 @@ function NewArea({ s, ui, taken }: { s: Session; ui: Ui; taken: string[] }): JSX
           value={role}
           set={setRole}
         />
+      ) : by === "outline" ? (
+        <OutlineField s={s} ui={ui} drawn={drawn} set={draw} />
       ) : (
         <Things s={s} ui={ui} chosen={things} choose={choose} />
       )}
@@ -140,7 +192,7 @@ function NewArea({ s, ui, taken }: { s: Session; ui: Ui; taken: string[] }): JSX
       </label>
       {area !== "" && area !== typed.trim() ? <p class="small">{t("area_id", { area })}</p> : null}
       <div class="row">
-        <button class="quiet" disabled={area === "" || nodes === null} onClick={make}>
+        <button class="quiet" disabled={area === "" || content === null} onClick={make}>
           {t(taken.includes(area) ? "area_change" : "area_make")}
         </button>
         <MarkState s={s} mark="lead/area" />
@@ -153,7 +205,7 @@ export function AreasPart({ s, ui }: { s: Session; ui: Ui }): JSX.Element {
   const all = Object.keys(s.views.room.areas ?? {}),
     [isMaking, make] = useState(false);
   return (
-    <section class="panel" id="lead-areas">
+    <section class="panel" id="lead-areas" tabIndex={-1}>
       <h2>{t("areas")}</h2>
       <p class="small">{t("areas_text")}</p>
       {all.length > 0 ? (
