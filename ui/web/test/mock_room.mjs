@@ -57,6 +57,14 @@ export class MockRoom {
     return out;
   }
 
+  // The library stood elsewhere before the last decision. Of the others this server has no plan, as one that was started since.
+  past_plans() {
+    const last = Object.keys(this.decisions).at(-1),
+      out = {};
+    for (const [key, content] of Object.entries(this.plan)) out[`${last}/${key}`] = content;
+    return { ...out, [`${last}/n/library`]: { ...this.plan["n/library"], d: disc(40, 40, 9, 12) } };
+  }
+
   // --- Views ----------------------------------------------------------------------------------------------------
 
   view(name, seat) {
@@ -67,6 +75,7 @@ export class MockRoom {
     if (name === "lead") return this.seats[seat]?.role === "facilitator" ? this.lead_view() : {};
     if (name === "plan") return this.plan;
     if (name === "decisions") return this.decisions;
+    if (name === "past") return this.past_plans();
     if (name === "shapes") return shapes_of(this.plan);
     if (name === "draft_plans") return this.draft_plans(seat);
     if (name === "figures") return this.figures;

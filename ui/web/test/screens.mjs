@@ -380,6 +380,14 @@ async function happened(server) {
   assert.match(said[3], /Proposal accepted · .*A bench at the mill.*It costs little\./);
   await page.evaluate(() => document.querySelector(".happened").scrollIntoView());
   await look(page, "happened_390x844_light");
+  const before = page.locator(".happened li >> nth=0 >> details");
+  await before.locator("summary").click();
+  await before.locator(".layers").waitFor();
+  assert.equal(await before.locator(".layer >> nth=1 >> .shape.other").count(), 1, "the library stood elsewhere");
+  await page.evaluate(() => document.querySelector(".happened .swipe").scrollIntoView());
+  await look(page, "happened_before_390x844");
+  await page.click(".happened li >> nth=1 >> summary");
+  await page.waitForSelector('.happened li:has-text("does not have the plan")');
   room.decisions = { ...room.decisions, 41: { kind: "vote", seat: 1, at: Date.now(), vote: "height" } };
   delete room.decisions[12];
   room.open_votes("height");
