@@ -101,6 +101,15 @@ fill_corpus() {
         printf '%s\n' "$frame" >"$corpus/frame$number"
       done <"$corpus/session"
       ;;
+    message)
+      number=0
+      for frame in '{"t":"hello","room":"BCDF","run":"r","kind":"page","views":["plan"],"unacked":0,"have":3,"token":"aa"}' '{"t":"op","id":1,"c":{"command":"rename_node","arguments":{"id":"a","name":"A"}},"conditions":[{"key":"nodes/a/name","was":"B"}],"draft":"d","gesture":2}' \
+        '{"t":"room","id":1,"e":{"event":"mark","arguments":{"text":"x"}}}' '{"t":"undo","id":1,"gesture":2,"of":3}' '{"t":"redo","id":1,"gesture":2}' '{"t":"rewind","id":1,"to":2}' '{"t":"draft","id":1,"do":"begin","draft":"d","title":"T"}' \
+        '{"t":"want","views":["plan","votes"],"drafts":["d"]}' '{"t":"seen","s":3,"lag":5}' '{"t":"ping","n":1}' '{"t":"presence","n":1,"cursor":[1,2,3],"holds":["a"],"hidden":true}' '{"t":"resync","k":4,"have":2,"expected":"0f","found":"1f","why":"hash"}'; do
+        number=$((number + 1))
+        printf '%s' "$frame" >"$corpus/message$number"
+      done
+      ;;
     osm)
       printf '<osm version="0.6"><node id="1" lat="60" lon="25"/><node id="2" lat="60" lon="25.001"/><node id="3" lat="60.001" lon="25.001"/><way id="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/><tag k="height" v="12,5 m"/></way><way id="2"><nd ref="1"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="oneway" v="-1"/></way><relation id="3"><member type="way" ref="1" role="outer"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation></osm>' >"$corpus/xml"
       ;;

@@ -29,7 +29,7 @@ const browser = await chromium.launch({
 });
 
 /// A browser of its own for one person. Every request elsewhere, error and breach of the policy is a fault.
-async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB", others = [] } = {}) {
+async function person(server, { size = [390, 844], scheme = "light", fragment = "", motion = "no-preference", language = "en-GB", others = [], lacks = "" } = {}) {
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
     colorScheme: scheme,
@@ -47,6 +47,8 @@ async function person(server, { size = [390, 844], scheme = "light", fragment = 
   page.on("console", (message) => {
     if (message.type() === "error" && !/WebSocket connection|status of 409/.test(message.text())) faults.push(`the console: ${message.text()}`);
   });
+  // A script that does not come.
+  if (lacks) await page.route(lacks, (route) => route.abort());
   await page.goto(`${home}/BCDF${fragment}`);
   return page;
 }
@@ -777,8 +779,7 @@ async function minutes_home(server) {
 async function parts_that_come(server) {
   const { room } = server;
   const known = faults.length;
-  const lead = await person(server, { fragment: "#k=LEAD", language: "de-DE" });
-  await lead.route("**/lead-*.js", (route) => route.abort());
+  const lead = await person(server, { fragment: "#k=LEAD", language: "de-DE", lacks: "**/lead-*.js" });
   await lead.waitForSelector(".self");
   await lead.click(".join .main");
   await lead.waitForSelector('.notice:has-text("konnte nicht geladen werden")');
