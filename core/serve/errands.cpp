@@ -13,40 +13,48 @@ Errands::~Errands() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Errands::begin(Read read, Work work, Done done) {
-  if (is_busy_) return done(Error{ErrorCode::conflict, "", "a file is being made already: try again in a moment"});
-  is_busy_ = true;
+void Errands::begin(const std::string& name, Read read, Work work, Done done) {
+  if (name.empty() && !line_.empty())
+    return done(Error{ErrorCode::conflict, "", "a file is being made already: try again in a moment"});
+  for (Errand& other : line_)
+    if (!name.empty() && other.name == name) return other.done.push_back(std::move(done));
+  line_.push_back({name, std::move(read), std::move(work), {std::move(done)}});
+  if (line_.size() == 1) start();
+}
+
+void Errands::start() {
   // That nothing can be read for somebody's file is no failure of the room.
   auto failure = std::make_shared<Result<void>>();
   writer_->perform(
-      [read = std::move(read), failure](journal::Journal& journal) -> Result<void> {
+      [read = line_.front().read, failure](journal::Journal& journal) -> Result<void> {
         *failure = read(journal);
         return {};
       },
-      [this, work = std::move(work), done = std::move(done), failure, post = on_own_thread_,
-       is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& stored) {
+      [this, failure, post = on_own_thread_, is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& stored) {
         if (!stored) *failure = stored;
-        post([this, work, done, failure, is_alive] {
+        post([this, failure, is_alive] {
           if (is_alive.expired()) return;
-          if (*failure) work_beside(work, done);
-          else end(done, failure->error());
+          if (*failure) work_beside();
+          else end(failure->error());
         });
       });
 }
 
-void Errands::work_beside(Work work, const Done& done) {
+void Errands::work_beside() {
   if (thread_.joinable()) thread_.join();  // of the file before, which is at its end
-  thread_ = std::thread([this, work = std::move(work), done, post = on_own_thread_, is_alive = std::weak_ptr<bool>(is_alive_)] {
+  thread_ = std::thread([this, work = line_.front().work, post = on_own_thread_, is_alive = std::weak_ptr<bool>(is_alive_)] {
     auto made = std::make_shared<const Result<Made>>(work());
-    post([this, done, made, is_alive] {
-      if (!is_alive.expired()) end(done, *made);
+    post([this, made, is_alive] {
+      if (!is_alive.expired()) end(*made);
     });
   });
 }
 
-void Errands::end(const Done& done, const Result<Made>& made) {
-  is_busy_ = false;
-  done(made);
+void Errands::end(const Result<Made>& made) {
+  const Errand errand = std::move(line_.front());
+  line_.pop_front();
+  if (!line_.empty()) start();
+  for (const Done& done : errand.done) done(made);
 }
 
 }  // namespace bl::serve

@@ -1,6 +1,7 @@
 // Files that people ask a room for, such as its minutes: made beside it, one at a time.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,16 +31,24 @@ class Errands {
 
   /// When everything that was said before is stored, `read` gets the session file on the thread of the disk; commits wait for it,
   /// as they do for a copy. `work` then runs on a thread of its own, beside them. `done` is told on the thread of the room; at
-  /// once where something is being made already (ErrorCode::conflict).
-  void begin(Read read, Work work, Done done);
+  /// once where something is being made already (ErrorCode::conflict). What has a `name` waits for its turn instead, and is made
+  /// once for all who ask for that name meanwhile.
+  void begin(const std::string& name, Read read, Work work, Done done);
 
  private:
-  void work_beside(Work work, const Done& done);
-  void end(const Done& done, const Result<Made>& made);
+  struct Errand {
+    std::string name;
+    Read read;
+    Work work;
+    std::vector<Done> done;
+  };
+  void start();
+  void work_beside();
+  void end(const Result<Made>& made);
 
   journal::Writer* writer_;
   OnOwnThread on_own_thread_;
-  bool is_busy_ = false;
+  std::deque<Errand> line_;  // the first one is being made
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);
   std::thread thread_;
 };

@@ -179,11 +179,12 @@ Response no_plan_file(const Error& error) {
 void Pages::minutes(const Request& request, const Reply& reply) const {
   auto fields = form_fields(request.body);
   const auto room = rooms_->find(code_in(fields["room"]));
-  if (room == rooms_->end() || !room->second->may_read_minutes(room->second->seat_of_token(fields["token"]), fields["file"]))
+  const std::int64_t seat = room == rooms_->end() ? 0 : room->second->seat_of_token(fields["token"]);
+  if (room == rooms_->end() || !room->second->may_read_minutes(seat, fields["file"]))
     return reply(sentence(403, "Only who leads a room gets its minutes, and their page whoever it was shared with."));
   const auto zone = fields["zone"].empty() ? 0 : read_zone(fields["zone"]);
   if (!zone) return reply(sentence(400, "The field `zone` is UTC, or hours and minutes such as +01:00."));
-  room->second->make_minutes(fields["file"], *zone, [reply](const Result<Errands::Made>& made) {
+  room->second->make_minutes(fields["file"], *zone, !room->second->leads(seat), [reply](const Result<Errands::Made>& made) {
     if (!made && made.error().code == ErrorCode::not_found) return reply(sentence(404, "These minutes have no such file."));
     if (!made) return reply(no_file("The minutes cannot be made", made.error()));
     Response response = file_for_one(*made);

@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/drawing/markup.h"
+#include "core/minutes/minutes.h"
 #include "core/reading/figures.h"
 
 namespace bl::serve {
@@ -83,6 +84,17 @@ std::string form_of(RoomHost& room, const std::string& what, const std::string& 
   return "<form method=\"post\" action=\"/plain/" + room.code() + (what.empty() ? "" : "/" + what) +
          "\"><input type=\"hidden\" name=\"token\" value=\"" + escape_xml(token) + "\">" + inside + "<button>" +
          escape_xml(button) + "</button></form>";
+}
+
+// Where the session was ended so that whoever took part may read them.
+std::string minutes_form(const RoomHost& room, std::int64_t seat, const std::string& token) {
+  const std::string file(minutes::kMinutesPage);
+  if (!room.may_read_minutes(seat, file)) return "";
+  const auto field = [](const std::string& name, const std::string& value) {
+    return "<input type=\"hidden\" name=\"" + name + "\" value=\"" + escape_xml(value) + "\">";
+  };
+  return "<form method=\"post\" action=\"/minutes\">" + field("room", room.code()) + field("token", token) + field("file", file) +
+         "<button>Open the minutes</button></form>";
 }
 
 std::string choice(const std::string& name, const std::string& value, const std::string& label, bool is_chosen) {
@@ -320,7 +332,7 @@ std::string plain_room(RoomHost& room, std::int64_t seat, const std::string& tok
   return head(room.title()) + notice_of(notice) + "<p>You are <strong>" + escape_xml(text_in(own, "name")) + "</strong>." +
          (phase.empty() ? "" : " Now: " + escape_xml(phase) + ".") + "</p>" + plan_of(room) +
          form_of(room, "", token, "", "Show it as it is now") + figures_of(room) + votes_of(room, seat, token, taken) +
-         comments_of(room, seat, token) + "</main></body></html>";
+         comments_of(room, seat, token) + minutes_form(room, seat, token) + "</main></body></html>";
 }
 
 std::variant<PlainWish, std::string> wish_of_vote(RoomHost& room, std::int64_t seat,

@@ -20,10 +20,13 @@ struct StoredSession {
   journal::Loaded all;
 };
 
-Result<Errands::Made> minutes_of(const StoredSession& stored, const std::string& name, int zone) {
+Result<Errands::Made> minutes_of(const StoredSession& stored, const std::string& name, int zone, bool is_shared) {
   auto account = minutes::account_of(stored.room, stored.all, full_registry());
   if (!account) return account.error();
   account->zone = zone;
+  // Who voted knew that the room stores it, and not that all others would read it at home.
+  if (is_shared)
+    for (minutes::Round& round : account->rounds) round.ballots.clear();
   auto files = minutes::files_of(*account);
   const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.first == name; });
   if (found == files.end()) return Error{ErrorCode::not_found, name, "is no file of these minutes"};
@@ -57,31 +60,34 @@ Result<Errands::Made> export_of(const State& state, const std::string& file, con
 
 }  // namespace
 
-void RoomHost::make_minutes(const std::string& file, int zone, Errands::Done done) {
+void RoomHost::make_minutes(const std::string& file, int zone, bool is_shared, Errands::Done done) {
   const auto stored = std::make_shared<StoredSession>();
+  // All who took part ask for it within seconds.
   errands_->begin(
+      is_shared ? file + " " + std::to_string(zone) : "",
       [stored](journal::Journal& journal) -> Result<void> {
         auto all = journal.load();
         if (!all) return all.error();
         *stored = StoredSession{journal.room(), std::move(*all)};
         return {};
       },
-      [stored, file, zone] { return minutes_of(*stored, file, zone); }, std::move(done));
+      [stored, file, zone, is_shared] { return minutes_of(*stored, file, zone, is_shared); }, std::move(done));
 }
 
 void RoomHost::make_export(const ExportWish& wish, Errands::Done done) {
   auto order = order_of(wish);
   if (!order) return done(order.error());
   flush();  // nobody gets what could still be lost
-  errands_->begin([](journal::Journal&) { return Result<void>(); },
-                  [state = session_->coming_state(), file = std::filesystem::path(journal_path_).filename().string(),
-                   order = std::move(*order), folder = wish.page_folder] { return export_of(*state, file, order, folder); },
-                  std::move(done));
+  errands_->begin(
+      "", [](journal::Journal&) { return Result<void>(); },
+      [state = session_->coming_state(), file = std::filesystem::path(journal_path_).filename().string(),
+       order = std::move(*order), folder = wish.page_folder] { return export_of(*state, file, order, folder); },
+      std::move(done));
 }
 
 bool RoomHost::may_read_minutes(std::int64_t seat, const std::string& file) const {
   const room::Seat* const one = room_->state().seat(seat);
-  const bool took_part = one != nullptr && !one->is_removed && !one->is_waiting;
+  const bool took_part = one != nullptr && !one->is_removed && !one->is_waiting && one->role != Role::viewer;
   return leads(seat) || (took_part && room_->state().shares_minutes && file == minutes::kMinutesPage);
 }
 

@@ -287,6 +287,8 @@ void RoomHost::recover() {
           tellings_.clear();
           next_.reset();
           now_.reset();
+          seen_.reset();  // it may hold what was never stored
+          past_.clear();
           if (auto begun = begin(**loaded); !begun) {
             problem_ = begun.error().text();
             return;

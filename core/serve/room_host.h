@@ -93,8 +93,8 @@ class RoomHost {
   bool leads(std::int64_t seat) const;
   // One file at a time: whoever asks meanwhile is told so at once.
   /// One file of the minutes of all that is stored by now, such as `minutes.html`; for those who may. `zone`: of its times, so
-  /// far ahead of UTC [min].
-  void make_minutes(const std::string& file, int zone, Errands::Done done);
+  /// far ahead of UTC [min]. `is_shared`: for one who only took part, without who gave which ballot; it waits for its turn.
+  void make_minutes(const std::string& file, int zone, bool is_shared, Errands::Done done);
   /// Who leads gets all files; the page is for all seats of a room that was closed so, but for those that were sent out, or never
   /// let in.
   bool may_read_minutes(std::int64_t seat, const std::string& file) const;
@@ -173,8 +173,8 @@ class RoomHost {
   void publish_after(double seconds);
   void publish();
   void hold_shapes(Published& made);
-  /// Keeps the plan that was shown when something was decided. Without one nothing is kept: what was decided is older than this
-  /// run.
+  /// Keeps the plan that was shown when something was decided, as far as all of them are small enough for a phone. Without one
+  /// nothing is kept: what was decided is older than this run.
   void keep_past(const State* shown);
   void show();
   void show(Visitor& visitor);
@@ -247,6 +247,7 @@ class RoomHost {
   std::optional<Published> next_, now_;       // views that wait for the disk, and those that are shown
   std::map<std::pair<const wire::View*, const wire::View*>, Step> steps_;  // to the views that are shown
   wire::PastPlans past_;
+  std::shared_ptr<const wire::View> past_view_ = std::make_shared<const wire::View>();  // made once for all
   std::int64_t past_seq_ = 0;     // decisions up to this entry have been looked at
   double shapes_after_ = -1e9;    // before then no newer shapes are sent: whoever got the largest frame is still taking it [s]
   bool are_shapes_held_ = false;  // those of the last views may be older than their state

@@ -11,7 +11,8 @@ namespace {
 
 // A phone in motion gets 20 kB a second, of which the shapes may have this much [bytes/s]: more of them come less often.
 constexpr double kShapeRate = 12000;
-const std::string kShapes = "shapes";
+const std::string kShapes = "shapes", kPast = "past";
+constexpr std::size_t kMostPast = 256 << 10;   // of all plans of before: a guest on a slow way is sent away above 1 MB [bytes]
 constexpr std::size_t kSkipAbove = 256 << 10;  // what a guest has not taken yet [bytes]
 
 }  // namespace
@@ -42,6 +43,7 @@ void RoomHost::publish() {
       }
       if (!place && is_same_state && wire::is_of_state(name) && !(were_shapes_held && name == kShapes))
         if (const auto shown = now_->shared.find(name); shown != now_->shared.end()) place = shown->second;
+      if (!place && name == kPast) place = past_view_;
       if (!place) place = std::make_shared<const wire::View>(wire::make_view(name, from, visitor.seat));
     }
   next_ = std::move(made);
@@ -57,8 +59,18 @@ void RoomHost::keep_past(const State* shown) {
     if (!plan) plan = std::make_shared<const wire::View>(wire::make_view("plan", sources(*shown), 0));
     kept[decision.seq] = plan;
   }
-  past_ = std::move(kept);
   past_seq_ = session_->last_seq();
+  const auto size_of = [](const wire::View& view) {
+    std::size_t bytes = 0;
+    for (const auto& [key, content] : view) bytes += key.size() + content.size();
+    return bytes;
+  };
+  std::size_t bytes = 0;
+  for (const auto& [seq, one] : kept) bytes += size_of(*one);
+  for (; bytes > kMostPast; kept.erase(kept.begin())) bytes -= size_of(*kept.begin()->second);
+  if (kept == past_) return;
+  past_ = std::move(kept);
+  past_view_ = std::make_shared<const wire::View>(wire::make_view(kPast, sources(*session_->moment()->state), 0));
 }
 
 // Until more shapes may be sent, those that are shown go on. Who is new gets these, and all go on from the same ones.

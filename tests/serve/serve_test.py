@@ -506,7 +506,7 @@ class Minutes(RoomCase):
             while_open = self.ask(lead.token, "votes.csv")[2]
             for vote in ("height", "money"):
                 self.assertEqual((await lead.event("close_vote", vote=vote))["t"], "ack")
-            closed = await lead.event("close_room")
+            closed = await lead.event("close_room", shares_minutes=True)
             self.assertEqual(closed["t"], "ack", closed)
             await lead.close()
             await guest.close()
@@ -527,7 +527,14 @@ class Minutes(RoomCase):
         votes = self.ask(lead, "votes.csv")[2]
         self.assertIn("23.5", votes)
         self.assertNotIn("money,1,ballot", votes)
-        self.assertEqual(self.ask(guest)[0], 403)
+        self.assertIn("Ballot of", page)
+        status, _, shared = self.ask(guest)
+        self.assertEqual(status, 200, shared)
+        self.assertIn("&lt;b&gt;More trees&lt;/b&gt;", shared)
+        self.assertNotIn("Ballot of", shared, "nobody learns at home how others voted")
+        self.assertEqual(self.ask(guest, "votes.csv")[0], 403)
+        plain = self.post(f"/plain/{self.server.code}", token=guest)[2]
+        self.assertIn("Open the minutes", plain)
         self.assertEqual(self.ask("0" * 32)[0], 403)
         with self.assertRaises(urllib.error.HTTPError) as refused:
             self.server.get(f"/minutes?room={self.server.code}&file=minutes.html&token={lead}")

@@ -168,7 +168,7 @@ TEST_F(FilesOfRooms, TheirPageIsSharedWhereTheCloseSaysSo) {
   const Response page = answered(form(guest_->token));
   ASSERT_EQ(page.status, 200) << page.body;
   EXPECT_NE(page.body.find("the room was closed"), std::string::npos);
-  EXPECT_EQ(answered(form(viewer->token)).status, 200);
+  EXPECT_EQ(answered(form(viewer->token)).status, 403) << "who only watches took no part, and may have come by the code alone";
   for (const std::string file :
        {"decisions.csv", "comments.csv", "votes.csv", "log.jsonl", "scenes/end.json", "", "../minutes.html"})
     EXPECT_EQ(answered(form(guest_->token, file)).status, 403) << file;
@@ -176,6 +176,24 @@ TEST_F(FilesOfRooms, TheirPageIsSharedWhereTheCloseSaysSo) {
   EXPECT_EQ(answered(form(waiting)).status, 403) << "never let in";
   EXPECT_EQ(answered(form("")).status, 403);
   EXPECT_EQ(answered(form(lead_->token, "log.jsonl")).status, 200);
+}
+
+// Everybody sees the button in the same moment.
+TEST_F(FilesOfRooms, WhoeverTookPartWaitsForTheSharedPage) {
+  say(*lead_, R"({"t": "room", "id": 1, "e": {"event": "close_room", "arguments": {"shares_minutes": true}}})");
+  const auto own = post(form(lead_->token));
+  std::vector<std::shared_ptr<std::optional<Response>>> pages;
+  for (int k = 0; k < 30; ++k) pages.push_back(post(form(guest_->token)));
+  const auto again = post(form(lead_->token));
+  run_until([&] {
+    return own->has_value() && std::all_of(pages.begin(), pages.end(), [](const auto& one) { return one->has_value(); });
+  });
+  EXPECT_EQ((*own)->status, 200);
+  EXPECT_EQ((*again)->status, 409) << "who leads is told at once";
+  for (const auto& page : pages) {
+    EXPECT_EQ((*page)->status, 200);
+    EXPECT_EQ((*page)->body, (**pages.front()).body);
+  }
 }
 
 TEST_F(FilesOfRooms, OneIsMadeAtATime) {

@@ -153,7 +153,7 @@ void draw_house(const RoomDesk& desk) {
     decision.clear();
   }
   bool& shares = memory_of(desk.editor).room_shares_minutes;
-  ImGui::Checkbox("Everybody may open the minutes afterwards", &shares);
+  ImGui::Checkbox("Everybody who took part may open the minutes afterwards", &shares);
   note_place(desk.editor, "roompanel/share_minutes");
   if (desk.sure_button("End the session", "roompanel/end", "From then on nothing is changed or said. End it?", "End the session"))
     desk.say("close_room", JsonValue::of({{"shares_minutes", shares}}));

@@ -111,6 +111,10 @@ function screen_of(s: Session, ui: Ui, isWide: boolean): JSX.Element {
   }
 }
 
+// Who leads has the minutes on a screen of their own; who only watches has none.
+const took_part = ({ you, views: { room } }: Session): boolean =>
+  you !== null && you.role !== "facilitator" && you.role !== "viewer" && room.seats?.[you.seat]?.waits !== true;
+
 function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Language): void }): JSX.Element {
   const isWide = useWide(),
     [isYou, setYou] = useState(false),
@@ -156,7 +160,7 @@ function Frame({ s, ui, onLanguage }: { s: Session; ui: Ui; onLanguage(one: Lang
             <b>{t("closed_title")}.</b> {you?.role === "facilitator" ? t("closed_minutes", { tab: t("tab_lead") }) : t("closed")}
           </p>
         ) : null}
-        {s.views.room.shares_minutes && you?.role !== "facilitator" ? <OpenMinutes s={s}>{t("minutes_home")}</OpenMinutes> : null}
+        {s.views.room.shares_minutes && took_part(s) ? <OpenMinutes s={s}>{t("minutes_home")}</OpenMinutes> : null}
         {screen_of(s, ui, isWide)}
       </main>
       {isYou && you ? (

@@ -105,6 +105,7 @@ export class Session {
 
   /// The view is on no screen any more. What is known of it stays until all of it comes again.
   release(view: ViewName): void {
+    this.arrived.delete(view);
     this.connection.release(view);
   }
 

@@ -8,7 +8,7 @@ import { PlanHere } from "../space";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
 import type { Json } from "../wire";
-import { Drawn, crosses_itself, kLeastCorners } from "./corners";
+import { Drawn, crosses_itself, kLeastCorners, size_of } from "./corners";
 import { OutlineField } from "./outline";
 import { t } from "./words";
 
@@ -137,7 +137,7 @@ function NewArea({ s, ui, taken }: { s: Session; ui: Ui; taken: string[] }): JSX
     [drawn, draw] = useState(kNothing);
   // Who chooses a tag need not think of a name.
   const area = area_name(typed.trim() === "" && by === "tag" ? tag : typed, taken);
-  const isDrawn = drawn.corners.length >= kLeastCorners && !crosses_itself(drawn.corners);
+  const isDrawn = drawn.corners.length >= kLeastCorners && size_of(drawn.corners) > 0 && !crosses_itself({ ...drawn, isClosed: true });
   const contents: Record<By, Record<string, Json> | null> = {
     tag: tag === "" ? null : { nodes: { tag } },
     role: role === "" ? null : { nodes: { typification: role } },

@@ -43,15 +43,30 @@ export function size_of(corners: Corner[]): number {
 // On which side of the line from a to b a point lies.
 const side = (a: Corner, b: Corner, c: Corner): number => Math.sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 
-/// Does one of its sides cross another one? Sides that follow each other meet, and do not cross.
-export function crosses_itself(corners: Corner[]): boolean {
+// Of a point on that line.
+const is_between = (a: Corner, b: Corner, c: Corner): boolean =>
+  Math.min(a[0], b[0]) <= c[0] && c[0] <= Math.max(a[0], b[0]) && Math.min(a[1], b[1]) <= c[1] && c[1] <= Math.max(a[1], b[1]);
+
+function do_meet(a: Corner, b: Corner, c: Corner, d: Corner): boolean {
+  const sides = [side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)] as const;
+  if (sides[0] * sides[1] < 0 && sides[2] * sides[3] < 0) return true;
+  return (
+    (sides[0] === 0 && is_between(a, b, c)) ||
+    (sides[1] === 0 && is_between(a, b, d)) ||
+    (sides[2] === 0 && is_between(c, d, a)) ||
+    (sides[3] === 0 && is_between(c, d, b))
+  );
+}
+
+/// Does one of its sides meet another one that does not follow it? An outline that is still drawn has no side back to its first corner.
+export function crosses_itself({ corners, isClosed }: Drawn): boolean {
   const n = corners.length,
-    at = (k: number): Corner => corners[k % n] as Corner;
-  for (let i = 0; i < n; ++i)
-    for (let k = i + 2; k < n; ++k) {
+    at = (k: number): Corner => corners[k % n] as Corner,
+    sides = isClosed ? n : n - 1;
+  for (let i = 0; i < sides; ++i)
+    for (let k = i + 2; k < sides; ++k) {
       if (i === 0 && k === n - 1) continue;
-      const [a, b, c, d] = [at(i), at(i + 1), at(k), at(k + 1)];
-      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+      if (do_meet(at(i), at(i + 1), at(k), at(k + 1))) return true;
     }
   return false;
 }

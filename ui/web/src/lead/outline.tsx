@@ -10,11 +10,17 @@ import { Corner, Drawn, crosses_itself, kLeastCorners, pins_of, size_of, touched
 import { Key, t } from "./words";
 
 const kStep = 0.1; // of corners [m]
+const kFarthest = 1e6; // of a corner from the origin [m]
+
+function metres(text: string): number | null {
+  const read = typed_number(text);
+  return read !== null && Math.abs(read) <= kFarthest ? read : null;
+}
 
 // What is no number yet stays as it was typed, and changes nothing.
 function Metres({ label, value, set }: { label: string; value: number; set(value: number): void }): JSX.Element {
   const [typed, type] = useState<string | null>(null),
-    isWrong = typed !== null && typed_number(typed) === null;
+    isWrong = typed !== null && metres(typed) === null;
   return (
     <input
       class="number"
@@ -25,7 +31,7 @@ function Metres({ label, value, set }: { label: string; value: number; set(value
       value={typed ?? number(value, kStep)}
       onInput={(event) => {
         type(event.currentTarget.value);
-        const read = typed_number(event.currentTarget.value);
+        const read = metres(event.currentTarget.value);
         if (read !== null) set(read);
       }}
       onBlur={() => type(null)}
@@ -36,7 +42,7 @@ function Metres({ label, value, set }: { label: string; value: number; set(value
 function Numbers({ corners, change }: { corners: Corner[]; change(corners: Corner[]): void }): JSX.Element {
   const [x, setX] = useState(""),
     [y, setY] = useState("");
-  const fresh: [number | null, number | null] = [typed_number(x), typed_number(y)];
+  const fresh: [number | null, number | null] = [metres(x), metres(y)];
   const add = (): void => {
     if (fresh[0] === null || fresh[1] === null) return;
     change([...corners, [fresh[0], fresh[1]]]);
@@ -74,6 +80,7 @@ function Numbers({ corners, change }: { corners: Corner[]; change(corners: Corne
               class="number"
               inputMode="decimal"
               autocomplete="off"
+              aria-invalid={(axis === "x" ? x : y) !== "" && fresh[axis === "x" ? 0 : 1] === null}
               value={axis === "x" ? x : y}
               onInput={(event) => (axis === "x" ? setX : setY)(event.currentTarget.value)}
             />
@@ -129,7 +136,7 @@ export function OutlineField({ s, ui, drawn, set }: { s: Session; ui: Ui; drawn:
           {t(isClosed ? "outline_reopen" : "outline_undo")}
         </button>
       </div>
-      {crosses_itself(corners) ? <p class="missing">{t("outline_crosses")}</p> : null}
+      <p class="missing" role="status">{crosses_itself(drawn) ? t("outline_crosses") : ""}</p>
       <Numbers corners={corners} change={(next) => set({ corners: next, isClosed: isClosed && next.length >= kLeastCorners })} />
     </fieldset>
   );

@@ -44,22 +44,17 @@ function words_of(s: Session, one: Decision): { title: string; text: string } {
   }
 }
 
-// What was there before and what is there now: told of by the server while somebody looks.
+// What was there before and what is there now.
 function BeforeAndNow({ s, entry }: { s: Session; entry: number }): JSX.Element {
-  useEffect(() => {
-    s.want("past");
-    return () => s.release("past");
-  }, []);
   const before = s.pastPlan(entry);
   if (!s.has("past")) return <p class="small">{t("happened_coming")}</p>;
   if (before.length === 0) return <p class="small">{t("happened_no_plan")}</p>;
   return <Swipe s={s} first={before} second={s.plan()} titles={[t("happened_then"), t("compare_now")]} />;
 }
 
-function Before({ s, entry }: { s: Session; entry: number }): JSX.Element {
-  const [isOpen, open] = useState(false);
+function Before({ s, entry, isOpen, onToggle }: { s: Session; entry: number; isOpen: boolean; onToggle(isOpen: boolean): void }): JSX.Element {
   return (
-    <details onToggle={(event) => open(event.currentTarget.open)}>
+    <details onToggle={(event) => onToggle(event.currentTarget.open)}>
       <summary>{t("happened_before")}</summary>
       {isOpen ? <BeforeAndNow s={s} entry={entry} /> : null}
     </details>
@@ -68,11 +63,19 @@ function Before({ s, entry }: { s: Session; entry: number }): JSX.Element {
 
 /// The newest first; nothing where nothing was decided yet.
 export function Happened({ s }: { s: Session }): JSX.Element | null {
+  const [open, set] = useState<number[]>([]);
   useEffect(() => s.want("decisions"), []);
   const all = Object.entries(s.views.decisions)
     .map(([seq, one]) => ({ seq: Number(seq), one }))
     .filter(({ one }) => kIcons[one.kind] !== undefined)
     .sort((a, b) => b.seq - a.seq);
+  // The server tells of plans of before while somebody looks at one.
+  const looks = all.some(({ seq }) => open.includes(seq));
+  useEffect(() => {
+    if (!looks) return;
+    s.want("past");
+    return () => s.release("past");
+  }, [looks]);
   if (all.length === 0) return null;
   return (
     <section class="happened">
@@ -91,7 +94,12 @@ export function Happened({ s }: { s: Session }): JSX.Element | null {
                   <b>{title}</b>
                 </p>
                 {text ? <p class="small">{text}</p> : null}
-                <Before s={s} entry={seq} />
+                <Before
+                  s={s}
+                  entry={seq}
+                  isOpen={open.includes(seq)}
+                  onToggle={(isOpen) => set((all) => (isOpen ? [...all.filter((one) => one !== seq), seq] : all.filter((one) => one !== seq)))}
+                />
               </div>
             </li>
           );

@@ -20,8 +20,7 @@ export function Part({ s, ui, name }: { s: Session; ui: Ui; name: PartName }): J
         end.current = script.show(box.current, { s, ui, language, words: words_now(), own });
         set("here");
       },
-      () => isGone || set("lost"),
-    );
+    ).catch(() => isGone || set("lost"));
     return () => {
       isGone = true;
     };
@@ -37,9 +36,16 @@ export function Part({ s, ui, name }: { s: Session; ui: Ui; name: PartName }): J
         <div class="notice" role="status">
           <p>{t(stage === "lost" ? "part_lost" : "part_coming")}</p>
           {stage === "lost" ? (
-            <button class="quiet" onClick={try_again}>
-              {t("try_again")}
-            </button>
+            <div class="row">
+              <button class="quiet" onClick={try_again}>
+                {t("try_again")}
+              </button>
+              {attempt > 0 ? (
+                <button class="quiet" onClick={() => window.location.reload()}>
+                  {t("reload")}
+                </button>
+              ) : null}
+            </div>
           ) : null}
         </div>
       )}
