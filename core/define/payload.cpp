@@ -24,7 +24,10 @@ void make_whole(Json& json) {
   if (json.is_number_float()) {
     const double number = json.get<double>();
     const std::string text = shortest(number);
-    if (text.find_first_not_of("-0123456789") == std::string::npos) json = static_cast<std::int64_t>(number);
+    if (text.find_first_not_of("-0123456789") != std::string::npos) return;
+    // Beyond these bounds (2^63 and 2^64) a text is read as a number with a point as well.
+    if (number >= -0x1p63 && number < 0x1p63) json = static_cast<std::int64_t>(number);
+    else if (number > 0 && number < 0x1p64) json = static_cast<std::uint64_t>(number);
   } else if (json.is_structured()) {
     for (Json& part : json) make_whole(part);
   }

@@ -127,16 +127,16 @@ Answer Room::accept(const Said& said, const EventDefinition& kind, const std::ma
   if (found == drafts_.end() || proposal == state_.proposals.end() || proposal->second.state != ProposalState::proposed)
     return refuse(Reason::gone, "arguments/draft", "there is no open proposal `" + id + "`");
   const Draft& draft = found->second;
-  std::set<std::int64_t> keep;
+  std::set<double> keep;  // as they were said: some may be no number of a step
   if (const auto chosen = arguments.find("keep"); chosen != arguments.end())
-    for (const double step : *std::get<Numbers>(chosen->second)) keep.insert(static_cast<std::int64_t>(step));
+    for (const double step : *std::get<Numbers>(chosen->second)) keep.insert(step);
   std::vector<Command> kept;
   Scene trial = scene();
   SceneEdit edit(trial, ledger_->registry());
   Json misfits = Json::array();
   for (std::size_t k = 0; k < draft.steps().size(); ++k) {
     const Command& step = draft.steps()[k];
-    if (step.id.empty() || (!keep.empty() && !keep.contains(static_cast<std::int64_t>(k)))) continue;
+    if (step.id.empty() || (!keep.empty() && !keep.contains(static_cast<double>(k)))) continue;
     if (auto fits = bl::apply(edit, step); !fits) misfits.push_back({{"step", k}, {"why", fits.error().text()}});
     kept.push_back(step);
   }

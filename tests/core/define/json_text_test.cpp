@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/define/payload.h"
+
 namespace bl {
 namespace {
 
@@ -21,6 +23,16 @@ TEST(JsonText, AKeyThatStandsTwiceHasItsPlace) {
             "line 1, column 16: the key \"ab\" stands twice in one object; keep one of them");
   EXPECT_EQ(why_no_json(R"({"k\"": 1, "x": [{}, []], "k\"" : 2})").substr(0, 29), "line 1, column 27: the key \"k");
   EXPECT_EQ(why_no_json(R"({"a": {"a": {"a": "a"}}, "b": [{"a": 1}, {"a": 1}]})"), "");
+}
+
+// A number without a point may be larger than any whole number that a program holds.
+TEST(JsonText, NumbersOfAnySizeAreTheSameAsTheirText) {
+  for (const double number :
+       {3.77777775555555555554e20, -3.7e20, 1e19, 9.3e18, -9.3e18, 0x1p63, -0x1p63, 0x1p64, 1e300, 12.0, -0.5}) {
+    const JsonValue value = JsonValue::of(Json(number));
+    EXPECT_EQ(value, JsonValue(value.text())) << number;
+    EXPECT_EQ((*value.read())->get<double>(), number);
+  }
 }
 
 TEST(JsonText, AnEmptyTextIsNotACutOne) {
