@@ -308,14 +308,17 @@ void Room::note_presence(std::int64_t seat, bool is_here, Now now) {
 bool Room::waits_for_time() const {
   return std::any_of(state_.areas.begin(), state_.areas.end(), [&](const auto& one) {
     const Area& area = one.second;
-    return area.pen != 0 && (!area.asking.empty() || left_at_.contains(area.pen));
+    return !area.asking.empty() || (area.pen != 0 && left_at_.contains(area.pen));
   });
 }
 
 void Room::pass(Now now) {
   std::vector<std::pair<std::string, std::int64_t>> given;
   for (const auto& [name, area] : state_.areas) {
-    if (area.pen == 0) continue;
+    if (area.pen == 0) {  // it was laid down while somebody asked
+      if (!area.asking.empty()) given.emplace_back(name, area.asking.front());
+      continue;
+    }
     const auto asked = asked_at_.find(name);
     const auto left = left_at_.find(area.pen);
     const bool is_silent = asked != asked_at_.end() && !area.asking.empty() && now.at - asked->second >= kPenAnswer;

@@ -168,6 +168,14 @@ TEST(Room, AnAreaIsItsDesigners) {
   world.at += Room::kPenLeave;
   world.room().pass(world.now());
   EXPECT_EQ(world.room().state().areas.at("n").pen, 0) << "its holder has left";
+  world.room().note_presence(anna, true, world.now());
+  EXPECT_EQ(sentence(world.event(anna, "ask_pen", R"({"area": "n"})")), "");
+  EXPECT_EQ(sentence(world.event(ben, "ask_pen", R"({"area": "n"})")), "");
+  EXPECT_EQ(sentence(world.event(anna, "give_pen", R"({"area": "n"})")), "");
+  EXPECT_TRUE(world.room().waits_for_time());
+  world.room().pass(world.now());
+  EXPECT_EQ(world.room().state().areas.at("n").pen, ben) << "it was laid down while somebody asked";
+  EXPECT_FALSE(world.room().waits_for_time());
 }
 
 TEST(Room, AStaleConditionNamesWhoAndWhat) {

@@ -195,8 +195,7 @@ export function Plan({ s, binding, selected, label = 12, isStill, children }: Pl
       zoom: () => live.current.view.zoom,
       unit: () => live.current.frame.width / live.current.size[0],
     },
-    (place, node) =>
-{
+    (place, node) => {
       const scale = live.current.frame.width / live.current.size[0];
       binding?.onTap([round(place[0]), round(-place[1]), 0], node ?? nearest(items, place, kNear * scale), kReach * scale);
     },

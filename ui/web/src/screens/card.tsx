@@ -1,7 +1,8 @@
 // The role card: goals as sentences, and the values that its holder may change.
 import type { JSX } from "preact";
 import { amount } from "../format";
-import { Icon, MarkState, StatusWord, Stepper, Title } from "../parts";
+import { Icon, MarkState, StatusWord, Title } from "../parts";
+import { Stepper } from "../stepper";
 import type { Session } from "../session";
 import type { Ui } from "../ui";
 import type { Control, Goal, Seen } from "../wire";

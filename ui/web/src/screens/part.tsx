@@ -14,13 +14,13 @@ export function Part({ s, ui, name }: { s: Session; ui: Ui; name: PartName }): J
     language = language_now();
   useEffect(() => {
     let isGone = false;
-    part(name, language).then(
-      ({ script, own }) => {
+    part(name, language)
+      .then(({ script, own }) => {
         if (isGone || !box.current) return;
         end.current = script.show(box.current, { s, ui, language, words: words_now(), own });
         set("here");
-      },
-    ).catch(() => isGone || set("lost"));
+      })
+      .catch(() => isGone || set("lost"));
     return () => {
       isGone = true;
     };

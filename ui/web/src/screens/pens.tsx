@@ -23,7 +23,7 @@ function PenRow({ s, area }: { s: Session; area: string }): JSX.Element {
       <p role="status">
         {holder}
         {pen === me && asking.length > 0 ? ` ${t("pen_asked", { name: s.seatName(asking[0] ?? 0) })}` : ""}
-        {pen !== 0 && asking.includes(me) ? ` ${t("pen_you_asked")}` : ""}
+        {asking.includes(me) ? ` ${t("pen_you_asked")}` : ""}
       </p>
       <div class="row">
         {pen === me ? (
@@ -42,7 +42,7 @@ function PenRow({ s, area }: { s: Session; area: string }): JSX.Element {
               {t("pen_lay_down")}
             </button>
           </>
-        ) : pen !== 0 && asking.includes(me) ? (
+        ) : asking.includes(me) ? (
           <button class="quiet" onClick={() => ask(false)}>
             {t("pen_ask_not")}
           </button>

@@ -12,5 +12,5 @@ export const at_door = (s: Session): [string, Seat][] =>
 /// The areas whose pen somebody asks for.
 export const pens_asked = (s: Session): string[] =>
   Object.entries(s.views.room.areas ?? {})
-    .filter(([, area]) => area.pen !== 0 && area.asking.length > 0)
+    .filter(([, area]) => area.asking.length > 0)
     .map(([id]) => id);
