@@ -289,6 +289,7 @@ void RoomHost::recover() {
           now_.reset();
           seen_.reset();  // it may hold what was never stored
           past_.clear();
+          past_view_ = std::make_shared<const wire::View>();
           if (auto begun = begin(**loaded); !begun) {
             problem_ = begun.error().text();
             return;
