@@ -34,7 +34,7 @@ HeightSpan height_span_inside(const ConvexDomain& piece, const Point3& point) {
 }  // namespace
 
 double ground_under(const Domain& domain, const Point3& point) {
-  constexpr double kSame = 1e-6;  // [m] between pieces that touch
+  constexpr double kTouching = 1e-6;  // [m] between pieces that touch
   std::vector<HeightSpan> spans;
   for (const Domain::Piece& piece : domain.pieces)
     if (const HeightSpan heights = height_span_inside(piece.shape, point); heights.bottom <= heights.top)
@@ -44,7 +44,7 @@ double ground_under(const Domain& domain, const Point3& point) {
   double best = spans.front().bottom, nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < spans.size();) {
     HeightSpan whole = spans[k];
-    for (++k; k < spans.size() && spans[k].bottom <= whole.top + kSame; ++k) whole.top = std::max(whole.top, spans[k].top);
+    for (++k; k < spans.size() && spans[k].bottom <= whole.top + kTouching; ++k) whole.top = std::max(whole.top, spans[k].top);
     const double away = std::max({0.0, whole.bottom - point.z, point.z - whole.top});
     if (away >= nearest) continue;
     nearest = away;
