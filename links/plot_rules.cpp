@@ -18,12 +18,12 @@ namespace {
 
 struct PlotRules {
   struct In {
-    bool hold_fsi = true, hold_gsi = true, hold_height = true;
+    bool hold_fsi = true, hold_gsi = true, hold_height = true, hold_setback = true;
     double gain = 0.2, tolerance = 0.01, least = 0.2;
   };
   struct Ends {
     std::vector<Point3> polygon;
-    double ground = 0, fsi = 0, fsi_max = 0, gsi = 0, gsi_max = 0, height_max = 0;
+    double ground = 0, fsi = 0, fsi_max = 0, gsi = 0, gsi_max = 0, height_max = 0, setback = 0;
     All<std::string> ids;
     All<Point3> centroids;
     All<double> demands, limits, wanted, volumes, bottoms, heights;
@@ -34,7 +34,7 @@ struct PlotRules {
     All<std::optional<bool>> heights_locked;
   };
   struct Out {
-    All<std::optional<double>> limits, height_limits;
+    All<std::optional<double>> limits, height_limits, border_distances, street_distances;
   };
 
   static void declare(LinkBuilder<PlotRules>& l) {
@@ -50,6 +50,10 @@ struct PlotRules {
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
     l.param(&In::hold_height, "hold_height")
         .doc("When on, a volume that reaches beyond the largest height is limited by itself: one that stands in its storeys.");
+    l.param(&In::hold_setback, "hold_setback")
+        .doc(
+            "When on, volumes that stand keep the setback of the plot from the border of their boundary, in all storeys. Where "
+            "the plot has sides inside the boundary, they may still reach over these.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -74,6 +78,8 @@ struct PlotRules {
     read_ends(l);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.proposes_if_there(&Out::height_limits, End::to, "footprint.height_limit", Unit::metre);
+    l.proposes_if_there(&Out::border_distances, End::to, "footprint.border_distance", Unit::metre);
+    l.proposes_if_there(&Out::street_distances, End::to, "footprint.street_distance", Unit::metre);
   }
 
   static void read_ends(LinkBuilder<PlotRules>& l) {
@@ -82,6 +88,7 @@ struct PlotRules {
         .reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
     l.reads(&Ends::fsi, End::from, "plot.fsi", Unit::ratio).reads(&Ends::fsi_max, End::from, "plot.fsi_max", Unit::ratio);
     l.reads(&Ends::gsi, End::from, "plot.gsi", Unit::ratio).reads(&Ends::gsi_max, End::from, "plot.gsi_max", Unit::ratio);
+    l.reads(&Ends::setback, End::from, "plot.setback", Unit::metre);
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::centroids, End::to, "smart_volume.centroid", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
@@ -109,6 +116,7 @@ struct PlotRules {
     Out out;
     out.limits.values.resize(ends.demands.values.size());
     out.height_limits.values.resize(ends.demands.values.size());
+    out.border_distances.values.resize(ends.demands.values.size());
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
@@ -128,8 +136,10 @@ struct PlotRules {
       else if (in.hold_height)
         limit = std::min(
             limit, granted(ends, i) * (1 + in.gain * (demand::answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+      if (in.hold_setback && ends.setback > 0 && volume) out.border_distances.values[i] = ends.setback;
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
+    out.street_distances = out.border_distances;
     tell(in, ends, held, on_plot, tick);
     return out;
   }

@@ -16,8 +16,9 @@ struct Footprint {
     double angle = 0, aspect = 1;
     int storeys = 4, storeys_min = 1;
     double height_limit = 1e6, setback = 0, depth = 1000, ground = kAsLowAsPossible;
+    double courtyard_setback = 0, wing_depth = 1000, border_distance = 0, street_distance = 0;
     int full_storeys = 0;
-    bool has_party_walls = true;
+    bool has_party_walls = true, has_border_walls = false;
     std::vector<std::string> bases;
   };
 
@@ -36,6 +37,7 @@ struct Footprint {
         "solver "
         "of standing volumes adapts its weight until the floor area of all storeys is what the volume wants.");
     declare_form(t);
+    declare_sides(t);
     declare_storeys(t);
     declare_results(t);
   }
@@ -58,13 +60,43 @@ struct Footprint {
         .soft(0.25, 4)
         .combine(CombineRule::blend)
         .doc("Length of a block's first side divided by that of its second.");
+  }
+
+  static void declare_sides(TypificationBuilder<Footprint>& t) {
     t.in(&In::depth, "depth")
         .unit(Unit::metre)
         .range(3, 1000)
         .soft(8, 40)
         .combine(CombineRule::min)
         .doc("Greatest depth of the building. What lies deeper inside is a courtyard.");
+    t.in(&In::wing_depth, "wing_depth")
+        .unit(Unit::metre)
+        .range(3, 1000)
+        .soft(4, 20)
+        .combine(CombineRule::min)
+        .doc(
+            "Greatest depth along walls that touch neighbours or the border of the plot, where it is less than `depth`: such "
+            "walls "
+            "have no windows. Without effect where no walls touch.");
     t.in(&In::has_party_walls, "party_walls").doc("Set-backs do not hold towards neighbours: their walls touch in all storeys.");
+    t.in(&In::has_border_walls, "border_walls")
+        .doc("Set-backs do not hold towards the border of the plot either, but for its sides along streets: fire walls.");
+    t.in(&In::border_distance, "border_distance")
+        .unit(Unit::metre)
+        .range(0, 1000)
+        .soft(0, 10)
+        .combine(CombineRule::max)
+        .doc(
+            "How far all storeys keep from the border of the boundary, but for its sides along streets. Links of the kind "
+            "`plot_rules` propose the set-back of the plot.");
+    t.in(&In::street_distance, "street_distance")
+        .unit(Unit::metre)
+        .range(0, 1000)
+        .soft(0, 10)
+        .combine(CombineRule::max)
+        .doc(
+            "How far all storeys keep from the sides of the boundary along streets; the solver finds these sides. Links of the "
+            "kind `plot_rules` propose the set-back of the plot.");
   }
 
   static void declare_storeys(TypificationBuilder<Footprint>& t) {
@@ -106,6 +138,13 @@ struct Footprint {
         .range(0, 100)
         .soft(0, 5)
         .doc("How far the upper storeys lie behind the edge of the footprint.");
+    t.in(&In::courtyard_setback, "courtyard_setback")
+        .unit(Unit::metre)
+        .range(0, 100)
+        .soft(0, 5)
+        .doc(
+            "How far the same storeys lie behind the edge that a constant depth gives their courtyard. As much as the set-back: "
+            "the walls of the courtyard are upright.");
     t.in(&In::full_storeys, "full_storeys")
         .unit(Unit::count)
         .range(0, 500)

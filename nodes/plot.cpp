@@ -6,6 +6,7 @@
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/plan_ring.h"
+#include "core/geometry/plates_table.h"
 
 namespace bl {
 
@@ -22,8 +23,14 @@ struct Plot {
     Point3 position, centroid;
     double floor_area = 0, footprint = 0, bottom = 0, height = 0, storey_height = 3.2, volume = 0;
   };
+  struct Standing {
+    std::string id;
+    Point3 position;
+    Table plates;
+  };
   struct Sets {
     std::vector<Member> volumes;
+    std::vector<Standing> standing;
   };
   struct Out {
     std::int64_t count = 0;
@@ -71,6 +78,9 @@ struct Plot {
     set.reads(&Member::height, "smart_volume.height", Unit::metre)
         .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
     set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
+    auto standing = t.set("volumes", &Sets::standing);  // those of the volumes that have plates
+    standing.reads(&Standing::id, "node.id").reads(&Standing::position, "node.position", Unit::metre);
+    standing.reads(&Standing::plates, "footprint.plates");
   }
 
   static void declare_results(TypificationBuilder<Plot>& t) {
@@ -94,10 +104,12 @@ struct Plot {
         .doc("Height of the highest volume beyond the largest height.");
     t.out(&Out::setback_overshoot, "setback_overshoot")
         .unit(Unit::metre)
-        .doc("Largest depth of a volume in the setback, with the volume taken as a disc of the area of its footprint.");
+        .doc(
+            "Largest depth of a volume in the setback. Of one that stands its plates count, of others a disc of the area of its "
+            "footprint.");
     t.out(&Out::overshoot, "overshoot")
         .unit(Unit::ratio)
-        .doc("The worst overshoot of FSI, GSI and height, as a share of what is allowed.");
+        .doc("The worst overshoot of FSI, GSI, height and setback, as a share of what is allowed.");
     t.out(&Out::message, "message")
         .doc("Volumes that no smaller demand brings below the largest height; empty where there are none.");
   }
@@ -112,6 +124,19 @@ struct Plot {
   // gradually as well: a step would make links that hold the GSI oscillate.
   static double grounded(const In& in, const Member& member) {
     return std::clamp(2 * (in.ground + member.storey_height - member.bottom) / member.storey_height, 0.0, 1.0);
+  }
+
+  static constexpr double kRounding = 1e-6;  // [m] of set-backs that are kept exactly
+  static constexpr double kChords = 1e-3;    // [m] between arcs of plates and their chords
+
+  // How far a volume stays inside the sides of the plot [m]: its plates where it stands, else a disc.
+  static double clearance(const In& in, const Sets& sets, const Member& member) {
+    const auto standing = std::ranges::lower_bound(sets.standing, member.id, {}, &Standing::id);
+    if (standing != sets.standing.end() && standing->id == member.id)
+      return geometry::clearance_of(geometry::read_body(standing->plates, standing->position), in.polygon, kChords);
+    const Point3 flat{member.centroid.x, member.centroid.y, 0};
+    const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
+    return distance({side.x, side.y, 0}, flat) - std::sqrt(member.footprint / 3.14159265358979323846);
   }
 
   // Shapes shrink towards their positions.
@@ -139,12 +164,9 @@ struct Plot {
       out.footprint += grounded(in, member) * member.footprint;
       tell_height(in, member, out.message);
       out.top = std::max(out.top, member.bottom + member.height - in.ground);
-      const double radius = std::sqrt(member.footprint / 3.14159265358979323846);
-      const Point3 flat{member.centroid.x, member.centroid.y, 0};
-      const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
-      out.setback_overshoot = std::max(out.setback_overshoot, in.setback - (distance({side.x, side.y, 0}, flat) - radius));
+      if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, sets, member));
     }
-    if (!(in.setback > 0)) out.setback_overshoot = 0;
+    if (out.setback_overshoot < kRounding) out.setback_overshoot = 0;
     out.fsi = out.floor_area / out.area;
     out.gsi = out.footprint / out.area;
     if (out.fsi > 0) out.osr = (1 - out.gsi) / out.fsi;
@@ -152,8 +174,9 @@ struct Plot {
     out.floor_overshoot = std::max(0.0, out.floor_area - in.fsi_max * out.area);
     out.footprint_overshoot = std::max(0.0, out.footprint - in.gsi_max * out.area);
     out.height_overshoot = std::max(0.0, out.top - in.height_max);
-    out.overshoot = std::max({share(out.floor_overshoot, in.fsi_max * out.area),
-                              share(out.footprint_overshoot, in.gsi_max * out.area), share(out.height_overshoot, in.height_max)});
+    out.overshoot =
+        std::max({share(out.floor_overshoot, in.fsi_max * out.area), share(out.footprint_overshoot, in.gsi_max * out.area),
+                  share(out.height_overshoot, in.height_max), share(out.setback_overshoot, in.setback)});
     return out;
   }
 };

@@ -11,6 +11,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/standing_tick.h"
+#include "core/traffic/street_line.h"
 
 namespace bl {
 namespace {
@@ -20,7 +21,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180;  // [rad]
 struct StandingSolver {
   struct In {
     Selection members{{}, "footprint", {}}, boundary{{}, "boundary", {}};
-    double tolerance = 0.005;
+    Selection streets{{}, "street", {}}, junctions{{}, "junction", {}};
+    double tolerance = 0.005, street_reach = 15;
     int steps = 8;
   };
   struct Member {
@@ -29,17 +31,28 @@ struct StandingSolver {
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0;
     std::string form;
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
+    double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0;
-    bool has_party_walls = true, was_limited = false;
+    bool has_party_walls = true, has_border_walls = false, was_limited = false;
     std::vector<std::string> bases;
   };
   struct Plot {
     std::string id;
     std::shared_ptr<const geometry::Domain> domain;
   };
+  struct Street {
+    Selection start, end;
+    std::vector<Point3> course;
+  };
+  struct Junction {
+    std::string id;
+    Point3 position;
+  };
   struct Sets {
     Watched<Member> members;
     std::vector<Plot> plots;
+    std::vector<Street> streets;
+    std::vector<Junction> junctions;
   };
   struct Reply {
     double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
@@ -75,6 +88,15 @@ struct StandingSolver {
         "takes a storey away, the footprint grows. Those that stand on the roof of another divide that roof among themselves.");
     t.in(&In::members, "members").doc("The volumes with footprints that this solver takes care of.");
     t.in(&In::boundary, "boundary").doc("The boundary whose ground is divided. The selection must give exactly one node.");
+    t.in(&In::streets, "streets").doc("The streets along which sides of the boundary have distances and set-backs of their own.");
+    t.in(&In::junctions, "junctions").doc("The junctions of these streets.");
+    t.in(&In::street_reach, "street_reach")
+        .unit(Unit::metre)
+        .range(0, 1000)
+        .soft(3, 40)
+        .doc(
+            "A side of the boundary is along a street where its middle lies within this distance of the street's axis, and both "
+            "have the same direction within 30°.");
     t.in(&In::steps, "steps").range(1, 60).soft(1, 20).doc("Steps of Newton's method in one tick, at most.");
     t.in(&In::tolerance, "tolerance")
         .unit(Unit::ratio)
@@ -101,6 +123,11 @@ struct StandingSolver {
   }
 
   static void declare_sets(TypificationBuilder<StandingSolver>& t) {
+    t.set("streets", &Sets::streets)
+        .reads(&Street::start, "street.start")
+        .reads(&Street::end, "street.end")
+        .reads(&Street::course, "street.course", Unit::metre);
+    t.set("junctions", &Sets::junctions).reads(&Junction::id, "node.id").reads(&Junction::position, "node.position", Unit::metre);
     t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::domain, "boundary.domain");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
@@ -110,6 +137,10 @@ struct StandingSolver {
     set.reads(&Member::form, "footprint.form").reads(&Member::angle, "footprint.angle", Unit::degree);
     set.reads(&Member::aspect, "footprint.aspect").reads(&Member::height_limit, "footprint.height_limit");
     set.reads(&Member::setback, "footprint.setback").reads(&Member::depth, "footprint.depth");
+    set.reads(&Member::courtyard_setback, "footprint.courtyard_setback").reads(&Member::wing_depth, "footprint.wing_depth");
+    set.reads(&Member::border_distance, "footprint.border_distance");
+    set.reads(&Member::street_distance, "footprint.street_distance");
+    set.reads(&Member::has_border_walls, "footprint.border_walls");
     set.reads(&Member::storeys, "footprint.storeys").reads(&Member::storeys_min, "footprint.storeys_min");
     set.reads(&Member::full_storeys, "footprint.full_storeys").reads(&Member::has_party_walls, "footprint.party_walls");
     set.reads(&Member::bases, "footprint.bases").reads(&Member::ground, "footprint.ground", Unit::metre);
@@ -143,7 +174,11 @@ struct StandingSolver {
                  .runs = {},
                  .storey_height = m.storey_height,
                  .depth = m.depth,
-                 .has_party_walls = m.has_party_walls};
+                 .has_party_walls = m.has_party_walls,
+                 .has_border_walls = m.has_border_walls,
+                 .border_distance = m.border_distance,
+                 .street_distance = m.street_distance,
+                 .wing_depth = m.wing_depth};
     wish.volume = std::max(std::min(m.demand, m.limit), m.least);
     wish.storeys = m.storeys;
     wish.least = m.storeys_min;
@@ -151,6 +186,7 @@ struct StandingSolver {
     wish.built = m.built;
     wish.was_limited = m.was_limited;
     wish.setback = m.setback;
+    wish.courtyard_setback = m.courtyard_setback;
     wish.full_storeys = m.full_storeys;
     wish.ground = m.ground;
     return wish;
@@ -167,8 +203,8 @@ struct StandingSolver {
     if (result.floor_area > 0) return "";
     if (wish.base >= 0)
       return "has no footprint: `" + names[static_cast<std::size_t>(wish.base)] +
-             "`, on which it stands, its neighbours and its " + "set-back leave it no roof where it stands";
-    return "has no footprint: its neighbours, its set-back and the plot leave it nothing where it stands";
+             "`, on which it stands, its neighbours and its " + "set-backs leave it no roof where it stands";
+    return "has no footprint: its neighbours, its set-backs and the plot leave it nothing where it stands";
   }
 
   static Reply reply_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
@@ -266,6 +302,26 @@ struct StandingSolver {
     out.mean_storeys = out.covered > 0 ? out.total_floor_area / out.covered : 0;
   }
 
+  // Of the streets between two junctions; none where no member tells sides along streets from others.
+  static std::vector<geometry::StreetAxis> streets_of(const In& in, const Sets& sets) {
+    std::vector<geometry::StreetAxis> axes;
+    const bool is_asked = std::ranges::any_of(sets.members.all, [](const Member& m) {
+      return m.border_distance != m.street_distance || (m.has_border_walls && (m.setback > 0 || m.wing_depth < m.depth));
+    });
+    if (!is_asked) return axes;
+    const auto place = [&sets](const Selection& end) -> const Point3* {
+      if (end.ids.size() != 1) return nullptr;
+      const auto found = std::ranges::lower_bound(sets.junctions, end.ids.front(), {}, &Junction::id);
+      return found == sets.junctions.end() || found->id != end.ids.front() ? nullptr : &found->position;
+    };
+    for (const Street& street : sets.streets) {
+      const Point3 *start = place(street.start), *end = place(street.end);
+      if (start != nullptr && end != nullptr)
+        axes.push_back({traffic::street_line(*start, street.course, *end), in.street_reach});
+    }
+    return axes;
+  }
+
   static Result<const geometry::Domain*> domain_of(const std::vector<Plot>& plots) {
     if (plots.size() == 1 && plots.front().domain) return plots.front().domain.get();
     if (plots.size() == 1)
@@ -289,7 +345,9 @@ struct StandingSolver {
       kept.wishes.push_back(wish_of(member));
     }
     std::string words = find_bases(sets.members.all, kept);
-    const geometry::StandingTick now{.steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .pool = tick.pool};
+    const std::vector<geometry::StreetAxis> streets = streets_of(in, sets);
+    const geometry::StandingTick now{
+        .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
     if (!done) return Error{done.error().code, "members", done.error().message};
     std::vector<std::uint32_t>& answered = out.replies.members;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kGrain = 64;  // sites that one thread measures at a time
 
+bool is_distance(double metres) { return metres >= 0 && std::isfinite(metres); }
+
 Result<void> check(std::span<const StandingSite> sites) {
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const StandingSite& s = sites[i];
@@ -27,9 +29,12 @@ Result<void> check(std::span<const StandingSite> sites) {
     if (!std::isfinite(s.angle)) return wrong("the angle of its block is not a number");
     if (!(s.storey_height > 0) || !std::isfinite(s.storey_height)) return wrong("its storey height is not above 0");
     if (!(s.depth > 0)) return wrong("its depth is not above 0");
+    if (!(s.wing_depth > 0)) return wrong("the depth of its wings is not above 0");
+    if (!is_distance(s.border_distance) || !is_distance(s.street_distance))
+      return wrong("a distance from the border of the plot is below 0 or no number");
     for (const StoreyRun& run : s.runs) {
       if (run.storeys < 1 || run.storeys > kMostStoreys) return wrong("a run of its storeys is not between 1 and 10 000");
-      if (!(run.setback >= 0) || !std::isfinite(run.setback)) return wrong("a set-back is below 0 or no number");
+      if (!is_distance(run.setback) || !is_distance(run.courtyard)) return wrong("a set-back is below 0 or no number");
     }
   }
   return {};
@@ -42,12 +47,13 @@ FootprintDiagram::~FootprintDiagram() = default;
 FootprintDiagram::FootprintDiagram(FootprintDiagram&&) noexcept = default;
 FootprintDiagram& FootprintDiagram::operator=(FootprintDiagram&&) noexcept = default;
 
-Result<void> FootprintDiagram::set_domain(const Domain& domain) {
-  if (workshop_->has_plot && workshop_->domain == domain) return {};
-  auto plot = PlanPlot::section(domain);
+Result<void> FootprintDiagram::set_domain(const Domain& domain, std::span<const StreetAxis> streets) {
+  if (workshop_->has_plot && workshop_->domain == domain && std::ranges::equal(workshop_->streets, streets)) return {};
+  auto plot = PlanPlot::section(domain, streets);
   if (!plot) return plot.error();
   *workshop_ = Workshop();
   workshop_->domain = domain;
+  workshop_->streets.assign(streets.begin(), streets.end());
   workshop_->plot = std::move(*plot);
   workshop_->has_plot = true;
   return {};
@@ -64,8 +70,8 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   if (w.made.empty() && !sites.empty()) return std::span<const FootprintMeasure>(w.measures);
   for (const std::uint32_t i : w.made)
     for (const StoreyRun& run : sites[i].runs) {
-      w.plot.eroded(outer_offset(sites[i], run).own);
-      if (std::isfinite(sites[i].depth)) w.plot.eroded(courtyard_offset(sites[i], run).own);
+      w.plot.eroded(outer_offset(sites[i], run).plot);
+      if (std::isfinite(sites[i].depth)) w.plot.eroded(courtyard_offset(sites[i], run).plot);
     }
   w.sites.assign(sites.begin(), sites.end());
   w.measures.resize(sites.size());

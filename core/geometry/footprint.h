@@ -23,23 +23,29 @@ enum class FootprintForm : std::uint8_t {
 /// Storeys with the same set-back, one upon another.
 struct StoreyRun {
   int storeys = 1;
-  double setback = 0;  ///< how far their plates lie inside the footprint [m]
+  double setback = 0;    ///< how far their plates lie inside the footprint [m]
+  double courtyard = 0;  ///< how far they lie behind the edge that a constant depth would give their courtyard [m]
   bool operator==(const StoreyRun&) const = default;
 };
 
 /// A volume that stands. Its plates are the footprint K eroded by their set-back, less K eroded by set-back and depth: the
-/// courtyard that light needs. The erosion of an intersection is the intersection of the erosions, hence all of it is exact.
+/// courtyard that light needs. The erosion of an intersection is the intersection of the erosions, hence all of it is exact, and
+/// each kind of side may have a distance of its own.
 struct StandingSite {
   static constexpr double kAnyDepth = std::numeric_limits<double>::infinity();
 
   PowerSite site;  ///< the weight in plan [m²]; z is the height of the ground [m]
   FootprintForm form = FootprintForm::round;
-  double angle = 0;              ///< of a block's first side, from the x axis [rad]
-  double aspect = 1;             ///< of a block: first side / second side
-  std::vector<StoreyRun> runs;   ///< from the ground up
-  double storey_height = 3;      ///< [m]
-  double depth = kAnyDepth;      ///< the greatest depth of the building between façade and courtyard [m]
-  bool has_party_walls = false;  ///< plates touch those of neighbours: set-backs do not hold towards them
+  double angle = 0;               ///< of a block's first side, from the x axis [rad]
+  double aspect = 1;              ///< of a block: first side / second side
+  std::vector<StoreyRun> runs;    ///< from the ground up
+  double storey_height = 3;       ///< [m]
+  double depth = kAnyDepth;       ///< the greatest depth of the building between façade and courtyard [m]
+  bool has_party_walls = false;   ///< plates touch those of neighbours: set-backs do not hold towards them
+  bool has_border_walls = false;  ///< nor towards the border of the plot where that is no street
+  double border_distance = 0;     ///< of all plates from the border of the plot, but for sides along streets [m]
+  double street_distance = 0;     ///< of all plates from sides of the plot along streets [m]
+  double wing_depth = kAnyDepth;  ///< the greatest depth along walls that touch neighbours or the border, if below `depth` [m]
   bool operator==(const StandingSite&) const = default;
 
   int storeys() const;
@@ -63,6 +69,14 @@ struct FootprintMeasure {
   std::vector<Neighbour> neighbours;  ///< in ascending number of the site
 };
 
+/// The axis of a street. A side of the plot's border is along it where the middle of that side lies within `reach` of the axis,
+/// and both run in the same direction within 30 degrees.
+struct StreetAxis {
+  std::vector<Point3> points;  ///< [m]; their heights are ignored
+  double reach = 0;            ///< [m]
+  bool operator==(const StreetAxis&) const = default;
+};
+
 /// The footprints of all sites on one plot, with memory kept between calls: where few sites have changed, only those that can be
 /// touched are measured anew, with the same bits.
 class FootprintDiagram {
@@ -73,7 +87,7 @@ class FootprintDiagram {
   FootprintDiagram& operator=(FootprintDiagram&&) noexcept;
 
   /// The plot is the horizontal section of the domain a little above its bottom. Fails where nothing is left of it.
-  Result<void> set_domain(const Domain& domain);
+  Result<void> set_domain(const Domain& domain, std::span<const StreetAxis> streets = {});
   double plot_area() const;  ///< [m²]
   /// Valid until the next call. Fails on input that is not finite or absurd.
   Result<std::span<const FootprintMeasure>> update(std::span<const StandingSite> sites, ThreadPool* pool = nullptr);

@@ -9,6 +9,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
+#include "core/geometry/inside/footprint_maker.h"
 #include "core/geometry/inside/row_system.h"
 
 namespace bl::geometry {
@@ -184,7 +185,10 @@ class Fit {
   double heavier(std::uint32_t i, int round) const {
     const StandingSite& own = sites_[i];
     double deepest = 0;
-    for (const StoreyRun& run : own.runs) deepest = std::max(deepest, run.setback);
+    for (const StoreyRun& run : own.runs) {
+      const PlateOffset offset = outer_offset(own, run);
+      deepest = std::max({deepest, offset.own, offset.plot.border, offset.plot.street});
+    }
     double weight = 1.5 * std::max(own.site.weight, deepest * deepest);
     // So heavy that the site lies in its own cell, the more so the longer that was not enough.
     const double share = 0.9 - 0.1 * std::min(round, 8);

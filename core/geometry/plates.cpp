@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/mathematics.h"
@@ -59,6 +60,7 @@ void add_curves(const PlanPolygon& part, double radius, std::vector<Curve>& curv
     const Curve& side = sides[k];
     const Curve& next = sides[(k + 1) % sides.size()];
     if (side.beyond != PlanSide::kInner) curves.push_back(side);
+    if (side.beyond == PlanSide::kStreet) curves.back().beyond = PlanSide::kPlot;
     if (!is_same(side.to, next.from)) curves.push_back({side.to, next.from, PlateRing::kFree, true});
   }
 }
@@ -204,6 +206,25 @@ std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, d
     if (around != nullptr) around->holes.push_back(std::move(hole));
   }
   return faces;
+}
+
+double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance) {
+  double least = std::numeric_limits<double>::infinity();
+  if (body.stacks.empty()) return least;
+  // From each corner to the nearest place on the other line; what is on the wrong side of it counts below 0.
+  const auto take = [&least](const Point3& corner, std::span<const Point3> line, bool is_inside) {
+    const Point3 flat{corner.x, corner.y, 0}, nearest = nearest_on_ring(line, flat);
+    const double away = distance({nearest.x, nearest.y, 0}, flat);
+    least = std::min(least, ring_contains(line, flat) == is_inside ? away : -away);
+  };
+  for (const PlateRing& outline : body.stacks.front().outlines) {
+    const Ring line = chords_of(outline, body.centre, tolerance);
+    if (line.size() < 3) continue;
+    for (const Point3& corner : line) take(corner, border, true);
+    if (signed_area(line) > 0)
+      for (const Point3& corner : border) take(corner, line, false);
+  }
+  return least;
 }
 
 Mesh mesh_of(const StandingBody& body, double tolerance) {

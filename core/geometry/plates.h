@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -58,6 +59,9 @@ std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, d
 Ring chords_of(const PlateRing& ring, const Point3& centre, double tolerance);
 /// One closed prism for each part of a plate of each stack.
 Mesh mesh_of(const StandingBody& body, double tolerance);
+/// How far its footprint stays inside a border [m], with arcs as chords within `tolerance`; negative where it reaches out of it,
+/// by so much. Infinity without plates.
+double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance);
 /// Length of a ring's sides that border on a site (`beyond` from 0 on), on the plot or on nothing [m].
 double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyond);
 

@@ -15,10 +15,11 @@ namespace {
 constexpr double kChordTolerance = 0.02;  // of meshes that are looked at [m]
 
 std::vector<StoreyRun> runs_of(const StandingWish& wish, int storeys) {
-  const int full = wish.setback > 0 ? std::clamp(wish.full_storeys, 0, storeys) : storeys;
+  const bool has_setback = wish.setback > 0 || wish.courtyard_setback > 0;
+  const int full = has_setback ? std::clamp(wish.full_storeys, 0, storeys) : storeys;
   std::vector<StoreyRun> runs;
-  if (full > 0) runs.push_back({full, 0});
-  if (storeys > full) runs.push_back({storeys - full, wish.setback});
+  if (full > 0) runs.push_back({.storeys = full});
+  if (storeys > full) runs.push_back({storeys - full, wish.setback, wish.courtyard_setback});
   return runs;
 }
 
@@ -98,6 +99,11 @@ std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const S
   std::vector<StandingSite> sites;
   for (const std::uint32_t i : level.members) {
     StandingSite& site = sites.emplace_back(wishes[i].site);
+    // The edge of a roof is no border of the plot.
+    if (level.base >= 0) {
+      site.border_distance = site.street_distance = 0;
+      site.has_border_walls = false;
+    }
     site.site.position.z = level.base < 0 ? floor_of(wishes[i], bottom, highest) : bottom;
     site.runs = runs_of(wishes[i], storeys_of(wishes[i], highest - site.site.position.z).count);
   }
@@ -187,7 +193,8 @@ double floor_of(const StandingWish& wish, double underside, double top) {
 Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level,
                                      Cache& kept, Outcome& outcome) const {
   const bool is_roof = level.base >= 0;
-  if (auto set = level.diagram.set_domain(is_roof ? level.domain : ground); !set) return set.error();
+  const auto set = is_roof ? level.diagram.set_domain(level.domain) : level.diagram.set_domain(ground, streets);
+  if (!set) return set.error();
   std::vector<StandingSite> sites = sites_of(wishes, level, bottom, ground.maximum.z);
   std::vector<FloorDemand> demands;
   for (std::uint32_t k = 0; k < sites.size(); ++k) {

@@ -17,13 +17,14 @@ namespace bl::geometry {
 struct StandingWish {
   static constexpr std::int32_t kGround = -1;
 
-  StandingSite site;           ///< without runs; its position's height does not count
-  double volume = 0;           ///< [m³]; over the storey height it is a floor area
-  int storeys = 1, least = 1;  ///< wished, and insisted on
-  double height_limit = 1e9;   ///< [m] above its lowest floor
-  int built = 0;               ///< storeys of the last tick; 0: none yet
-  bool was_limited = false;    ///< by the height limit, in the last tick
-  double setback = 0;          ///< [m], of the storeys above the first `full_storeys`
+  StandingSite site;             ///< without runs; its position's height does not count
+  double volume = 0;             ///< [m³]; over the storey height it is a floor area
+  int storeys = 1, least = 1;    ///< wished, and insisted on
+  double height_limit = 1e9;     ///< [m] above its lowest floor
+  int built = 0;                 ///< storeys of the last tick; 0: none yet
+  bool was_limited = false;      ///< by the height limit, in the last tick
+  double setback = 0;            ///< [m], of the storeys above the first `full_storeys`
+  double courtyard_setback = 0;  ///< [m], of the same storeys behind the edge that a constant depth would give the courtyard
   int full_storeys = 0;
   double ground = -1e4;         ///< height of the ground where it stands, unless that is a roof [m]
   std::int32_t base = kGround;  ///< the wish on whose roof it stands
@@ -67,6 +68,7 @@ struct StandingTick {
 
   int steps = 4;  ///< at most so many steps; 0: the plates of the present weights
   double tolerance = 0.005;
+  std::span<const StreetAxis> streets = {};  ///< sides of the ground along them have distances of their own
   ThreadPool* pool = nullptr;
 
   /// Those who stand on the ground, or on one roof.

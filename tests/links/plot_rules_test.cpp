@@ -233,5 +233,46 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
   EXPECT_LT(world.number("block", "smart_volume.footprint"), 700);
 }
 
+// One volume near the border on each side of the plot; the street along the south has a distance of its own only by hand.
+TEST(PlotRules, VolumesThatStandKeepTheSetback) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40},
+                             "plot": {"polygon": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "setback": 4}}},
+    {"id": "solver", "types": {"standing_solver": {"tolerance": 1e-6}}},
+    {"id": "west", "position": [-6, -4, 0], "types": {"junction": {}}},
+    {"id": "east", "position": [66, -4, 0], "types": {"junction": {}}},
+    {"id": "road", "types": {"street": {"start": ["west"], "end": ["east"]}}},
+    {"id": "a", "position": [10, 10, 0], "types": {"smart_volume": {"demand": 3000, "storey_height": 3},
+                                                   "footprint": {"storeys": 2, "form": "cell"}}},
+    {"id": "b", "position": [50, 30, 0], "types": {"smart_volume": {"demand": 3000, "storey_height": 3},
+                                                   "footprint": {"storeys": 2, "form": "round"}}}],
+    "links": []})");
+  ASSERT_TRUE(world.settle(100));
+  EXPECT_NEAR(world.number("site", "plot.setback_overshoot"), 4, 1e-6) << "the cell reaches the border";
+  EXPECT_NEAR(world.number("site", "plot.overshoot"), 1, 1e-6);
+  const std::string rules = R"({"kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}})";
+  ASSERT_EQ(world.submit(command<AddLink>({"rules", {rules}})), "");
+  world.tick(5);
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_EQ(world.number("site", "plot.setback_overshoot"), 0);
+  EXPECT_EQ(world.number("a", "footprint.border_distance"), 4);
+  const double round = world.number("b", "smart_volume.footprint");
+  EXPECT_NEAR(round, 500, 0.01);
+  EXPECT_NEAR(world.number("a", "smart_volume.footprint") + round, 500 + 500, 0.02);
+  // Along the street people want more: the cell moves its southern side, and still has what it wants.
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "a", .port = {"footprint.street_distance"}, .value = {"7"}})), "");
+  world.tick(5);
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_NEAR(world.number("a", "smart_volume.footprint"), 500, 0.01);
+  const auto corners = *world.table("a", "footprint.plates").numbers(0, "corners");
+  double south = 1e9, west = 1e9;
+  for (std::size_t k = 0; k < corners.size(); k += 4) {
+    west = std::min(west, corners[k]);
+    south = std::min(south, corners[k + 1]);
+  }
+  EXPECT_NEAR(south, 7, 1e-6);
+  EXPECT_NEAR(west, 4, 1e-6);
+}
+
 }  // namespace
 }  // namespace bl

@@ -123,7 +123,9 @@ def stretch(lines, x):
 
 
 def strip_area(polygon, radius, rings, setback):
-    """Area of what a convex polygon, a disc about the origin (None: none) and rings (None: none), eroded by a set-back, share."""
+    """Area of what a convex polygon, a disc about the origin (None: none) and rings (None: none), eroded by a set-back, share.
+    The set-back is a number, or a function of the two ends of a side."""
+    distance = setback if callable(setback) else lambda a, b: setback
     if not polygon:
         return 0.0
     low, high = min(p[0] for p in polygon), max(p[0] for p in polygon)
@@ -142,22 +144,23 @@ def strip_area(polygon, radius, rings, setback):
         for a, b in sides_of(ring):
             if a[0] != b[0]:
                 border.append(Line(a, b))
-            if max(a[0], b[0]) < low - setback or min(a[0], b[0]) > high + setback:
+            back = distance(a, b)
+            if max(a[0], b[0]) < low - back or min(a[0], b[0]) > high + back:
                 continue
-            if max(a[1], b[1]) < bottom - setback or min(a[1], b[1]) > top + setback:
+            if max(a[1], b[1]) < bottom - back or min(a[1], b[1]) > top + back:
                 continue
             shapes.append(("side", a, b))
-            if setback == 0:
+            if back == 0:
                 continue
             length = math.hypot(b[0] - a[0], b[1] - a[1])
-            nx, ny = setback * (b[1] - a[1]) / length, setback * (a[0] - b[0]) / length
+            nx, ny = back * (b[1] - a[1]) / length, back * (a[0] - b[0]) / length
             box = [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)]
             blocked.append(lines_of(box))
             shapes += [("side", p, q) for p, q in sides_of(box)]
             for corner in (a, b):
-                if ("circle", corner, setback) not in shapes:
-                    shapes.append(("circle", corner, setback))
-                    blocked.append((Arc(corner, setback, -1), Arc(corner, setback, 1)))
+                if ("circle", corner, back) not in shapes:
+                    shapes.append(("circle", corner, back))
+                    blocked.append((Arc(corner, back, -1), Arc(corner, back, 1)))
     cuts = {low, high}
     for shape in shapes:
         ends = (shape[1][0], shape[2][0]) if shape[0] == "side" else (shape[1][0] - shape[2], shape[1][0] + shape[2])
@@ -213,9 +216,38 @@ def strip(x0, x1, own, disc, border, blocked):
     return areas
 
 
-def rest_area(case, i, weights, offset):
-    """What is left of the footprint of site i, all of it moved in by `offset`: the area, and by which way it was found."""
+def is_along(a, b, streets):
+    """Does the side from a to b run along a street: its middle within reach, and the same direction within 30 degrees?"""
+    mx, my = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
+    ux, uy = b[0] - a[0], b[1] - a[1]
+    for street in streets:
+        for (cx, cy), (dx, dy) in zip(street["points"], street["points"][1:]):
+            vx, vy = dx - cx, dy - cy
+            if abs(ux * vx + uy * vy) < math.cos(math.radians(30)) * math.hypot(ux, uy) * math.hypot(vx, vy):
+                continue
+            t = min(1.0, max(0.0, ((mx - cx) * vx + (my - cy) * vy) / (vx * vx + vy * vy)))
+            if math.hypot(mx - cx - t * vx, my - cy - t * vy) <= street["reach"]:
+                return True
+    return False
+
+
+def moved_in(form, setback, courtyard=None):
+    """How far each kind of side moves in: the form's own, those towards neighbours, the border of the plot and streets."""
+    sides = form.get("sides", {})
+    party, fire = sides.get("party_walls", False), sides.get("border_walls", False)
+    own, wing = 0.0, 0.0
+    if courtyard is not None:
+        own = max(0.0, form["depth"] - courtyard)
+        wing = max(0.0, min(form["depth"], sides.get("wing_depth", math.inf)) - courtyard)
+    return {"own": setback + own, "neighbour": (0.0 if party else setback) + (wing if party else own),
+            "border": sides.get("border", 0.0) + (0.0 if fire else setback) + (wing if fire else own),
+            "street": sides.get("street", 0.0) + setback + own}
+
+
+def rest_area(case, i, weights, offsets):
+    """What is left of the footprint of site i with its sides moved in by `offsets`: the area, and by which way it was found."""
     form, (px, py, _) = case["form"], case["sites"][i]
+    offset, streets = offsets["own"], form.get("sides", {}).get("streets", [])
     own = weights[i]
     rings = [[(x - px, y - py) for x, y in ring] for ring in [case["boundary"]["plan"]] + case["boundary"]["holes"]]
     radius = None
@@ -240,15 +272,18 @@ def rest_area(case, i, weights, offset):
             continue
         dx, dy = qx - px, qy - py
         d = math.hypot(dx, dy)
-        polygon = clipped(polygon, (dx / d, dy / d), (d * d + own - weights[j]) / (2 * d) - offset)
+        polygon = clipped(polygon, (dx / d, dy / d), (d * d + own - weights[j]) / (2 * d) - offsets["neighbour"])
         if not polygon:
             return 0.0, True
-    if not case["convex"]:
-        return strip_area(polygon, radius, rings, offset), False
+    at = lambda a, b: offsets["street" if is_along((a[0] + px, a[1] + py), (b[0] + px, b[1] + py), streets) else "border"]
+    backs = {at(a, b) for ring in rings for a, b in sides_of(ring)}
+    if not case["convex"] or len(backs) > 1:
+        return strip_area(polygon, radius, rings, at), False
+    back = backs.pop()
     for (ax, ay), (bx, by) in sides_of(rings[0]):
         length = math.hypot(bx - ax, by - ay)
         nx, ny = (by - ay) / length, (ax - bx) / length
-        polygon = clipped(polygon, (nx, ny), nx * ax + ny * ay - offset)
+        polygon = clipped(polygon, (nx, ny), nx * ax + ny * ay - back)
     if radius is None:
         return polygon_area(polygon), True
     return strip_area(polygon, radius, None, 0.0), False
@@ -260,13 +295,15 @@ def plates(case, i, weights):
     for storey in range(form["storeys"][i]):
         setbacks = form["setbacks"]
         setback = setbacks[min(storey, len(setbacks) - 1)] if setbacks else 0.0
-        if setback not in kept:
-            area, is_straight = rest_area(case, i, weights, setback)
+        courtyards = form.get("sides", {}).get("courtyards") or [0.0]
+        courtyard = courtyards[min(storey, len(courtyards) - 1)]
+        if (setback, courtyard) not in kept:
+            area, is_straight = rest_area(case, i, weights, moved_in(form, setback))
             straight &= is_straight
             if form["depth"] is not None and area > 0:
-                court, is_straight = rest_area(case, i, weights, setback + form["depth"])
+                court, is_straight = rest_area(case, i, weights, moved_in(form, setback, courtyard))
                 area -= court
                 straight &= is_straight
-            kept[setback] = area
-        areas.append(kept[setback])
+            kept[setback, courtyard] = area
+        areas.append(kept[setback, courtyard])
     return areas, straight

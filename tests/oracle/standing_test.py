@@ -67,6 +67,19 @@ def inside(rings, x, y):
     return odd
 
 
+def random_sides(rng, rings):
+    """What holds at each kind of side; streets run beside some sides of the plot, not quite in their direction."""
+    sides = {"party_walls": rng.random() < 0.5, "border_walls": rng.random() < 0.5,
+             "border": rng.choice([0, 0, 1, 2.5]), "street": rng.choice([0, 0, 1.5, 4]), "courtyards": rng.choice([[], [0, 1], [2]])}
+    if rng.random() < 0.5:
+        sides["wing_depth"] = rng.choice([3, 6, 50])
+    if rng.random() < 0.7:
+        beside = rng.sample(own.sides_of(rings[0]), rng.randint(1, 3))
+        sides["streets"] = [{"points": [[ax, ay], [bx + rng.uniform(-5, 5), by + rng.uniform(-5, 5)]], "reach": 6}
+                            for (ax, ay), (bx, by) in beside]
+    return sides
+
+
 def random_case(rng):
     size = rng.uniform(50, 160)
     rings, is_convex = plot(rng, size)
@@ -82,6 +95,8 @@ def random_case(rng):
             "aspect": rng.choice([1, rng.uniform(0.4, 2.5)]), "depth": rng.choice([None, None, 5, 7.5, 200])}
     if rng.random() < 0.7:
         form["setbacks"] = [rng.choice([0, 0, 1, 1.5, 2.5]) for _ in range(rng.randint(1, 4))]
+    if rng.random() < 0.5:
+        form["sides"] = random_sides(rng, rings)
     case = {"boundary": {"plan": rings[0], "holes": rings[1:], "bottom": 0, "top": 60}, "sites": sites, "form": form,
             "convex": is_convex}
     add_demands(case, rng)
@@ -95,7 +110,7 @@ def add_demands(case, rng):
     cover = rng.choice([0.1, 0.25, 0.4, 0.5, 0.6])
     shares = [rng.uniform(1, 6) for _ in range(count)]
     floors = [share / sum(shares) * cover * area * n for share, n in zip(shares, form["storeys"])]
-    if form["setbacks"] or form["depth"]:
+    if form["setbacks"] or form["depth"] or "sides" in form:
         floors = [0.7 * floor for floor in floors]
     if form["kind"] == "cell":
         # Cells share all of the plot, so that few demands can be met: those that some weights give.

@@ -18,6 +18,7 @@ struct SiteCase {
   BoundaryReading boundary;
   geometry::FitProblem problem;                  ///< without demands where only cells are wanted
   std::vector<geometry::StandingSite> standing;  ///< one for each site where the volumes stand; empty: they are balls
+  std::vector<geometry::StreetAxis> streets;     ///< sides of the plot along them have distances of their own
   std::vector<std::string> names;                ///< names of the sites; empty: they have numbers only
   std::vector<std::string> notes;                ///< what may surprise, one sentence each, with its place
 };

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "ui/cli/json_fields.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/standing_sides.h"
 
 namespace bl::cli {
 
@@ -65,45 +66,21 @@ Result<std::vector<int>> storeys_at(const Json& form, std::size_t sites, const s
   return storeys;
 }
 
-Result<std::vector<double>> setbacks_at(const Json& form, const std::string& place) {
-  std::vector<double> setbacks;
-  if (!form.contains("setbacks")) return setbacks;
-  const auto list = list_at(form, "setbacks", place);
-  if (!list) return list.error();
-  for (std::size_t k = 0; k < (*list)->size(); ++k) {
-    const std::string here = slash(slash(place, "setbacks"), k);
-    const auto number = number_at((**list)[k], here);
-    if (!number) return number.error();
-    if (*number < 0 || *number > geometry::kLargestCoordinate)
-      return Error{ErrorCode::out_of_range, here, "a set-back is 0 or more, in m, found " + excerpt((**list)[k])};
-    setbacks.push_back(*number);
-  }
-  return setbacks;
-}
-
-// Storeys from the ground up as runs of the same set-back; the last set-back holds on.
-std::vector<geometry::StoreyRun> runs_of(int storeys, const std::vector<double>& setbacks) {
-  std::vector<geometry::StoreyRun> runs;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(storeys); ++k) {
-    const double setback = setbacks.empty() ? 0 : setbacks[std::min(k, setbacks.size() - 1)];
-    if (!runs.empty() && runs.back().setback == setback) ++runs.back().storeys;
-    else runs.push_back({1, setback});
-  }
-  return runs;
-}
-
 // What the whole plot leaves of storeys with each set-back: nobody can have more.
 Result<void> check_plot(const std::vector<double>& setbacks, double depth, const std::string& place, SiteCase& into) {
-  StandingSite whole;
+  StandingSite whole = into.standing.front();
   whole.form = FootprintForm::cell;
-  whole.site.position = into.standing.front().site.position;
+  whole.depth = StandingSite::kAnyDepth;
+  whole.runs.clear();
   for (const double setback : setbacks) whole.runs.push_back({1, setback});
   if (setbacks.empty()) whole.runs.push_back({1, 0});
   geometry::FootprintDiagram diagram;
-  if (auto set = diagram.set_domain(into.boundary.domain); !set) return set.error().within(into.place);
+  if (auto set = diagram.set_domain(into.boundary.domain, into.streets); !set) return set.error().within(into.place);
   const auto open = diagram.update(std::array{whole});
   if (!open) return open.error().within(into.place);
   const std::vector<double> plates = open->front().plates;
+  if (setbacks.empty() && !(plates.front() > 0))
+    return Error{ErrorCode::infeasible, slash(place, "sides"), "the distances from the border leave nothing of the plot"};
   for (std::size_t k = 0; k < setbacks.size(); ++k) {
     if (plates[k] > 0) continue;
     for (std::size_t i = 0; i < into.standing.size(); ++i)
@@ -129,7 +106,7 @@ Result<void> read_form(const Json& json, SiteCase& into) {
   const Json& form = json["form"];
   if (!form.is_object())
     return Error{ErrorCode::wrong_kind, place, std::string("expects ") + kFormHelp + ", found " + excerpt(form)};
-  const std::vector<std::string> known{"kind", "storeys", "storey_height", "setbacks", "depth", "angle", "aspect"};
+  const std::vector<std::string> known{"kind", "storeys", "storey_height", "setbacks", "depth", "angle", "aspect", "sides"};
   if (auto checked = check_keys(form, known, place); !checked) return checked.error();
   const auto kind = kind_at(form, place);
   if (!kind) return kind.error();
@@ -137,8 +114,11 @@ Result<void> read_form(const Json& json, SiteCase& into) {
   if (!storeys) return storeys.error();
   const auto height = length_at(form, "storey_height", 3, place);
   if (!height) return height.error();
-  const auto setbacks = setbacks_at(form, place);
+  const auto setbacks = distances_at(form, "setbacks", "a set-back", place);
   if (!setbacks) return setbacks.error();
+  auto sides = read_sides(form, place);
+  if (!sides) return sides.error();
+  into.streets = std::move(sides->streets);
   const bool has_depth = form.contains("depth") && !form["depth"].is_null();
   const auto depth = has_depth ? length_at(form, "depth", 0, place) : Result<double>(StandingSite::kAnyDepth);
   if (!depth) return depth.error();
@@ -150,12 +130,12 @@ Result<void> read_form(const Json& json, SiteCase& into) {
     return Error{ErrorCode::out_of_range, slash(place, "aspect"),
                  "must be first side / second side, from 0.001 to 1000, found " + excerpt(form["aspect"])};
   for (std::size_t i = 0; i < into.problem.sites.size(); ++i) {
-    StandingSite& site = into.standing.emplace_back();
+    StandingSite& site = into.standing.emplace_back(sides->rules);
     site.site = into.problem.sites[i];
     site.form = *kind;
     site.angle = std::fmod(*angle, 360) * std::numbers::pi / 180;
     site.aspect = *aspect;
-    site.runs = runs_of((*storeys)[i], *setbacks);
+    site.runs = runs_of((*storeys)[i], *setbacks, sides->courtyards);
     site.storey_height = *height;
     site.depth = *depth;
   }

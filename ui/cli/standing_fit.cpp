@@ -54,7 +54,7 @@ class StandingRun {
       : case_(c), how_(how), sites_(c.standing), is_unwanted_(unwanted_of(c)) {}
 
   Result<CaseFit> run() {
-    if (auto set = diagram_.set_domain(case_.boundary.domain); !set) return set.error();
+    if (auto set = diagram_.set_domain(case_.boundary.domain, case_.streets); !set) return set.error();
     std::vector<geometry::FloorDemand> floors;
     for (const geometry::VolumeDemand& demand : case_.problem.demands)
       floors.push_back({demand.sites, floor_of(demand, demand.least), floor_of(demand, demand.most)});

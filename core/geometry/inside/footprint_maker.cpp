@@ -29,12 +29,18 @@ HalfSides half_sides(const StandingSite& site) {
 }  // namespace
 
 PlateOffset outer_offset(const StandingSite& site, const StoreyRun& run) {
-  return {run.setback, site.has_party_walls ? 0 : run.setback};
+  return {run.setback,
+          site.has_party_walls ? 0 : run.setback,
+          {site.border_distance + (site.has_border_walls ? 0 : run.setback), site.street_distance + run.setback}};
 }
 
 PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run) {
   const PlateOffset outer = outer_offset(site, run);
-  return {outer.own + site.depth, outer.neighbour + site.depth};
+  const auto depth = [&](double most) { return std::max(0.0, most - run.courtyard); };
+  const double own = depth(site.depth), wing = depth(std::min(site.depth, site.wing_depth));
+  return {outer.own + own,
+          outer.neighbour + (site.has_party_walls ? wing : own),
+          {outer.plot.border + (site.has_border_walls ? wing : own), outer.plot.street + own}};
 }
 
 int StandingSite::storeys() const {
@@ -165,7 +171,7 @@ FootprintMaker::Sum FootprintMaker::measure_offset(std::uint32_t i, const PlateO
   lengths_.assign(neighbours_.size(), 0);
   const StandingSite& site = sites_[i];
   const double radius = site.form == FootprintForm::round ? std::sqrt(std::max(0.0, site.site.weight)) - offset.own : kInfinity;
-  const PlanPlot::Pieces* pieces = plot_.made(offset.own);
+  const PlanPlot::Pieces* pieces = plot_.made(offset.plot);
   if (!(radius > 0) || pieces == nullptr) return sum;
   double scale = 0;
   for (const PlanPlot::Piece& piece : *pieces) {
@@ -247,7 +253,7 @@ double FootprintMaker::measure(std::uint32_t i, FootprintMeasure& into) {
 const std::vector<PlanPolygon>& FootprintMaker::parts(std::uint32_t i, const PlateOffset& offset) {
   parts_.clear();
   find_neighbours(i);
-  const PlanPlot::Pieces* pieces = plot_.made(offset.own);
+  const PlanPlot::Pieces* pieces = plot_.made(offset.plot);
   if (pieces == nullptr) return parts_;
   for (const PlanPlot::Piece& piece : *pieces) {
     if (!cut(piece, i, offset)) continue;

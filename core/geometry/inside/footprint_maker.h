@@ -13,8 +13,9 @@ namespace bl::geometry {
 
 /// The distances by which the parts of a footprint are eroded [m].
 struct PlateOffset {
-  double own = 0;        ///< the form and the plot
-  double neighbour = 0;  ///< the sides towards other sites
+  double own = 0;        ///< the sides of the form
+  double neighbour = 0;  ///< those towards other sites
+  PlotOffset plot;       ///< those of the plot
 };
 
 /// Of the plates of a run; and of the courtyard in them, where the depth leaves one.

@@ -13,6 +13,7 @@ namespace bl::geometry {
 
 struct FootprintDiagram::Workshop {
   Domain domain;
+  std::vector<StreetAxis> streets;
   bool has_plot = false;
   PlanPlot plot;
   PlanGrid grid;

@@ -2,9 +2,12 @@
 #include "core/geometry/inside/plan_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include <clipper.hpp>
@@ -17,8 +20,10 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr double kGrid = 1e8;           // steps of the Clipper library's integers in a metre
-constexpr double kArcTolerance = 1e-4;  // about the largest distance of a chord from its arc [m]
+constexpr double kGrid = 1e8;  // steps of the Clipper library's integers in a metre
+// About the largest distance of a chord from its arc [m]: of arcs that are seen whole, so that the area is right all the same,
+// and of others.
+constexpr double kArcTolerance = 1e-4, kPartTolerance = 1e-5;
 constexpr ClipperLib::cInt kSameStep = 4;
 constexpr double kStripMargin = 1e-6;  // [m]
 // The section is taken at this share of the height: at the bottom itself planes of several pieces meet.
@@ -89,30 +94,54 @@ class PlotGrid {
   std::vector<ClipperLib::IntPoint> known_;
 };
 
-// A side of the border, with the inside on its left; `normal` points inwards.
+// A side of the border, with the inside on its left; `normal` points inwards. Nothing is built nearer than `by` to it [m].
 struct BorderSide {
   PlanPoint from, to, normal;
+  double by = 0;
 };
 
-std::vector<BorderSide> border_of(const PlanPlot::Pieces& pieces) {
+std::vector<BorderSide> border_of(const PlanPlot::Pieces& pieces, const PlotOffset& by) {
   std::vector<BorderSide> sides;
   for (const PlanPlot::Piece& piece : pieces)
     for (std::size_t k = 0; k < piece.polygon.corners.size(); ++k) {
       const PlanPolygon::Corner& a = piece.polygon.corners[k];
       const PlanPoint& b = piece.polygon.corners[(k + 1) % piece.polygon.corners.size()].at;
       const double x = b.x - a.at.x, y = b.y - a.at.y, length = std::sqrt(x * x + y * y);
-      if (a.beyond == PlanSide::kPlot && length > 0) sides.push_back({a.at, b, {-y / length, x / length}});
+      if (a.beyond != PlanSide::kInner && length > 0)
+        sides.push_back({a.at, b, {-y / length, x / length}, a.beyond == PlanSide::kStreet ? by.street : by.border});
     }
   return sides;
 }
 
-// All that lies nearer than `by` to an inner corner between the feet of its two sides. The chords of the arc cut as much away
-// from it as they add, so that the area is that of the sector.
-ClipperLib::Path fan_of(const BorderSide& before, const BorderSide& after, double by, PlotGrid& grid) {
-  const PlanPoint &n = before.normal, &m = after.normal, &at = after.from;
-  // From one normal clockwise to the other.
-  const double angle = mathematics::arc_tangent(n.y * m.x - n.x * m.y, n.x * m.x + n.y * m.y);
-  const double widest = 2 * std::sqrt(2 * kArcTolerance / by);
+// The sector of a disc about a corner, from one direction clockwise to another one.
+struct Fan {
+  PlanPoint at, from, to;
+  double by = 0;                     // [m]
+  double tolerance = kArcTolerance;  // [m]
+};
+
+// Where all sides have one distance: what is too near to an inner corner lies between the feet of its two sides, or in front of
+// one of them.
+std::optional<Fan> fan_between(const BorderSide& before, const BorderSide& after) {
+  const PlanPoint &n = before.normal, &m = after.normal;
+  // To the right of the way, by more than rounding does.
+  const bool is_inner = n.x * m.y - n.y * m.x < -1e-9;
+  return is_inner ? std::optional<Fan>({after.from, n, m, before.by, kArcTolerance}) : std::nullopt;
+}
+
+// Both ends of a side. Where distances differ, what is too near to one may lie behind another side.
+std::array<Fan, 2> ends_of(const BorderSide& side) {
+  const PlanPoint &n = side.normal, opposite{-n.x, -n.y};
+  return {Fan{side.from, opposite, n, side.by, kPartTolerance}, Fan{side.to, n, opposite, side.by, kPartTolerance}};
+}
+
+// With chords in place of its arc that cut as much away as they add, so that the area is that of the sector.
+ClipperLib::Path path_of(const Fan& fan, PlotGrid& grid) {
+  const PlanPoint &n = fan.from, &m = fan.to, &at = fan.at;
+  const double by = fan.by;
+  double angle = mathematics::arc_tangent(n.y * m.x - n.x * m.y, n.x * m.x + n.y * m.y);
+  if (angle < 0) angle += 2 * std::numbers::pi;
+  const double widest = 2 * std::sqrt(2 * fan.tolerance / by);
   const int count = std::clamp(static_cast<int>(std::ceil(angle / widest)), 3, 4096);
   const double step = angle / count, inner = count - 2.0;
   const double radius = by * (std::sqrt(1 + inner * angle / mathematics::sine(step)) - 1) / inner;
@@ -123,6 +152,33 @@ ClipperLib::Path fan_of(const BorderSide& before, const BorderSide& after, doubl
   }
   path.push_back(grid.exactly({at.x + by * m.x, at.y + by * m.y}));
   return path;
+}
+
+// What is in front of a side, and where distances differ as far behind it. Longer and wider by next to nothing, so that strips,
+// sectors and the border have no sides in common.
+ClipperLib::Path strip_of(const BorderSide& side, bool is_behind, const PlotGrid& grid) {
+  const PlanPoint& n = side.normal;
+  const double by = side.by, behind = is_behind ? by : kStripMargin;
+  const PlanPoint a{side.from.x - kStripMargin * n.y, side.from.y + kStripMargin * n.x},
+      b{side.to.x + kStripMargin * n.y, side.to.y - kStripMargin * n.x};
+  return {grid.exactly({a.x - behind * n.x, a.y - behind * n.y}), grid.exactly({b.x - behind * n.x, b.y - behind * n.y}),
+          grid.exactly({b.x + by * n.x, b.y + by * n.y}), grid.exactly({a.x + by * n.x, a.y + by * n.y})};
+}
+
+// Does a side of the border run along one of the streets?
+bool is_along(const PlanPoint& from, const PlanPoint& to, std::span<const StreetAxis> streets) {
+  constexpr double kCosine = 0.86602540378443865;  // of 30 degrees
+  const Point3 middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y), 0};
+  const double x = to.x - from.x, y = to.y - from.y, length = std::sqrt(x * x + y * y);
+  for (const StreetAxis& street : streets)
+    for (std::size_t k = 0; k + 1 < street.points.size(); ++k) {
+      const Point3 a{street.points[k].x, street.points[k].y, 0}, b{street.points[k + 1].x, street.points[k + 1].y, 0};
+      const double way = distance(a, b);
+      if (!(way > 0) || std::abs((b.x - a.x) * x + (b.y - a.y) * y) < kCosine * way * length) continue;
+      const double t = std::clamp(((middle.x - a.x) * (b.x - a.x) + (middle.y - a.y) * (b.y - a.y)) / (way * way), 0.0, 1.0);
+      if (distance(middle, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0}) <= street.reach) return true;
+    }
+  return false;
 }
 
 // Convex pieces of rings; where these are not simple, triangles.
@@ -175,7 +231,7 @@ void add_pieces(const ClipperLib::PolyNode& outer, const PlotGrid& grid, PlanPlo
 
 }  // namespace
 
-Result<PlanPlot> PlanPlot::section(const Domain& domain) {
+Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetAxis> streets) {
   PlanPlot plot;
   const double z = domain.minimum.z + kSectionShare * (domain.maximum.z - domain.minimum.z);
   for (const Domain::Piece& piece : domain.pieces) {
@@ -183,6 +239,7 @@ Result<PlanPlot> PlanPlot::section(const Domain& domain) {
     const double area = polygon.is_empty() ? 0 : area_of(polygon);
     if (!(area > 0)) continue;
     plot.area_ += area;
+    plot.mark_sides(polygon, streets);
     plot.pieces_.push_back(piece_of(std::move(polygon)));
   }
   if (plot.pieces_.empty())
@@ -196,15 +253,31 @@ Result<PlanPlot> PlanPlot::section(const Domain& domain) {
   return plot;
 }
 
-const PlanPlot::Pieces& PlanPlot::eroded(double by) {
-  if (!(by > 0)) return pieces_;
+void PlanPlot::mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets) {
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+    PlanPolygon::Corner& corner = polygon.corners[k];
+    if (corner.beyond != PlanSide::kPlot) continue;
+    const bool is_street = is_along(corner.at, polygon.corners[(k + 1) % polygon.corners.size()].at, streets);
+    if (is_street) corner.beyond = PlanSide::kStreet;
+    (is_street ? has_streets_ : has_borders_) = true;
+  }
+}
+
+PlotOffset PlanPlot::effective(const PlotOffset& by) const {
+  return {has_borders_ ? by.border : by.street, has_streets_ ? by.street : by.border};
+}
+
+const PlanPlot::Pieces& PlanPlot::eroded(const PlotOffset& asked) {
+  const PlotOffset by = effective(asked);
+  if (!(by.border > 0 || by.street > 0)) return pieces_;
   const auto [entry, is_new] = eroded_.try_emplace(by);
-  if (is_new) entry->second = pieces_.size() == 1 ? erode_convex(by) : erode_rings(by);
+  if (is_new) entry->second = pieces_.size() == 1 && by.border == by.street ? erode_convex(by.border) : erode_rings(by);
   return entry->second;
 }
 
-const PlanPlot::Pieces* PlanPlot::made(double by) const {
-  if (!(by > 0)) return &pieces_;
+const PlanPlot::Pieces* PlanPlot::made(const PlotOffset& asked) const {
+  const PlotOffset by = effective(asked);
+  if (!(by.border > 0 || by.street > 0)) return &pieces_;
   const auto entry = eroded_.find(by);
   return entry == eroded_.end() ? nullptr : &entry->second;
 }
@@ -224,7 +297,7 @@ PlanPlot::Pieces PlanPlot::erode_convex(double by) const {
   return pieces;
 }
 
-PlanPlot::Pieces PlanPlot::erode_rings(double by) const {
+PlanPlot::Pieces PlanPlot::erode_rings(const PlotOffset& by) const {
   PlotGrid grid(low_);
   ClipperLib::Clipper joiner;
   for (const Piece& piece : pieces_) {
@@ -238,25 +311,22 @@ PlanPlot::Pieces PlanPlot::erode_rings(double by) const {
   ClipperLib::Clipper clipper;
   clipper.StrictlySimple(true);
   clipper.AddPaths(whole, ClipperLib::ptSubject, true);
-  // A strip along each side, and at inner corners what the strips of both sides leave out.
-  const std::vector<BorderSide> border = border_of(pieces_);
+  const std::vector<BorderSide> border = border_of(pieces_, by);
+  const bool is_mixed = by.border != by.street;
+  const auto take_away = [&clipper, &grid](const Fan& fan) {
+    ClipperLib::Path path = path_of(fan, grid);
+    if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
+    clipper.AddPath(path, ClipperLib::ptClip, true);
+  };
+  // A strip along each side, and about corners what the strips of both sides leave out.
   for (const BorderSide& side : border) {
-    const PlanPoint& n = side.normal;
-    // Longer and wider by next to nothing, so that strips, sectors and the border have no sides in common.
-    const PlanPoint a{side.from.x - kStripMargin * n.y, side.from.y + kStripMargin * n.x},
-        b{side.to.x + kStripMargin * n.y, side.to.y - kStripMargin * n.x};
-    const ClipperLib::Path strip{grid.exactly({a.x - kStripMargin * n.x, a.y - kStripMargin * n.y}),
-                                 grid.exactly({b.x - kStripMargin * n.x, b.y - kStripMargin * n.y}),
-                                 grid.exactly({b.x + by * n.x, b.y + by * n.y}), grid.exactly({a.x + by * n.x, a.y + by * n.y})};
-    clipper.AddPath(strip, ClipperLib::ptClip, true);
+    if (!(side.by > 0)) continue;
+    clipper.AddPath(strip_of(side, is_mixed, grid), ClipperLib::ptClip, true);
+    if (is_mixed)
+      for (const Fan& end : ends_of(side)) take_away(end);
     for (const BorderSide& next : border) {
-      if (!(grid.of(next.from) == grid.of(side.to))) continue;
-      // To the right of the way, by more than rounding does.
-      if (n.x * next.normal.y - n.y * next.normal.x < -1e-9) {
-        ClipperLib::Path fan = fan_of(side, next, by, grid);
-        if (!ClipperLib::Orientation(fan)) ClipperLib::ReversePath(fan);
-        clipper.AddPath(fan, ClipperLib::ptClip, true);
-      }
+      if (is_mixed || !(grid.of(next.from) == grid.of(side.to))) continue;
+      if (const std::optional<Fan> fan = fan_between(side, next)) take_away(*fan);
     }
   }
   ClipperLib::PolyTree tree;

@@ -1,14 +1,24 @@
 // The plot on which volumes stand, as convex pieces, and the same eroded by a distance.
 #pragma once
 
+#include <compare>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/geometry/domain.h"
+#include "core/geometry/footprint.h"
 #include "core/geometry/inside/plan_clip.h"
 
 namespace bl::geometry {
+
+/// How far inside each kind of side [m].
+struct PlotOffset {
+  double border = 0;  ///< of the border where that is no street
+  double street = 0;  ///< of sides along streets
+  auto operator<=>(const PlotOffset&) const = default;
+};
 
 class PlanPlot {
  public:
@@ -19,26 +29,30 @@ class PlanPlot {
   using Pieces = std::vector<Piece>;
 
   /// The horizontal section of the domain a little above its bottom.
-  static Result<PlanPlot> section(const Domain& domain);
+  static Result<PlanPlot> section(const Domain& domain, std::span<const StreetAxis> streets = {});
 
-  /// All points of the plot that lie at least so far [m] inside its border. Exact for a convex plot. Of another one, arcs about
-  /// its reflex corners are chords with the area of their sectors, on a grid of ten nanometres. Kept: distances are few, because
-  /// set-backs are rules of a whole plot.
-  const Pieces& eroded(double by);
+  /// All points of the plot that lie at least so far [m] from each side of its border. Exact for a convex plot with one distance.
+  /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept: distances are few,
+  /// because set-backs are rules of a whole plot.
+  const Pieces& eroded(const PlotOffset& by);
   /// The same where it has been asked for before, else nullptr.
-  const Pieces* made(double by) const;
+  const Pieces* made(const PlotOffset& by) const;
   double area() const { return area_; }
   const PlanPoint& low() const { return low_; }
   const PlanPoint& high() const { return high_; }
 
  private:
   Pieces erode_convex(double by) const;
-  Pieces erode_rings(double by) const;
+  Pieces erode_rings(const PlotOffset& by) const;
+  void mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets);
+  // Without sides of one kind their distance makes no difference.
+  PlotOffset effective(const PlotOffset& by) const;
 
   Pieces pieces_;  // as they are
   double area_ = 0;
   PlanPoint low_, high_;
-  std::map<double, Pieces> eroded_;
+  bool has_streets_ = false, has_borders_ = false;  // sides of each kind
+  std::map<PlotOffset, Pieces> eroded_;
 };
 
 }  // namespace bl::geometry

@@ -291,5 +291,47 @@ TEST(FootprintLaws, ThreadsChangeNoBit) {
   }
 }
 
+// Each kind of side has its distance: 40 m by 40 m, the street along the south, and one more volume to the east.
+TEST(Footprint, EachKindOfSideHasItsDistance) {
+  FootprintDiagram diagram;
+  const std::vector<geometry::StreetAxis> streets{{{{-10, -5, 0}, {50, -6, 0}}, 8}};
+  ASSERT_TRUE(diagram.set_domain(square_of_40(), streets));
+  StandingSite west = round_one(10, 20, 0), east = round_one(30, 20, 0);
+  west.form = east.form = FootprintForm::cell;
+  west.runs = {{1, 0}, {1, 2}};
+  west.border_distance = 1;
+  west.street_distance = 5;
+  const auto area = [&](const StandingSite& site, std::size_t run) {
+    const auto found = diagram.update(std::vector<StandingSite>{site, east});
+    EXPECT_TRUE(found) << found.error().text();
+    return found->front().plates[run];
+  };
+  EXPECT_NEAR(area(west, 0), 19 * 34, 1e-9) << "1 m in the west and north, 5 m in the south, none towards the neighbour";
+  EXPECT_NEAR(area(west, 1), 15 * 30, 1e-9) << "2 m more on each side";
+  west.has_party_walls = true;
+  EXPECT_NEAR(area(west, 1), 17 * 30, 1e-9);
+  west.has_border_walls = true;
+  EXPECT_NEAR(area(west, 1), 19 * 32, 1e-9) << "2 m at the street alone";
+  west.depth = 10;
+  EXPECT_NEAR(area(west, 0), 19 * 34, 1e-9) << "10 m from the west and from the east: nothing is left for a courtyard";
+  west.wing_depth = 4;
+  EXPECT_NEAR(area(west, 0), 19 * 34 - 11 * 20, 1e-9) << "wings of 4 m along the walls that touch, 10 m along the street";
+  EXPECT_NEAR(area(west, 1), 19 * 32 - 11 * 18, 1e-9);
+  west.runs[1].courtyard = 2;
+  EXPECT_NEAR(area(west, 1), 19 * 32 - 15 * 22, 1e-9) << "2 m behind that edge on each side";
+  // Where a street meets a border in a wide corner, the border keeps its distance beyond its end.
+  StandingSite alone = west;
+  alone = round_one(20, 20, 0);
+  alone.form = FootprintForm::cell;
+  alone.border_distance = 5;
+  ASSERT_TRUE(diagram.set_domain(plot_of({{0, 0, 0}, {40, 0, 0}, {60, 20, 0}, {60, 40, 0}, {0, 40, 0}}), streets));
+  const auto wide = diagram.update(std::vector<StandingSite>{alone});
+  ASSERT_TRUE(wide) << wide.error().text();
+  // 2 200 m², less strips of 5 m: west 200 and north 300 share 25; the slope 141.42 ends in a sector of 45 degrees at the street,
+  // and shares with the east what lies between the bisector and both: 25 tan(22.5 deg); the east 100 shares 25 with the north.
+  const double slope = 5 * 20 * std::sqrt(2.0), sector = 25 * kUnitDisc / 8, wedge = 25 * std::tan(kUnitDisc / 8);
+  EXPECT_NEAR(wide->front().plates[0], 2200 - (200 + 300 - 25) - (slope + sector) - (100 - 25) + wedge, 1e-4);
+}
+
 }  // namespace
 }  // namespace bl::test
