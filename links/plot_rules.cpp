@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/define/last_proposals.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
@@ -115,19 +116,21 @@ struct PlotRules {
       if (geometry::ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};
-    const double share = share_granted(held, on_plot);
     double room = 2;
     if (in.hold_fsi) room = std::min(room, demand::answer_within(ends.fsi_max, ends.fsi, in.tolerance));
     if (in.hold_gsi) room = std::min(room, demand::answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
+    const std::vector<double> own = own_limits(ends, tick);
+    const demand::LimitedVolumes said{ends.ids.values,    ends.demands.values, own,
+                                      ends.wanted.values, ends.volumes.values, ends.locked.values};
+    double share = share_granted(said, on_plot);
+    if (room < 1) share = std::min(share, share_granted(held, on_plot));
     for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       const auto volume = standing(ends, i);
       if (in.hold_height && volume)
         out.height_limits.values[i] = demand::limit_at(*volume, ends.height_max + ends.ground - ends.bottoms.values[i], in.least);
-      else if (in.hold_height)
-        limit = std::min(
-            limit, granted(ends, i) * (1 + in.gain * (demand::answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+      else if (in.hold_height) limit = std::min(limit, height_share(in, ends, i, own[i]));
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
     tell(in, ends, held, on_plot, tick);
@@ -139,8 +142,19 @@ struct PlotRules {
   // small built area: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
   static constexpr double kLittleGround = 0.1;
 
-  static double granted(const Ends& ends, std::size_t i) {
-    return demand::granted_share(ends.demands.values[i], ends.limits.values[i]);
+  // What the link has said itself; all of the demand where it has said nothing. It holds nothing that others limit: only where it
+  // tightens does it begin from what is in force.
+  static std::vector<double> own_limits(const Ends& ends, const Tick& tick) {
+    std::vector<double> limits;
+    for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
+      limits.push_back(own_word(tick, "smart_volume.demand_limit", i, ends.limits.values[i]).value_or(ends.demands.values[i]));
+    return limits;
+  }
+
+  static double height_share(const In& in, const Ends& ends, std::size_t i, double own) {
+    const double answer = demand::answer_within(ends.height_max, top(ends, i), in.tolerance);
+    const double limit = answer < 1 ? std::min(own, ends.limits.values[i]) : own;
+    return demand::granted_share(ends.demands.values[i], limit) * (1 + in.gain * (answer - 1));
   }
   static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
 
@@ -178,7 +192,9 @@ struct PlotRules {
     for (const std::size_t i : on_plot) {
       const auto volume = standing(ends, i);
       const double height = ends.height_max + ends.ground - ends.bottoms.values[i];
-      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height))
+      // Another rule may leave less still: then it is not this one that takes the storeys.
+      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height) &&
+          demand::is_in_force(*volume, height))
         lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, height);
     }
     if (!lost.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "from", lost + " by the rules of the plot"});

@@ -37,6 +37,8 @@ bool takes_storeys(const StandingVolume& volume, double limit) {
   return volume.built < volume.wished ? storeys < volume.wished + kStoreyReturn : std::floor(storeys) < volume.wished;
 }
 
+bool is_in_force(const StandingVolume& volume, double limit) { return limit <= volume.limit * (1 + kWhole); }
+
 std::optional<double> lower_limit(const StandingVolume& volume, double storeys, double share) {
   if (volume.built < 1) return kept_limit(volume);  // no solver has seen it yet
   return std::max(least_storeys(volume, share), room_of(volume) - storeys) * volume.storey_height;
