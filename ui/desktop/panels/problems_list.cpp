@@ -63,6 +63,7 @@ std::string what_of(const State& state, const std::string& link) {
 const char* label_of(ProblemKind kind) {
   switch (kind) {
     case ProblemKind::conflict: return "Conflicts";
+    case ProblemKind::rule: return "Rules";
     case ProblemKind::shortage: return "Shortages";
     case ProblemKind::failing: return "Failures";
     case ProblemKind::no_room: return "Without room";
@@ -85,7 +86,7 @@ void ProblemList::add_conflicts(const State& state) {
   std::vector<std::size_t> order;
   for (const reading::TensePort& tense : problems_.tense()) {
     // What was before decides on places in the list alone, never on what is listed.
-    if (tense.severity < reading::kMinorSeverity) continue;
+    if (tense.is_minor) continue;
     const auto before = bands_.find(tense.ref);
     const int band = std::max(0, band_of(tense.severity, before != bands_.end() ? &before->second : nullptr));
     bands.emplace(tense.ref, band);
@@ -186,14 +187,16 @@ void ProblemList::add_failures(const State& state) {
           !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
         continue;
       ProblemItem item;
-      item.kind = is_shortage ? ProblemKind::shortage : ProblemKind::failing;
+      item.kind = row.is_rule ? ProblemKind::rule : is_shortage ? ProblemKind::shortage : ProblemKind::failing;
       item.key = row.place;
       item.is_error = true;
       item.text = row.message;
-      item.subject = is_shortage        ? "The boundary is too small"
+      item.subject = row.is_rule        ? row.place.substr(5) + " breaks a rule"
+                     : is_shortage      ? "The boundary is too small"
                      : row.node.empty() ? what_of(state, row.link)
                                         : row.place.substr(5) + " fails";
       if (!row.node.empty()) item.nodes = {row.node};
+      item.nodes.insert(item.nodes.end(), row.others.begin(), row.others.end());
       if (!row.link.empty()) item.links = {row.link};
       items_.push_back(std::move(item));
     }
