@@ -204,7 +204,7 @@ struct PlotRules {
   static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
-    std::string low;  // volumes that stand and can be no lower
+    std::string low, ways;  // volumes that stand and can be no lower; what would let them
     if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + demand::found_of_allowed(ends.fsi, ends.fsi_max, 2));
     if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + demand::found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
@@ -214,6 +214,7 @@ struct PlotRules {
         const auto volume = standing(ends, i);
         if (volume && demand::is_at_least(*volume, in.least)) {
           low = joined(low, found + ", " + demand::held_at_least(ends.ids.values[i], *volume, in.least), "; ");
+          ways = joined(ways, demand::way_to_fewer(*volume, in.least) + " of `" + ends.ids.values[i] + "`", ", ");
           continue;
         }
         Broken& height = !volume && is_at_least(held, i, in.least) ? stuck : sinking;
@@ -227,9 +228,10 @@ struct PlotRules {
     const std::string work = joined(is_all_stuck ? "" : listed(all), listed(sinking), ", ");
     if (!found.empty()) {
       const std::string unlock = unlocking(held, is_all_stuck && !all.found.empty() ? on_plot : stuck.who, in.least);
+      const bool is_by_demand = found != low;
+      const std::string lower = joined(is_by_demand ? "lower what is insisted on or `least`" : "", ways, ", or ");
       remark(tick, LinkRemark::unmet,
-             {ErrorCode::infeasible, "from",
-              "cannot be met: " + found + "; loosen the rule," + unlock + " or lower what is insisted on or `least`"});
+             {ErrorCode::infeasible, "from", "cannot be met: " + found + "; loosen the rule," + unlock + " or " + lower});
     } else if (!work.empty()) {
       remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work});
     }

@@ -166,13 +166,20 @@ struct SolarRight {
     std::string holders;
     const auto add = [&](const std::string& holder) { holders += (holders.empty() ? "" : ", ") + holder; };
     std::vector<std::size_t> who;
+    std::string ways;
     for (const std::size_t i : all) {
       const auto volume = standing(in, ends, i);
-      if (!volume) who.push_back(i);
-      else if (demand::is_at_least(*volume, in.least)) add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
-      else return "";
+      if (!volume) {
+        who.push_back(i);
+      } else if (demand::is_at_least(*volume, in.least)) {
+        add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
+        const std::string way = demand::way_to_fewer(*volume, in.least);
+        if (ways.find(way) == std::string::npos) ways += ", " + way;
+      } else {
+        return "";
+      }
     }
-    if (who.empty()) return holders + advice + ", `least` or `storeys_min`, or move the volume";
+    if (who.empty()) return holders + advice + ways + ", or move the volume";
     if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
     if (in.mode == Mode::shave) {
       add(held_by(held, who, in.least));

@@ -70,4 +70,12 @@ std::string held_at_least(const std::string& id, const StandingVolume& volume, d
   return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys");
 }
 
+std::string way_to_fewer(const StandingVolume& volume, double share) {
+  if (volume.is_locked) return "unlock the height limit";
+  const double least = least_storeys(volume, share);
+  if (least <= 1) return "lower `storey_height`";
+  const bool by_people = volume.least >= least, by_share = std::ceil(share * volume.wished - kWhole) >= least;
+  return by_people && by_share ? "lower `storeys_min` and `least`" : by_people ? "lower `storeys_min`" : "lower `least`";
+}
+
 }  // namespace bl::demand

@@ -47,5 +47,7 @@ std::optional<double> limit_at(const StandingVolume& volume, double height, doub
 std::string storeys_left(const StandingVolume& volume, double limit);
 /// "held by `tower`, which keeps at least 3 storeys", or that its limit is locked.
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share);
+/// What would let it have fewer or lower storeys: "lower `storeys_min`", where that is what insists on them.
+std::string way_to_fewer(const StandingVolume& volume, double share);
 
 }  // namespace bl::demand

@@ -248,7 +248,7 @@ TEST(SolarRight, TheLeastStoreysAndLockedLimitsAreNamed) {
   EXPECT_EQ(low.remarked(LinkRemark::unmet),
             "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `tower`, which "
             "keeps at least 2 storeys; lower "
-            "`required_sun`, `least` or `storeys_min`, or move the volume");
+            "`required_sun`, lower `least`, or move the volume");
   EXPECT_NE(locked.remarked(LinkRemark::unmet).find("(its height limit is locked)"), std::string::npos);
 }
 
@@ -352,9 +352,8 @@ TEST(SolarRight, WhoIsOutOfReachIsLeftAlone) {
   text.insert(text.find("\"nodes\": [") + 10, others);
   const std::string solver = "\"standing_solver\": {\"tolerance\": 1e-06}";
   ASSERT_NE(text.find(solver), std::string::npos);
-  text.replace(
-      text.find(solver), solver.size(),
-      R"("standing_solver": {"boundary": "site", "members": ["houses", "tower"], "tolerance": 1e-06})");
+  text.replace(text.find(solver), solver.size(),
+               R"("standing_solver": {"boundary": "site", "members": ["houses", "tower"], "tolerance": 1e-06})");
   World world = World::from_text(text);
   ASSERT_TRUE(world.settle(500));
   EXPECT_EQ(world.number("north", "footprint.storeys_built"), 12);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/solver.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -56,6 +57,12 @@ std::string what_of(const State& state, const std::string& link) {
   if (const std::size_t l = reading::link_index(*state.plan, link); l < state.links.size() && state.links[l].remark)
     return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met" : "A demand is not met";
   return "Link " + link + " fails";
+}
+
+// What a solver of standing volumes says is often no want of room: who stands where, or which storeys vanish.
+std::string what_is_short(const State& state, const reading::ProblemRow& row) {
+  const bool stands = reading::row_of<reading::StandingFigures>(state, state.plan->node_index(row.node)).has_value();
+  return stands ? row.place.substr(5) + " builds otherwise than asked" : "The boundary is too small";
 }
 
 }  // namespace
@@ -192,7 +199,7 @@ void ProblemList::add_failures(const State& state) {
       item.is_error = true;
       item.text = row.message;
       item.subject = row.is_rule        ? row.place.substr(5) + " breaks a rule"
-                     : is_shortage      ? "The boundary is too small"
+                     : is_shortage      ? what_is_short(state, row)
                      : row.node.empty() ? what_of(state, row.link)
                                         : row.place.substr(5) + " fails";
       if (!row.node.empty()) item.nodes = {row.node};
