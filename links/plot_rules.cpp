@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/define/last_proposals.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
@@ -123,19 +124,21 @@ struct PlotRules {
       if (geometry::ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};
-    const double share = share_granted(held, on_plot);
     double room = 2;
     if (in.hold_fsi) room = std::min(room, demand::answer_within(ends.fsi_max, ends.fsi, in.tolerance));
     if (in.hold_gsi) room = std::min(room, demand::answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
+    const std::vector<double> own = own_limits(ends, tick);
+    const demand::LimitedVolumes said{ends.ids.values,    ends.demands.values, own,
+                                      ends.wanted.values, ends.volumes.values, ends.locked.values};
+    double share = share_granted(said, on_plot);
+    if (room < 1) share = std::min(share, share_granted(held, on_plot));
     for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       const auto volume = standing(ends, i);
       if (in.hold_height && volume)
         out.height_limits.values[i] = demand::limit_at(*volume, ends.height_max + ends.ground - ends.bottoms.values[i], in.least);
-      else if (in.hold_height)
-        limit = std::min(
-            limit, granted(ends, i) * (1 + in.gain * (demand::answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+      else if (in.hold_height) limit = std::min(limit, height_share(in, ends, i, own[i]));
       if (in.hold_setback && ends.setback > 0 && volume) out.border_distances.values[i] = ends.setback;
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
@@ -149,8 +152,19 @@ struct PlotRules {
   // small built area: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
   static constexpr double kLittleGround = 0.1;
 
-  static double granted(const Ends& ends, std::size_t i) {
-    return demand::granted_share(ends.demands.values[i], ends.limits.values[i]);
+  // What the link has said itself; all of the demand where it has said nothing. It holds nothing that others limit: only where it
+  // tightens does it begin from what is in force.
+  static std::vector<double> own_limits(const Ends& ends, const Tick& tick) {
+    std::vector<double> limits;
+    for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
+      limits.push_back(own_word(tick, "smart_volume.demand_limit", i, ends.limits.values[i]).value_or(ends.demands.values[i]));
+    return limits;
+  }
+
+  static double height_share(const In& in, const Ends& ends, std::size_t i, double own) {
+    const double answer = demand::answer_within(ends.height_max, top(ends, i), in.tolerance);
+    const double limit = answer < 1 ? std::min(own, ends.limits.values[i]) : own;
+    return demand::granted_share(ends.demands.values[i], limit) * (1 + in.gain * (answer - 1));
   }
   static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
 
@@ -188,7 +202,9 @@ struct PlotRules {
     for (const std::size_t i : on_plot) {
       const auto volume = standing(ends, i);
       const double height = ends.height_max + ends.ground - ends.bottoms.values[i];
-      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height))
+      // Another rule may leave less still: then it is not this one that takes the storeys.
+      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height) &&
+          demand::is_in_force(*volume, height))
         lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, height);
     }
     if (!lost.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "from", lost + " by the rules of the plot"});
@@ -198,7 +214,7 @@ struct PlotRules {
   static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
-    std::string low;  // volumes that stand and can be no lower
+    std::string low, ways;  // volumes that stand and can be no lower; what would let them
     if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + demand::found_of_allowed(ends.fsi, ends.fsi_max, 2));
     if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + demand::found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
@@ -208,6 +224,7 @@ struct PlotRules {
         const auto volume = standing(ends, i);
         if (volume && demand::is_at_least(*volume, in.least)) {
           low = joined(low, found + ", " + demand::held_at_least(ends.ids.values[i], *volume, in.least), "; ");
+          ways = joined(ways, demand::way_to_fewer(*volume, in.least) + " of `" + ends.ids.values[i] + "`", ", ");
           continue;
         }
         Broken& height = !volume && is_at_least(held, i, in.least) ? stuck : sinking;
@@ -221,9 +238,10 @@ struct PlotRules {
     const std::string work = joined(is_all_stuck ? "" : listed(all), listed(sinking), ", ");
     if (!found.empty()) {
       const std::string unlock = unlocking(held, is_all_stuck && !all.found.empty() ? on_plot : stuck.who, in.least);
+      const bool is_by_demand = found != low;
+      const std::string lower = joined(is_by_demand ? "lower what is insisted on or `least`" : "", ways, ", or ");
       remark(tick, LinkRemark::unmet,
-             {ErrorCode::infeasible, "from",
-              "cannot be met: " + found + "; loosen the rule," + unlock + " or lower what is insisted on or `least`"});
+             {ErrorCode::infeasible, "from", "cannot be met: " + found + "; loosen the rule," + unlock + " or " + lower});
     } else if (!work.empty()) {
       remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work});
     }

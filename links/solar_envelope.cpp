@@ -205,8 +205,9 @@ struct SolarEnvelope {
       remark(tick, LinkRemark::unmet,
              {ErrorCode::infeasible, "edge",
               "cannot be met: " + through(ends, reach.excess) + ", " + demand::held_at_least(ends.id, volume, in.least) +
-                  "; move the edge or the volume, or lower `least` or `storeys_min`"});
-    else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit))
+                  "; move the edge or the volume, or " + demand::way_to_fewer(volume, in.least)});
+    else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit) &&
+             demand::is_in_force(volume, *out.height_limit))
       remark(
           tick, LinkRemark::short_of,
           {ErrorCode::infeasible, "edge",

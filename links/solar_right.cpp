@@ -6,6 +6,7 @@
 
 #include "core/base/direction.h"
 #include "core/base/text.h"
+#include "core/define/last_proposals.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
@@ -47,7 +48,8 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Protects the sun that a receiver needs. While it has less, the volumes that shade it give way, each in proportion "
-            "to the sun that it takes. A volume that takes next to nothing is not limited. A volume that stands loses storeys: "
+            "to the sun that it would bring back. A volume that would bring next to nothing, because it is far or because "
+            "others shade the same place, is not limited. A volume that stands loses storeys: "
             "its height limit falls by a tenth of a storey in a tick, and its footprint grows.");
     l.family(LinkFamily::sun);
     l.param(&In::mode, "mode",
@@ -144,22 +146,40 @@ struct SolarRight {
     return std::max(0.0, ends.positions.values[i].z - ends.bottoms.values[i]);
   }
 
+  // Who takes the sun besides. Whoever cannot give way, as a building that stands already, is no advice.
+  static std::string others_of(const Ends& ends) {
+    const std::vector<std::string> others = sun::other_takers(*ends.losses, ends.ids.values);
+    if (others.empty()) return "";
+    constexpr std::size_t kMost = 3;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(kMost, others.size()); ++k) text += (k == 0 ? ": `" : ", `") + others[k] + "`";
+    if (others.size() > kMost) text += " and " + std::to_string(others.size() - kMost) + " more";
+    return text + (others.size() == 1 ? " takes it" : " take it") + ", which this link does not lead to";
+  }
+
   // Why the volumes that take the sun cannot give way any further; empty while one of them can.
   static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& all) {
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
     const std::string advice = "; lower `required_sun`";
-    if (all.empty()) return held_by(held, all, in.least) + advice + ", or add them to the end of the link";
+    if (all.empty()) return "no volume at the end of this link brings it more" + others_of(ends) + advice;
     std::string holders;
     const auto add = [&](const std::string& holder) { holders += (holders.empty() ? "" : ", ") + holder; };
     std::vector<std::size_t> who;
+    std::string ways;
     for (const std::size_t i : all) {
       const auto volume = standing(in, ends, i);
-      if (!volume) who.push_back(i);
-      else if (demand::is_at_least(*volume, in.least)) add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
-      else return "";
+      if (!volume) {
+        who.push_back(i);
+      } else if (demand::is_at_least(*volume, in.least)) {
+        add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
+        const std::string way = demand::way_to_fewer(*volume, in.least);
+        if (ways.find(way) == std::string::npos) ways += ", " + way;
+      } else {
+        return "";
+      }
     }
-    if (who.empty()) return holders + advice + ", `least` or `storeys_min`, or move the volume";
+    if (who.empty()) return holders + advice + ways + ", or move the volume";
     if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
     if (in.mode == Mode::shave) {
       add(held_by(held, who, in.least));
@@ -181,7 +201,9 @@ struct SolarRight {
       if (shares[i] > kLittle) who.push_back(i);
     const std::string found = "`" + ends.receiver + "` is short of " + fixed(ends.deficit / 3600, 2) + " h of sun";
     const std::string held_up = why_held(in, ends, who);
-    const std::string said = held_up.empty() ? found : "cannot be met: " + found + ", " + held_up;
+    const std::string possible = " and can have " + fixed((ends.required - ends.deficit) / 3600, 2) + " h of the " +
+                                 fixed(ends.required / 3600, 2) + " h, ";
+    const std::string said = held_up.empty() ? found : "cannot be met: " + found + possible + held_up;
     remark(tick, held_up.empty() ? LinkRemark::at_work : LinkRemark::unmet, {ErrorCode::infeasible, "from", said});
   }
 
@@ -200,8 +222,9 @@ struct SolarRight {
       if (ends.ids.values[i] == ends.receiver) continue;
       const double answer = in.gain * std::max(0.0, missing) * shares[i];
       if (const auto volume = standing(in, ends, i)) {
-        const auto limit = height_of(in, ends, *volume, is_kept, shares[i]);
-        if (limit && demand::takes_storeys(*volume, *limit))
+        const auto own = own_word(tick, "footprint.height_limit", i, volume->limit);
+        const auto limit = height_of(in, ends, *volume, own, is_kept, shares[i]);
+        if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit))
           lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, *limit);
         out.height_limits.values[i] = limit;
         continue;
@@ -211,7 +234,8 @@ struct SolarRight {
       } else if (in.mode == Mode::move) {
         if (const double way = answer * ends.radii.values[i]; way > 0) out.moves.values[i] = away(ends, i) * way;
       } else {
-        out.limits.values[i] = limit_of(in, ends, i, missing, is_kept ? 0 : answer, shares[i]);
+        const auto own = own_word(tick, "smart_volume.demand_limit", i, ends.limits.values[i]);
+        out.limits.values[i] = limit_of(in, ends, i, own, missing, is_kept ? 0 : answer, shares[i]);
       }
     }
     if (is_kept && !lost.empty())
@@ -219,21 +243,26 @@ struct SolarRight {
     return out;
   }
 
-  // Nobody knows beforehand how much sun a storey takes: it comes back only where there is much more than enough.
-  static std::optional<double> height_of(const In& in, const Ends& ends, const demand::StandingVolume& volume, bool is_kept,
-                                         double share) {
+  // Nobody knows beforehand how much sun a storey takes: it comes back only where there is much more than enough. The limit falls
+  // from the one in force, whoever holds it, but what is kept or rises is the link's own word alone.
+  static std::optional<double> height_of(const In& in, const Ends& ends, demand::StandingVolume volume,
+                                         const std::optional<double>& own, bool is_kept, double share) {
     if (!is_kept && share > kLittle) return demand::lower_limit(volume, share * demand::kStoreyPace, in.least);
+    if (!own) return std::nullopt;
+    volume.limit = *own;
     return is_kept && surplus_of(ends) > in.storey_room ? demand::higher_limit(volume) : demand::kept_limit(volume);
   }
 
   // The limit stays as it is from half the tolerance to a little beyond it, or the last moments of sun would be shaved off
-  // without end. A volume that takes little may grow nevertheless: this link does not hold limits that others set.
-  static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, double missing, double answer,
-                                        double share) {
+  // without end. A volume that takes little may grow nevertheless. Limits that others set are not held: only where the link
+  // tightens does it begin from the one in force.
+  static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, const std::optional<double>& own,
+                                        double missing, double answer, double share) {
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, std::min(1.0, surplus_of(ends)), 1 - share / kLittle});
-    const double kept =
-        demand::granted_share(ends.demands.values[i], ends.limits.values[i]) * (1 - answer) * (1 + in.gain * room);
-    return demand::limit_that_grants(ends.demands.values[i], std::max(in.least, kept));
+    const double demand = ends.demands.values[i], in_force = demand::granted_share(demand, ends.limits.values[i]);
+    const double held = own ? demand::granted_share(demand, *own) : 1;
+    const double from = answer > 0 ? std::min(held, in_force) : held;
+    return demand::limit_that_grants(demand, std::max(in.least, from * (1 - answer) * (1 + in.gain * room)));
   }
 };
 

@@ -139,10 +139,12 @@ struct Plot {
     return distance({side.x, side.y, 0}, flat) - std::sqrt(member.footprint / 3.14159265358979323846);
   }
 
-  // Shapes shrink towards their positions.
+  // Rounded shapes shrink towards their positions. What stands begins on the ground, wherever its position is.
   static void tell_height(const In& in, const Member& member, std::string& message) {
     const double height = member.position.z - in.ground;
-    if (height < in.height_max || member.bottom + member.height - in.ground <= in.height_max) return;
+    if (member.position.z > member.bottom + member.height || height < in.height_max ||
+        member.bottom + member.height - in.ground <= in.height_max)
+      return;
     message += (message.empty() ? "`" : "; `") + member.id + "` has its position " + fixed(height, 1) +
                " m above the ground, so that however small it becomes it stands above the largest height of " +
                fixed(in.height_max, 1) + " m: move it down, or raise `height_max`";

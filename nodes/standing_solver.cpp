@@ -252,7 +252,7 @@ struct StandingSolver {
       else words += "; `" + kept.names[i] + "` stands on the ground, because `" + base + "` is no volume of this solver";
       if (members[i].bases.size() > 1)
         words += "; `" + kept.names[i] + "` stands on `" + base + "` alone of the " + std::to_string(members[i].bases.size()) +
-                 " that its `bases` name";
+                 " that its `bases` or links of the kind `stack` name";
     }
     return words;
   }
@@ -360,7 +360,9 @@ struct StandingSolver {
     out.plot_area = kept.cache.plot_area;
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
-      words += "; `" + kept.names[i] + "` stands on the ground, because it would stand upon itself: change its `bases`";
+      words += "; `" + kept.names[i] +
+               "` stands on the ground, because it would stand upon itself: take away what makes it do so, its `bases` or a link "
+               "of the kind `stack`";
     }
     words += find_other_storeys(kept, done->results, (*domain)->maximum.z, in.tolerance);
     add_up(kept, done->results, out);

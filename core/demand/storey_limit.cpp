@@ -37,6 +37,8 @@ bool takes_storeys(const StandingVolume& volume, double limit) {
   return volume.built < volume.wished ? storeys < volume.wished + kStoreyReturn : std::floor(storeys) < volume.wished;
 }
 
+bool is_in_force(const StandingVolume& volume, double limit) { return limit <= volume.limit * (1 + kWhole); }
+
 std::optional<double> lower_limit(const StandingVolume& volume, double storeys, double share) {
   if (volume.built < 1) return kept_limit(volume);  // no solver has seen it yet
   return std::max(least_storeys(volume, share), room_of(volume) - storeys) * volume.storey_height;
@@ -66,6 +68,14 @@ std::string held_at_least(const std::string& id, const StandingVolume& volume, d
   if (volume.is_locked) return "held by `" + id + "` (its height limit is locked)";
   const double least = least_storeys(volume, share);
   return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys");
+}
+
+std::string way_to_fewer(const StandingVolume& volume, double share) {
+  if (volume.is_locked) return "unlock the height limit";
+  const double least = least_storeys(volume, share);
+  if (least <= 1) return "lower `storey_height`";
+  const bool by_people = volume.least >= least, by_share = std::ceil(share * volume.wished - kWhole) >= least;
+  return by_people && by_share ? "lower `storeys_min` and `least`" : by_people ? "lower `storeys_min`" : "lower `least`";
 }
 
 }  // namespace bl::demand

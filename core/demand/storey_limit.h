@@ -28,6 +28,9 @@ bool is_at_least(const StandingVolume& volume, double share);
 /// Does this limit [m] take storeys that are wished?
 bool takes_storeys(const StandingVolume& volume, double limit);
 
+/// Is this limit [m] of a rule the one in force, and not a tighter one of others? Then the rule holds the volume.
+bool is_in_force(const StandingVolume& volume, double limit);
+
 /// The limits [m] of the next tick; but for the first, nothing where all storeys are granted with room for their return, because
 /// a limit above them has no effect and would still be in force when more are wished. Lower by so many storeys, from one above
 /// those that stand, and never below `share` of them:
@@ -44,5 +47,7 @@ std::optional<double> limit_at(const StandingVolume& volume, double height, doub
 std::string storeys_left(const StandingVolume& volume, double limit);
 /// "held by `tower`, which keeps at least 3 storeys", or that its limit is locked.
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share);
+/// What would let it have fewer or lower storeys: "lower `storeys_min`", where that is what insists on them.
+std::string way_to_fewer(const StandingVolume& volume, double share);
 
 }  // namespace bl::demand

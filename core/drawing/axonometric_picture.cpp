@@ -256,21 +256,34 @@ std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<cons
   return text + ".";
 }
 
+// With the corners of the ground that is drawn around the site.
+std::vector<Point3> with_corners(const Scenery& scenery, const std::vector<Point3>& frame) {
+  std::vector<Point3> content = scenery.content;
+  if (frame.size() == 2)
+    for (const double x : {frame[0].x, frame[1].x})
+      for (const double y : {frame[0].y, frame[1].y}) content.push_back({x, y, scenery.ground});
+  return content;
+}
+
 }  // namespace
 
-Picture draw_axonometry(const reading::ReportModel& model, const Palette& palette, const std::string& id) {
+std::vector<Point3> points_of_axonometry(const reading::ReportModel& model) {
+  const Scenery scenery = scenery_of(model, axonometric_view(kAzimuth, kElevation));
+  if (scenery.content.empty()) return {};
+  return with_corners(scenery, framed(scenery.content, model.surroundings, kAroundAside));
+}
+
+Picture draw_axonometry(const reading::ReportModel& model, const Palette& palette, const std::string& id,
+                        const std::vector<Point3>& shown) {
   const View view = axonometric_view(kAzimuth, kElevation);
   const Scenery scenery = scenery_of(model, view);
   if (scenery.content.empty())
     return {empty_picture(id, "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
   const std::vector<Point3> frame = framed(scenery.content, model.surroundings, kAroundAside);
-  std::vector<Point3> content = scenery.content;
   Point3 middle;
   for (const Point3& corner : frame) middle += corner / static_cast<double>(frame.size());
-  if (frame.size() == 2)
-    for (const double x : {frame[0].x, frame[1].x})
-      for (const double y : {frame[0].y, frame[1].y}) content.push_back({x, y, scenery.ground});
-  const Sheet sheet(view, content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
+  const Sheet sheet(view, shown.empty() ? with_corners(scenery, frame) : shown, kAxonometryWidth, kMostAxonometryHeight,
+                    {40, 34, 40, 52});
   const std::vector<const reading::VolumeRow*> order = back_to_front(model, view);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), id, "Axonometry",

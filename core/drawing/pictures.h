@@ -17,8 +17,12 @@ struct Picture {
 };
 
 /// The whole proposal from above and aside, orthographic, so that lengths can be compared everywhere. All ids in it begin with
-/// `id`: a page may hold several.
-Picture draw_axonometry(const reading::ReportModel& model, const Palette& palette, const std::string& id = "axonometry");
+/// `id`: a page may hold several. The sheet shows all of `shown`, where it is given: with the points of several models each of
+/// their pictures has the same scale and window.
+Picture draw_axonometry(const reading::ReportModel& model, const Palette& palette, const std::string& id = "axonometry",
+                        const std::vector<Point3>& shown = {});
+/// The points that the picture of a model has to show; none where there is nothing to draw.
+std::vector<Point3> points_of_axonometry(const reading::ReportModel& model);
 /// Seen from above, with what is cut at eye height, the positions of all nodes, and the links between them.
 Picture draw_plan(const State& state, const reading::ReportModel& model, const Palette& palette);
 /// Errors and moves over the ticks, on logarithmic scales.

@@ -33,7 +33,7 @@ constexpr double kWideDemands = 1e4;
 constexpr double kStageFactor = 1e2;
 // A stage need only come near, and has so many evaluations for it.
 constexpr double kStageTolerance = 0.2;
-constexpr int kStageSteps = 25, kMostHalvings = 4;
+constexpr int kStageSteps = 25, kMostSpreadHalvings = 4;
 
 // What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer
 // together.
@@ -178,7 +178,7 @@ class Attempt {
   bool ease(FitOptions step) {
     const std::vector<VolumeDemand> wanted = problem_.demands;
     int halvings = 0;
-    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostHalvings; reach *= reach) ++halvings;
+    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostSpreadHalvings; reach *= reach) ++halvings;
     const unsigned stages = 1u << static_cast<unsigned>(halvings);
     step.with_rays = false;
     step.tolerance = kStageTolerance;

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/define/last_proposals.h"
 #include "core/graph/link_run.h"
 #include "core/graph/phases.h"
 
@@ -24,7 +25,26 @@ Kept kept_of(const State& frozen, std::size_t index, LinkMemos* memos) {
           memo.whole.follow(frozen, plan) ? &memo.whole.reads() : nullptr};
 }
 
-LinkState evaluated(const State& frozen, std::size_t index, const Kept& kept, std::size_t& pairs) {
+// What the link has said to the node at a place of an end that it writes whole.
+std::optional<double> said_last(const State& frozen, std::size_t index, std::string_view path, std::size_t place) {
+  const LinkPlan& plan = frozen.plan->links[index];
+  const auto wanted = parse_port_path(path);
+  for (std::size_t w = 0; w < plan.writes.size(); ++w) {
+    const LinkWrite& write = plan.definition->proposes[w];
+    if (!write.is_whole || !wanted || write.path.typification != wanted->typification || write.path.port != wanted->port)
+      continue;
+    if (place >= plan.writes[w].size() || plan.writes[w][place] == LinkPlan::kNoTarget) return std::nullopt;
+    const std::vector<Voice>& voices = frozen.links[index].voices;
+    const PortRef target = plan.targets[plan.writes[w][place]];
+    const auto voice = std::lower_bound(voices.begin(), voices.end(), target,
+                                        [](const Voice& said, const PortRef& ref) { return said.target < ref; });
+    return voice != voices.end() && voice->target == target ? std::optional(as_number(voice->value)) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// Also whether it has asked for what it said itself, and therefore has to be asked again once it says something else.
+LinkState evaluated(const State& frozen, std::size_t index, const Kept& kept, std::size_t& pairs, bool& knows_itself) {
   const LinkPlan& plan = frozen.plan->links[index];
   LinkState next;
   if (!plan.is_enabled) return next;
@@ -37,10 +57,16 @@ LinkState evaluated(const State& frozen, std::size_t index, const Kept& kept, st
   }
   LinkRun run(frozen, plan, kept.whole);
   Memo memo;
+  const bool is_whole = plan.definition->is_whole(End::to);
+  if (is_whole)
+    memo.of<LastProposals>().said = [&frozen, index](std::string_view path, std::size_t place) {
+      return said_last(frozen, index, path, place);
+    };
   const Tick tick{.index = tick_for(*plan.definition, frozen.tick), .memo = &memo};
   if (kept.reach != nullptr) kept.reach->visit_all(plan, [&](std::uint32_t f, std::uint32_t t) { run.run_pair(f, t, tick); });
   else run.run(tick);
   pairs += run.pairs();
+  knows_itself = is_whole && memo.of<LastProposals>().was_asked;
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
     next.error = error->within("links/" + plan.id);
@@ -196,12 +222,15 @@ void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos) {
   const std::vector<DueLink> due = due_links(work.frozen);
   std::vector<LinkState> fresh(due.size());
   std::vector<std::size_t> pairs(due.size(), 0);
+  std::vector<std::uint8_t> knows_itself(due.size(), 0);
   pool.for_each_chunk(due.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double began = moment_of(work.times);
       const Kept kept = kept_of(work.frozen, due[i].link, memos);
       auto in_part = evaluated_in_part(work.frozen, due[i], kept.reach, pairs[i]);
-      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, kept, pairs[i]);
+      bool asks = false;
+      fresh[i] = in_part ? std::move(*in_part) : evaluated(work.frozen, due[i].link, kept, pairs[i], asks);
+      knows_itself[i] = asks;
       if (work.times != nullptr) work.times->add_link(due[i].link, began, pairs[i]);
     }
   });
@@ -211,6 +240,7 @@ void evaluate_links(TickWork& work, ThreadPool& pool, LinkMemos* memos) {
     const LinkState& before = work.frozen.links[due[i].link];
     if (before.says_the_same(fresh[i])) continue;
     add_differences(before.voices, fresh[i].voices, work.spoken_to);
+    if (knows_itself[i] != 0) work.next.state.due.links.push_back(due[i].link);
     work.next.links.put(due[i].link, std::move(fresh[i]));
   }
   std::sort(work.spoken_to.begin(), work.spoken_to.end());

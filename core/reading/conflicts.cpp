@@ -10,8 +10,10 @@
 #include "core/base/text.h"
 #include "core/reading/figures.h"
 #include "core/reading/place_problems.h"
+#include "core/reading/plot_problems.h"
 #include "core/reading/report_model.h"
 #include "core/reading/storeys.h"
+#include "core/reading/views/plot.h"
 #include "core/reading/views/solver.h"
 
 namespace bl::reading {
@@ -86,15 +88,41 @@ std::string voice_text(const State& state, const Voice& voice) {
 
 double severity_of(const State& state, PortRef ref, double tension) { return tension / size_of(state, ref); }
 
+namespace {
+
+bool is_limit(const PortDefinition& port) { return port.rule == CombineRule::min || port.rule == CombineRule::max; }
+
+bool is_minor(const State& state, PortRef ref, double severity) {
+  const Value& value = state.value(ref);
+  if (std::holds_alternative<Vector3>(value)) return severity < kMinorPull;
+  return severity < std::max(kMinorSeverity, state.plan->settings.tolerance) || !has_effect(state, ref);
+}
+
+}  // namespace
+
+bool takes_part(const State& state, const Voice& voice) {
+  const PortDefinition& port = state.plan->port(voice.target);
+  if (!is_limit(port) || !std::holds_alternative<double>(voice.value)) return true;
+  constexpr double kRounding = 1e-9;
+  const double wants = as_number(voice.value), is = as_number(state.value(voice.target)), hair = kRounding * std::abs(is);
+  return port.rule == CombineRule::min ? wants <= is + hair : wants >= is - hair;
+}
+
 void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePort>& tense) {
   for (std::uint16_t t = 0; t < state.nodes[node].types.size(); ++t) {
     const Tensions& tension = state.nodes[node].types[t].tension;
-    for (std::uint16_t p = 0; p < tension.size(); ++p)
-      if (const PortRef ref{node, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
+    for (std::uint16_t p = 0; p < tension.size(); ++p) {
+      if (!(tension[p] > 0)) continue;
+      const PortRef ref{node, t, p};
+      // The tightest limit is in force: who leaves more contradicts nobody. Only a lock keeps a tighter one out.
+      if (is_limit(state.plan->port(ref)) && !state.plan->nodes[node].types[t].is_locked[p]) continue;
+      const double severity = severity_of(state, ref, tension[p]);
+      tense.push_back({ref, tension[p], severity, is_minor(state, ref, severity)});
+    }
   }
   // A limit alone contradicts no other limit; it contradicts the storeys that are wished.
   if (const auto withheld = withheld_height(state, node))
-    tense.push_back({withheld->limit, withheld->height, severity_of(state, withheld->limit, withheld->height)});
+    tense.push_back({withheld->limit, withheld->height, withheld->share, false});
 }
 
 std::vector<TensePort> tense_ports(const State& state) {
@@ -121,7 +149,7 @@ ConflictRow conflict_row(const State& state, const TensePort& tense) {
     auto voice = std::lower_bound(voices.begin(), voices.end(), ref, [](const Voice& v, PortRef r) { return v.target < r; });
     for (; voice != voices.end() && voice->target == ref; ++voice) {
       const bool says_something = voice->magnitude > 0 || port.rule != CombineRule::sum;
-      if (!(voice->strength > 0) || !says_something) continue;
+      if (!(voice->strength > 0) || !says_something || !takes_part(state, *voice)) continue;
       row.pulls.push_back(speaker(link) + voice_text(state, *voice));
       row.links.push_back(link.id);
     }
@@ -135,7 +163,7 @@ ConflictRow conflict_row(const State& state, const TensePort& tense) {
 
 void read_conflicts(const State& state, ReportModel& model) {
   for (const TensePort& tense : tense_ports(state)) {
-    if (tense.severity < kMinorSeverity) ++model.minor_conflicts;
+    if (tense.is_minor) ++model.minor_conflicts;
     else model.conflicts.push_back(conflict_row(state, tense));
   }
   std::stable_sort(model.conflicts.begin(), model.conflicts.end(),
@@ -195,6 +223,19 @@ std::set<std::uint32_t> nodes_to_ask(const State& state, const std::vector<Row<S
 
 }  // namespace
 
+std::vector<ProblemRow> rule_problems(const State& state) {
+  std::vector<ProblemRow> rows;
+  if (state.tick == 0) return rows;
+  const auto add = [&](std::uint32_t plot, const std::string& text, std::vector<std::string> others) {
+    const NodePlan& node = state.plan->nodes[plot];
+    rows.push_back({"node " + node.name, text, node.id, "", false, false, true, std::move(others)});
+  };
+  for (BrokenRule& rule : broken_rules(state)) add(rule.plot, rule.text, std::move(rule.volumes));
+  for (const auto& [node, figures] : reading::rows<PlotFigures>(state))
+    if (!figures.message.empty()) add(node, figures.message, {});
+  return rows;
+}
+
 std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::uint32_t>& links) {
   const Plan& plan = *state.plan;
   std::vector<ProblemRow> rows;
@@ -215,6 +256,7 @@ std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::u
   }
   for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
     if (!figures.message.empty()) add({"node " + plan.nodes[node].name, figures.message, plan.nodes[node].id, "", true});
+  for (ProblemRow& row : rule_problems(state)) add(std::move(row));
   for (const std::uint32_t l : links) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
     add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});

@@ -70,11 +70,14 @@ PlaceProblem collapse_of(const State& state, const std::vector<std::uint32_t>& n
   problem.links = links_between(state, nodes);
   problem.subject = std::to_string(nodes.size()) + " volumes lie on one point";
   if (!problem.links.empty()) problem.subject += ", pulled by " + quoted_list(problem.links, kNamedLinks);
-  problem.text =
-      quoted_list(problem.nodes, kNamedVolumes) + "; " +
-      (problem.links.empty() ? "move them apart"
-                             : "weaken the links that pull, or add a `make_room` link from the solver to the volumes") +
-      ", so they have no separate bodies";
+  // Room is made by a solver of rounded volumes alone.
+  const bool stands = std::any_of(nodes.begin(), nodes.end(),
+                                  [&](std::uint32_t node) { return reading::row_of<StoreyFigures>(state, node).has_value(); });
+  problem.text = quoted_list(problem.nodes, kNamedVolumes) + "; " +
+                 (problem.links.empty() ? "move them apart"
+                  : stands              ? "weaken the links that pull, or move them apart"
+                           : "weaken the links that pull, or add a `make_room` link from the solver to the volumes") +
+                 ", so they have no separate bodies";
   return problem;
 }
 

@@ -39,8 +39,9 @@ struct SiteRow {
 /// A port on which proposals disagree, with the tension.
 struct TensePort {
   PortRef ref;
-  double tension = 0;   ///< in the port's unit
-  double severity = 0;  ///< tension against the size of what is pulled at
+  double tension = 0;     ///< in the port's unit
+  double severity = 0;    ///< tension against the size of what is pulled at; of a limit the share that it takes away
+  bool is_minor = false;  ///< nobody loses anything by it that shows in the result
   bool operator==(const TensePort&) const = default;
 };
 
@@ -68,6 +69,9 @@ struct ProblemRow {
   std::string node, link;    ///< ids of where it is, as far as it is somewhere
   bool is_shortage = false;  ///< no failure: a demand is not met
   bool is_place = false;     ///< no failure: volumes hang in the air or lie on one point
+  bool is_rule = false;      ///< no failure: a rule of a plot is broken
+  /// Ids of further nodes that take part: the volumes that break a rule.
+  std::vector<std::string> others = {};
   bool operator==(const ProblemRow&) const = default;
 };
 
@@ -100,6 +104,8 @@ void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
 /// What fails or cannot be met, without the places of volumes. `links`: those of links_with_errors().
 std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::uint32_t>& links);
+/// The part of it that plots have: broken rules, and what no smaller demand corrects. Nothing before the first tick.
+std::vector<ProblemRow> rule_problems(const State& state);
 /// Links that fail, remark on something, or cannot run at all; ascending.
 std::vector<std::uint32_t> links_with_errors(const State& state);
 bool has_error(const State& state, std::size_t link);
@@ -109,14 +115,20 @@ void read_figures(const State& state, ReportModel& model);
 /// What follows from sites, plots and volumes together; `worst` points into the model.
 void add_totals(const State& state, ReportModel& model);
 
-/// A tension below this share of the value's size is too small to be listed.
+/// A tension below this share of the value's size is too small to be listed; or one below the tolerance of the scene, where that
+/// is more, because solvers miss what they aim at by so much.
 inline constexpr double kMinorSeverity = 0.002;
-/// All ports under tension, ascending; minor ones too.
+/// Pulls on a place below this share of the radius are too small: bodies that touch push each other by so much all the time.
+inline constexpr double kMinorPull = 0.05;
+/// All ports under tension, ascending; minor ones too. Of limits only those that take something away, or that a lock keeps from
+/// being kept: a limit that leaves more than another one has what it wants.
 std::vector<TensePort> tense_ports(const State& state);
 /// Those of one node, behind what is there.
 void add_tense_ports(const State& state, std::uint32_t node, std::vector<TensePort>& tense);
 /// A tension as a share of the value's size.
 double severity_of(const State& state, PortRef ref, double tension);
+/// Does this voice take part in what its port is now? At a limit only who holds it, or wants it tighter still.
+bool takes_part(const State& state, const Voice& voice);
 /// The proposals on the port, as sentences.
 ConflictRow conflict_row(const State& state, const TensePort& tense);
 /// The participants of these conflicts with their counts; the largest share first, then in ascending id.

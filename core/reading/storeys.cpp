@@ -38,7 +38,18 @@ std::optional<WithheldHeight> withheld_height(const State& state, std::uint32_t 
   if (!figures || !figures->is_limited || figures->storeys_built >= figures->storeys) return std::nullopt;
   const auto limit = reading::port_of<&StoreyFigures::height_limit>(*state.plan, node);
   const double storey = reading::read<&VolumeFigures::storey_height>(state, node);
-  return WithheldHeight{*limit, static_cast<double>(figures->storeys - figures->storeys_built) * storey};
+  const auto missing = static_cast<double>(figures->storeys - figures->storeys_built);
+  return WithheldHeight{*limit, missing * storey, missing / static_cast<double>(figures->storeys)};
+}
+
+bool has_effect(const State& state, PortRef ref) {
+  const Plan& plan = *state.plan;
+  if (ref == reading::port_of<&FootprintFigures::angle>(plan, ref.node) ||
+      ref == reading::port_of<&FootprintFigures::aspect>(plan, ref.node))
+    return reading::read<&FootprintFigures::form>(state, ref.node) == "block";
+  if (ref == reading::port_of<&StoreyFigures::ground>(plan, ref.node))
+    return reading::read<&StoreyFigures::bases>(state, ref.node).empty();
+  return true;
 }
 
 std::string why_lower(const State& state, std::uint32_t node) {

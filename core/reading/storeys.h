@@ -13,9 +13,14 @@ namespace bl::reading {
 struct WithheldHeight {
   PortRef limit;      ///< the port that holds the limit
   double height = 0;  ///< of the storeys that are missing [m]
+  double share = 0;   ///< of the storeys that are wished
 };
 /// Nothing for a volume that has its storeys, or that does not stand.
 std::optional<WithheldHeight> withheld_height(const State& state, std::uint32_t node);
+
+/// Does the value of the port change anything in what the volume is now? Nobody looks at the ground of a volume that stands on a
+/// roof, or at the sides of a footprint that is no block.
+bool has_effect(const State& state, PortRef ref);
 
 /// "6 of 8 storeys: link `sun` (Solar right) leaves 19.90 m"; empty for a volume that has its storeys, or that does not stand.
 std::string why_lower(const State& state, std::uint32_t node);

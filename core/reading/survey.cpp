@@ -8,7 +8,6 @@
 #include "core/geometry/fit_text.h"
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
-#include "core/reading/storeys.h"
 
 namespace bl::reading {
 
@@ -35,7 +34,8 @@ std::vector<Pull> pulls_on(const State& state, PortRef target) {
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     if (state.plan->links[l].is_muted) continue;
     for (const Voice& voice : state.links[l].voices)
-      if (voice.target == target) pulls.push_back({state.plan->links[l].id, voice.value, voice.strength, false});
+      if (voice.target == target && takes_part(state, voice))
+        pulls.push_back({state.plan->links[l].id, voice.value, voice.strength, false});
   }
   const TypePlan& type = state.plan->nodes[target.node].types[target.type];
   const bool has_voice = type.is_set[target.port] && type.definition->ports[target.port].rule == CombineRule::blend;
@@ -46,19 +46,16 @@ std::vector<Pull> pulls_on(const State& state, PortRef target) {
 
 std::vector<TensionRow> tensions_of(const State& state) {
   std::vector<TensionRow> rows;
-  const auto add = [&](PortRef ref, double tension) {
-    const std::string unit(info(state.plan->port(ref).unit).pretty);
-    rows.push_back({state.plan->nodes[ref.node].id, state.plan->path_text(ref), unit, tension, pulls_on(state, ref)});
-  };
-  for (std::uint32_t n = 0; n < count_of(state); ++n) {
-    for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t)
-      for (std::uint16_t p = 0; p < state.nodes[n].types[t].tension.size(); ++p) {
-        // A millimetre, a litre: nothing that anybody feels.
-        if (const double tension = state.nodes[n].types[t].tension[p]; tension > 1e-3) add({n, t, p}, tension);
-      }
-    if (const auto withheld = withheld_height(state, n)) add(withheld->limit, withheld->height);
+  for (const TensePort& tense : tense_ports(state)) {
+    // A millimetre, a litre: nothing that anybody feels.
+    if (!(tense.tension > 1e-3)) continue;
+    const std::string unit(info(state.plan->port(tense.ref).unit).pretty);
+    rows.push_back({state.plan->nodes[tense.ref.node].id, state.plan->path_text(tense.ref), unit, tense.tension, tense.severity,
+                    tense.is_minor, pulls_on(state, tense.ref)});
   }
-  std::stable_sort(rows.begin(), rows.end(), [](const TensionRow& a, const TensionRow& b) { return a.tension > b.tension; });
+  std::stable_sort(rows.begin(), rows.end(), [](const TensionRow& a, const TensionRow& b) {
+    return a.is_minor != b.is_minor ? b.is_minor : a.severity > b.severity;
+  });
   return rows;
 }
 
@@ -112,6 +109,12 @@ std::vector<Error> problems_of(const State& state) {
   return problems;
 }
 
+std::vector<Error> rule_errors(const State& state) {
+  std::vector<Error> errors;
+  for (const ProblemRow& row : rule_problems(state)) errors.push_back({ErrorCode::infeasible, "nodes/" + row.node, row.message});
+  return errors;
+}
+
 Survey survey_of(const State& state) {
   Survey survey;
   ReportModel model;
@@ -123,6 +126,7 @@ Survey survey_of(const State& state) {
   read_conflicts(state, model);
   survey.pullers = std::move(model.pullers);
   survey.problems = problems_of(state);
+  for (Error& rule : rule_errors(state)) survey.problems.push_back(std::move(rule));
   for (const PlaceProblem& problem : place_problems(state))
     survey.problems.push_back({ErrorCode::infeasible, "nodes/" + problem.nodes.front(), problem.sentence()});
   for (auto& solver : reading::rows<reading::SolverFigures>(state))

@@ -32,6 +32,8 @@ struct Pull {
 struct TensionRow {
   std::string node, port, unit;
   double tension = 0;
+  double severity = 0;      ///< as TensePort has it
+  bool is_minor = false;    ///< too small to be listed
   std::vector<Pull> pulls;  ///< ascending link id
 };
 
@@ -46,9 +48,9 @@ struct Survey {
   std::vector<std::string> why_volumes_short;  ///< one for each of them; empty where it is not short
   std::vector<UseRow> uses;                    ///< ascending use
   UseRow all;
-  std::vector<TensionRow> tensions;  ///< greatest first, ties in ascending node and port
+  std::vector<TensionRow> tensions;  ///< those first that are listed, the worst first, ties in ascending node and port
   std::vector<SolverRow> solvers;
-  std::vector<Error> problems;     ///< errors of nodes and links, with their places
+  std::vector<Error> problems;     ///< errors of nodes and links, and broken rules, with their places
   double tolerance = 0;            ///< below this share a volume does not count as short
   double worst_short = 0;          ///< the largest missing share of a volume or a use
   std::string worst_short_of;      ///< its name, in words
@@ -63,5 +65,7 @@ Survey survey_of(const State& state);
 std::string solver_message(const State& state);
 /// Errors of nodes and links.
 std::vector<Error> problems_of(const State& state);
+/// Broken rules of plots with their places, as rule_problems() has them.
+std::vector<Error> rule_errors(const State& state);
 
 }  // namespace bl::reading

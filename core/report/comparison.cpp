@@ -202,6 +202,7 @@ class Walk {
       if (const std::string why = reading::why_lower(state, n); !why.empty())
         reasons.push_back(state.plan->nodes[n].name + " has " + why);
     for (const Error& problem : reading::problems_of(state)) reasons.push_back(problem.text());
+    for (const Error& rule : reading::rule_errors(state)) reasons.push_back(rule.text());
     return reasons;
   }
 

@@ -83,11 +83,25 @@ void table(drawing::Markup& page, const std::vector<IndicatorRow>& rows, const s
   page.close().close().close();
 }
 
-// `id`: two drawings of one page must not mean each other's parts.
-void drawing(drawing::Markup& page, const State& state, const std::string& name, const std::string& id) {
-  reading::ReportModel model;
-  read_model(state, model);
-  page.element("h3", name).open("figure").raw(draw_axonometry(model, drawing::Palette(model.use_names()), id).svg).close();
+// Both states one above the other, at the same scale, in the same window and in the same colours: else nobody could compare them.
+// Two drawings of one page must not mean each other's parts.
+void drawings(drawing::Markup& page, const State& before, const State& after, const std::string& name_before,
+              const std::string& name_after) {
+  reading::ReportModel first, second;
+  read_model(before, first);
+  read_model(after, second);
+  std::vector<Point3> shown = drawing::points_of_axonometry(first);
+  const std::vector<Point3> more = drawing::points_of_axonometry(second);
+  shown.insert(shown.end(), more.begin(), more.end());
+  std::vector<std::string> uses = first.use_names();
+  for (const std::string& use : second.use_names())
+    if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  const drawing::Palette palette(uses);
+  const auto draw = [&](const reading::ReportModel& model, const std::string& name, const std::string& id) {
+    page.element("h3", name).open("figure").raw(draw_axonometry(model, palette, id, shown).svg).close();
+  };
+  draw(first, name_before, "first");
+  draw(second, name_after, "second");
 }
 
 }  // namespace
@@ -102,8 +116,7 @@ std::string comparison_page(const State& before, const State& after, const Compa
       .leaf("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   page.element("title", title).open("style").raw(page_style()).close().close();
   page.open("body").open("header").element("h1", title).close().open("main");
-  drawing(page, before, name_before, "first");
-  drawing(page, after, name_after, "second");
+  drawings(page, before, after, name_before, name_after);
   list(page, "What was set differently", comparison.inputs);
   list(page, "Only in the first", comparison.only_before);
   list(page, "Only in the second", comparison.only_after);

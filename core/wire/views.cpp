@@ -10,6 +10,7 @@
 #include "core/base/unit.h"
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
+#include "core/reading/plot_problems.h"
 #include "core/reading/views/people.h"
 #include "core/wire/decisions_view.h"
 #include "core/wire/draft_views.h"
@@ -108,8 +109,26 @@ Json figure_of(const State& state, const reading::Row<reading::IndicatorFigures>
           {"direction", figures.direction},   {"status", figures.status}, {"score", figures.score}};
 }
 
+// A rule of a plot that is broken stands among the figures, so that a room sees it without asking.
+Json figure_of(const State& state, const reading::BrokenRule& rule) {
+  static const std::map<std::string_view, std::pair<const char*, const char*>> kRules = {
+      {"fsi_max", {"FSI", ""}}, {"gsi_max", {"GSI", ""}}, {"height_max", {"height", "m"}}, {"setback", {"set-back", "m"}}};
+  const auto& [name, unit] = kRules.at(rule.port);
+  return {{"name", name_of(state, rule.plot) + ": " + name},
+          {"value", rule.found},
+          {"unit", unit},
+          {"target", rule.allowed},
+          {"direction", rule.port == "setback" ? "at_least" : "at_most"},
+          {"status", "far"},
+          {"score", 0},
+          {"why", rule.text}};
+}
+
 View figures_view(const ViewSources& sources) {
   View view;
+  if (sources.state.tick > 0)
+    for (const reading::BrokenRule& rule : reading::broken_rules(sources.state))
+      put(view, sources.state.plan->nodes[rule.plot].id + "/" + rule.port, figure_of(sources.state, rule));
   for (const auto& row : reading::rows<reading::IndicatorFigures>(sources.state))
     put(view, sources.state.plan->nodes[row.node].id, figure_of(sources.state, row));
   return view;

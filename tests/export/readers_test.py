@@ -346,7 +346,7 @@ class Export(unittest.TestCase):
         import openpyxl
         values = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
         formulas = openpyxl.load_workbook(self.path("a.xlsx"))
-        self.assertEqual(values.sheetnames, ["Programme", "Buildings", "Storeys", "Plots", "Indicators", "About"])
+        self.assertEqual(values.sheetnames, ["Programme", "Buildings", "Storeys", "Plots", "Indicators", "Problems", "About"])
         indicators = list(values["Indicators"].iter_rows(min_row=2, values_only=True))
         wanted = [row for row in self.rows if row["row"] == "indicator"]
         self.assertEqual([row[0] for row in indicators], [row["label"] for row in wanted])

@@ -193,7 +193,7 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::unmet),
             "from: cannot be met: height 28.0 m of 20.0 m at `here`, held by `here`, which keeps at least 7 storeys; loosen the "
-            "rule, or lower what is insisted on or `least`");
+            "rule, or lower `storeys_min` of `here`");
 }
 
 TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {

@@ -156,7 +156,7 @@ TEST(SolarEnvelope, OfWhatStandsTheStoreysGoThatReachThrough) {
   ASSERT_EQ(least.run(), "");
   EXPECT_EQ(least.remarked(LinkRemark::unmet),
             "edge: cannot be met: `tower` reaches 9.00 m through the planes of the sun, held by `tower`, which keeps at least 6 "
-            "storeys; move the edge or the volume, or lower `least` or `storeys_min`");
+            "storeys; move the edge or the volume, or lower `storeys_min`");
 }
 
 TEST(SolarEnvelope, WhatStandsMovesBackOnTheLevel) {

@@ -91,10 +91,10 @@ TEST(SolarRight, LeavesTheLeastShareAndSaysSo) {
   link.to("smart_volume.demand_limit", 1600.0).to("smart_volume.wanted", 1600.0).to("smart_volume.volume", 1600.0);
   ASSERT_EQ(link.run(), "");
   EXPECT_NEAR(limit(link), 1600, 1e-9) << "a fifth of the demand is not taken";
-  EXPECT_EQ(
-      link.remarked(LinkRemark::unmet),
-      "from: cannot be met: `garden` is short of 0.50 h of sun, held by `tower`, which is down to 20 % of its demand; lower "
-      "`required_sun` or `least`, or move the volume");
+  EXPECT_EQ(link.remarked(LinkRemark::unmet),
+            "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `tower`, which "
+            "is down to 20 % of its demand; lower "
+            "`required_sun` or `least`, or move the volume");
 }
 
 // Two volumes, of which the first is at what the rule leaves it: the other can still give way, until it is there too.
@@ -111,7 +111,8 @@ TEST(SolarRight, IsAtWorkWhileOneCanGiveWay) {
   both.lock(End::to, "smart_volume.demand_limit", 0);
   ASSERT_EQ(both.run(), "");
   EXPECT_EQ(both.remarked(LinkRemark::unmet),
-            "from: cannot be met: `garden` is short of 0.50 h of sun, held by `house` (8000 m³, its limit is locked); lower "
+            "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `house` (8000 "
+            "m³, its limit is locked); lower "
             "`required_sun` or `least`, unlock the limits, or move the volume");
 }
 
@@ -121,13 +122,18 @@ TEST(SolarRight, WhoCannotMoveOrSinkIsNamed) {
   sunk.to("node.position", Vector3{0, -30, 0.4});
   for (LinkCase* link : {&locked, &free, &sunk}) ASSERT_EQ(link->run(), "");
   EXPECT_EQ(locked.remarked(LinkRemark::unmet),
-            "from: cannot be met: `garden` is short of 0.50 h of sun, held by `tower` (its position is locked); lower "
+            "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `tower` (its "
+            "position is locked); lower "
             "`required_sun`, or let them be shaved");
   EXPECT_NE(free.remarked(LinkRemark::at_work), "");
   EXPECT_NE(sunk.remarked(LinkRemark::unmet).find("`tower` (it has sunk as far as it can)"), std::string::npos);
   auto stranger = right("move", "shed");
   ASSERT_EQ(stranger.run(), "");
-  EXPECT_NE(stranger.remarked(LinkRemark::unmet).find("held by volumes that are not at the end of this link"), std::string::npos);
+  EXPECT_NE(stranger.remarked(LinkRemark::unmet)
+                .find("no volume at the end of this link brings it more: `tower`, `house` "
+                      "take it, which this link does not lead to; lower `required_sun`"),
+            std::string::npos)
+      << stranger.remarked(LinkRemark::unmet);
 }
 
 TEST(SolarRight, SceneTheGardenGetsItsSun) {
@@ -240,8 +246,9 @@ TEST(SolarRight, TheLeastStoreysAndLockedLimitsAreNamed) {
   for (LinkCase* link : {&low, &locked}) ASSERT_EQ(link->run(), "");
   EXPECT_DOUBLE_EQ(height(low).value(), 6) << "a fifth of eight storeys is never taken: two";
   EXPECT_EQ(low.remarked(LinkRemark::unmet),
-            "from: cannot be met: `garden` is short of 0.50 h of sun, held by `tower`, which keeps at least 2 storeys; lower "
-            "`required_sun`, `least` or `storeys_min`, or move the volume");
+            "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `tower`, which "
+            "keeps at least 2 storeys; lower "
+            "`required_sun`, lower `least`, or move the volume");
   EXPECT_NE(locked.remarked(LinkRemark::unmet).find("(its height limit is locked)"), std::string::npos);
 }
 
@@ -286,6 +293,71 @@ TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
   EXPECT_EQ(with.number("tower", "footprint.storeys_built"), 10);
   EXPECT_NEAR(with.number("tower", "smart_volume.footprint"), 240, 0.01);
   EXPECT_EQ(with.link_error("sun"), "");
+}
+
+// Its own word is what a link keeps: a limit that another one holds is not held on by the sun.
+World garden_and_plot(const std::string& height_max, const std::string& more = "", const std::string& links = "") {
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[0,0,0],[80,0,0],[80,44,0],[0,44,0]], "height_max": )" + height_max +
+      "}}}," + more;
+  const std::string rules = R"({"id": "rules", "kind": "plot_rules", "from": "plot", "to": "tower"},)" + links;
+  text.insert(text.find("\"nodes\": [") + 10, plot);
+  text.insert(text.find("\"links\": [") + 10, rules);
+  return World::from_text(text);
+}
+
+TEST(SolarRight, WhoTakesTheStoreysAloneIsNamed) {
+  // Four storeys of 3.2 m are left by the plot, eight by the garden; then nine and eight.
+  World plot = garden_and_plot("13"), sun = garden_and_plot("30");
+  for (World* world : {&plot, &sun}) ASSERT_TRUE(world->settle(500));
+  EXPECT_EQ(plot.number("tower", "footprint.storeys_built"), 4);
+  EXPECT_EQ(sun.number("tower", "footprint.storeys_built"), 8);
+  EXPECT_NE(plot.link_error("rules").find("`tower` has 4 of 10 storeys"), std::string::npos) << plot.link_error("rules");
+  EXPECT_EQ(plot.link_error("sun"), "");
+  EXPECT_NE(sun.link_error("sun").find("`tower` has 8 of 10 storeys"), std::string::npos) << sun.link_error("sun");
+  EXPECT_EQ(sun.link_error("rules"), "");
+  // What has let go holds nobody any longer: the sun would leave eight, and does.
+  ASSERT_EQ(plot.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"100"}})), "");
+  plot.tick(30);
+  ASSERT_TRUE(plot.settle(500));
+  EXPECT_EQ(plot.number("tower", "footprint.storeys_built"), 8);
+}
+
+// A wall that stands before the tower shades the same ground: without the tower the garden would have no minute more.
+TEST(SolarRight, WhoBringsNothingBackIsLeftAlone) {
+  const std::string wall = R"({"id": "wall", "types": {"shadow_caster": {}, "existing_building":
+    {"outline": [[-60, 58, 0], [120, 58, 0], [120, 60, 0], [-60, 60, 0]], "height": 60, "height_source": "tag"}}},)";
+  World world = garden_and_plot("1000", wall);
+  world.tick(40);
+  world.settle(200);
+  EXPECT_GT(world.number("garden", "shadow_receiver.deficit"), 0.2 * world.number("garden", "shadow_receiver.required_sun"));
+  EXPECT_EQ(world.number("tower", "footprint.storeys_built"), 10);
+  EXPECT_EQ(world.number("tower", "footprint.height_limit"), 1e6);
+  const std::string said = world.link_error("sun");
+  EXPECT_NE(said.find("no volume at the end of this link brings it more: `wall` takes it, which this link does not lead to"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find(" and can have "), std::string::npos) << said;
+}
+
+// North of the garden, and far from it, nobody stands in its sun.
+TEST(SolarRight, WhoIsOutOfReachIsLeftAlone) {
+  const std::string others = R"({"id": "site_b", "types": {"boundary": {"form": "plan",
+      "plan": [[0,90,0],[80,90,0],[80,130,0],[0,130,0]], "height": 60}}},
+    {"id": "solver_b", "types": {"standing_solver": {"boundary": "site_b", "members": ["north"]}}},
+    {"id": "north", "position": [32, 110, 0], "types": {"shadow_caster": {}, "smart_volume": {"demand": 4000, "storey_height": 3.2},
+      "footprint": {"storeys": 12}}},)";
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, others);
+  const std::string solver = "\"standing_solver\": {\"tolerance\": 1e-06}";
+  ASSERT_NE(text.find(solver), std::string::npos);
+  text.replace(text.find(solver), solver.size(),
+               R"("standing_solver": {"boundary": "site", "members": ["houses", "tower"], "tolerance": 1e-06})");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(500));
+  EXPECT_EQ(world.number("north", "footprint.storeys_built"), 12);
+  EXPECT_EQ(world.number("tower", "footprint.storeys_built"), 8);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/file/log_writer.h"
 #include "core/graph/sums_of_now.h"
 #include "core/making/script_file.h"
+#include "core/reading/report_model.h"
 #include "core/reading/survey.h"
 #include "core/report/report.h"
 #include "core/session/session.h"
@@ -152,6 +153,14 @@ class Run {
     }
   }
 
+  // Whoever reads the last line alone must not take what has settled for what is allowed.
+  static std::string rules_broken(const State& state) {
+    const std::size_t count = reading::rule_problems(state).size();
+    return count == 0   ? ""
+           : count == 1 ? "; a rule of a plot is broken"
+                        : "; " + std::to_string(count) + " rules of plots are broken";
+  }
+
   std::string outcome(const reading::Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
@@ -163,7 +172,7 @@ class Run {
     if (state.tick == 0) return stopped + "not settled: " + std::string(kNothingComputed);
     if (state.is_settled())
       return stopped + "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
-             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash);
+             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash) + rules_broken(state);
     return "not settled: " + stopped + why_not_settled(state, before_.get());
   }
 

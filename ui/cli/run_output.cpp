@@ -102,10 +102,13 @@ std::string amount(const Value& value, const std::string& unit) {
 }
 
 void print_tensions(const reading::Survey& survey) {
-  if (survey.tensions.empty()) return;
+  const auto minor =
+      std::find_if(survey.tensions.begin(), survey.tensions.end(), [](const reading::TensionRow& row) { return row.is_minor; });
+  const auto listed = static_cast<std::size_t>(minor - survey.tensions.begin());
+  if (listed == 0) return;
   print_line();
-  TextTable table({{"conflict at"}, {"port"}, {"tension", true}, {"links that pull"}});
-  for (std::size_t i = 0; i < std::min(kShownTensions, survey.tensions.size()); ++i) {
+  TextTable table({{"conflict at"}, {"port"}, {"tension", true}, {"share", true}, {"links that pull"}});
+  for (std::size_t i = 0; i < std::min(kShownTensions, listed); ++i) {
     const reading::TensionRow& row = survey.tensions[i];
     std::string pulls;
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
@@ -114,12 +117,11 @@ void print_tensions(const reading::Survey& survey) {
                " " + amount(row.pulls[p].value, row.unit);
     if (row.pulls.size() > kShownPulls) pulls += " and " + std::to_string(row.pulls.size() - kShownPulls) + " more";
     table.add({row.node, row.port, fixed(row.tension, 3) + (row.unit.empty() ? "" : " " + row.unit),
-               pulls.empty() ? "the value that is set" : pulls});
+               fixed(100 * row.severity, 1) + " %", pulls.empty() ? "the value that is set" : pulls});
   }
   table.print();
-  if (survey.tensions.size() > kShownTensions)
-    print_line("... and " + counted(survey.tensions.size() - kShownTensions, "smaller conflict") +
-               "; --json has all above 0.001.");
+  if (listed > kShownTensions)
+    print_line("... and " + counted(listed - kShownTensions, "smaller conflict") + "; --json has all.");
 }
 
 }  // namespace
@@ -228,7 +230,8 @@ Json tension_json(const reading::TensionRow& row, const State& state) {
     voice["strength"] = pull.strength;
     pulls.push_back(std::move(voice));
   }
-  return {{"node", row.node}, {"port", row.port}, {"tension", row.tension}, {"unit", row.unit}, {"links", std::move(pulls)}};
+  return {{"node", row.node},      {"port", row.port},         {"tension", row.tension},   {"unit", row.unit},
+          {"share", row.severity}, {"is_minor", row.is_minor}, {"links", std::move(pulls)}};
 }
 
 }  // namespace

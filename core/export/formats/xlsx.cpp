@@ -18,8 +18,8 @@ struct XlsxFormat {
   static void declare(FormatBuilder<XlsxFormat>& f) {
     f.id("xlsx").label("Area schedule (XLSX)");
     f.doc(
-        "A workbook: storeys, buildings, programme against result, plots with their indices, indicators with their targets, and "
-        "what scene and state it is of. "
+        "A workbook: storeys, buildings, programme against result, plots with their indices, indicators with their targets, "
+        "problems, and what scene and state it is of. "
         "Sums are formulas over the rows above, or over the sheets before, and bring their values along, so that programs which "
         "do not calculate read the same numbers.");
     f.ending(".xlsx").begins("PK\x03\x04");
@@ -168,6 +168,14 @@ struct XlsxFormat {
       return sheet;
     }
 
+    // What failed, what cannot be met, and rules of plots that are broken, as everywhere.
+    XlsxSheet problems() const {
+      XlsxSheet sheet{"Problems", {30, 120}, {}};
+      sheet.rows.push_back(header({"where", "what"}));
+      for (const Trouble& one : proposal.troubles) sheet.rows.push_back({w(one.place), w(one.message)});
+      return sheet;
+    }
+
     XlsxSheet about() const {
       XlsxSheet sheet{"About", {24, 60}, {}};
       sheet.rows.push_back(header({"what", "value"}));
@@ -183,9 +191,9 @@ struct XlsxFormat {
     // Without their header and their sum: the row numbers of the last building and storey.
     const XlsxSheet storeys = tables.storeys();
     const XlsxSheet buildings = tables.buildings(storeys.rows.size() - 1);
-    auto book = xlsx_book(
-        {tables.programme(buildings.rows.size() - 1), buildings, storeys, tables.plots(), tables.indicators(), tables.about()},
-        proposal.name(), identity_line(proposal));
+    auto book = xlsx_book({tables.programme(buildings.rows.size() - 1), buildings, storeys, tables.plots(), tables.indicators(),
+                           tables.problems(), tables.about()},
+                          proposal.name(), identity_line(proposal));
     if (!book) return book.error();
     return ExportFiles{{{"schedule.xlsx", std::move(*book)}}, {}};
   }

@@ -12,9 +12,25 @@ void PlotFigures::declare(ViewBuilder<PlotFigures>& v) {
   v.reads(&PlotFigures::height_max, "plot.height_max", Unit::metre);
   v.reads(&PlotFigures::fsi, "plot.fsi", Unit::ratio);
   v.reads(&PlotFigures::gsi, "plot.gsi", Unit::ratio);
+  v.reads(&PlotFigures::top, "plot.top", Unit::metre);
   v.reads(&PlotFigures::overshoot, "plot.overshoot", Unit::ratio);
+  v.reads(&PlotFigures::setback, "plot.setback", Unit::metre);
+  v.reads(&PlotFigures::setback_overshoot, "plot.setback_overshoot", Unit::metre);
+  v.reads(&PlotFigures::message, "plot.message");
 }
 BL_VIEW(PlotFigures)
+
+void PlotVolume::declare(ViewBuilder<PlotVolume>& v) {
+  v.of("smart_volume");
+  v.reads(&PlotVolume::centroid, "smart_volume.centroid", Unit::metre);
+  v.reads(&PlotVolume::volume, "smart_volume.volume", Unit::cubic_metre);
+  v.reads(&PlotVolume::floor_area, "smart_volume.floor_area", Unit::square_metre);
+  v.reads(&PlotVolume::footprint, "smart_volume.footprint", Unit::square_metre);
+  v.reads(&PlotVolume::bottom, "smart_volume.bottom", Unit::metre);
+  v.reads(&PlotVolume::height, "smart_volume.height", Unit::metre);
+  v.reads(&PlotVolume::storey_height, "smart_volume.storey_height", Unit::metre);
+}
+BL_VIEW(PlotVolume)
 
 void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
   v.of_links("plot_rules");
@@ -24,6 +40,6 @@ void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
 }
 BL_VIEW(PlotRuleParameters)
 
-BL_VIEWS(plot, PlotFigures, PlotRuleParameters)
+BL_VIEWS(plot, PlotFigures, PlotVolume, PlotRuleParameters)
 
 }  // namespace bl::reading

@@ -11,12 +11,30 @@ struct PlotFigures {
   double ground = 0;            ///< height above the origin [m]
   double fsi_max = 0;
   double gsi_max = 0;
-  double height_max = 0;  ///< [m]
-  double fsi = 0;         ///< floor space index
-  double gsi = 0;         ///< ground space index
-  double overshoot = 0;   ///< by how much the worst rule is broken
+  double height_max = 0;         ///< [m]
+  double fsi = 0;                ///< floor space index
+  double gsi = 0;                ///< ground space index
+  double top = 0;                ///< of the highest volume above the ground [m]
+  double overshoot = 0;          ///< by how much the worst rule of FSI, GSI and height is broken
+  double setback = 0;            ///< [m]
+  double setback_overshoot = 0;  ///< the largest depth of a volume in it [m]
+  std::string message;           ///< what no smaller demand corrects
 
   static void declare(ViewBuilder<PlotFigures>& v);
+  static const ViewDefinition& view();
+};
+
+/// What the rules of a plot read of a volume.
+struct PlotVolume {
+  Point3 centroid;           ///< [m]
+  double volume = 0;         ///< [m³]
+  double floor_area = 0;     ///< [m²]
+  double footprint = 0;      ///< [m²]
+  double bottom = 0;         ///< height of its lowest point above the origin [m]
+  double height = 0;         ///< from its lowest to its highest point [m]
+  double storey_height = 0;  ///< [m]
+
+  static void declare(ViewBuilder<PlotVolume>& v);
   static const ViewDefinition& view();
 };
 

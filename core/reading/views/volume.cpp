@@ -52,6 +52,7 @@ void StoreyFigures::declare(ViewBuilder<StoreyFigures>& v) {
   v.reads(&StoreyFigures::height_limit, "footprint.height_limit", Unit::metre);
   v.reads(&StoreyFigures::is_limited, "footprint.is_limited");
   v.reads(&StoreyFigures::bases, "footprint.bases");
+  v.reads(&StoreyFigures::ground, "footprint.ground", Unit::metre);
 }
 BL_VIEW(StoreyFigures)
 

@@ -57,6 +57,7 @@ struct StoreyFigures {
   double height_limit = 0;                      ///< [m] above the ground
   bool is_limited = false;                      ///< it takes storeys that are wished
   std::vector<std::string> bases;               ///< id of the volume on whose roof it stands; none: the ground
+  double ground = 0;                            ///< height of the ground below it [m]
 
   static void declare(ViewBuilder<StoreyFigures>& v);
   static const ViewDefinition& view();

@@ -50,6 +50,24 @@ TEST(Views, DifferencesAddUpToTheWhole) {
   EXPECT_GT(sent, 100);
 }
 
+// A room sees a rule that is broken without asking: beside the indicators, with who breaks it and what to do.
+TEST(Views, ABrokenRuleStandsAmongTheFigures) {
+  World world = World::from_file("scenes/nodes/plot.json");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"3"}})), "");
+  world.tick(30);
+  room::Room room(world.session().ledger(), {});
+  const View view = make_view("figures", {world.state(), room, "CODE", "Title"}, 1);
+  ASSERT_TRUE(view.contains("plot/height_max"));
+  const Json figure = *parse_json(view.at("plot/height_max"));
+  EXPECT_EQ(figure["name"], "Plot: height");
+  EXPECT_EQ(figure["target"], 3);
+  EXPECT_EQ(figure["direction"], "at_most");
+  EXPECT_EQ(figure["status"], "far");
+  EXPECT_GT(figure["value"].get<double>(), 3);
+  EXPECT_NE(figure["why"].get<std::string>().find("nothing holds it"), std::string::npos);
+  EXPECT_FALSE(view.contains("plot/fsi_max"));
+}
+
 TEST(Views, KeysAreForWhoLeads) {
   World world = World::from_file("scenes/start/quarter.json");
   room::Room room(world.session().ledger(), {});

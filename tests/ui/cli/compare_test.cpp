@@ -34,6 +34,29 @@ TEST(Compare, TellsInputsAndIndicators) {
   EXPECT_NE(page.find("<rect"), std::string::npos);
 }
 
+// Who looks from one drawing to the other compares lengths: both have one scale and one window, whatever stands in each.
+TEST(Compare, BothDrawingsHaveTheSameScaleAndWindow) {
+  const Workplace place;
+  const auto plan = [](const std::string& height) {
+    return R"({"form": "plan", "plan": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], "height": )" + height + "}";
+  };
+  place.write("a.json", scene_text(volume_text("east", "[8, 0, 8]", "2000"), "", plan("20")));
+  place.write("b.json", scene_text(volume_text("east", "[8, 0, 8]", "6000"), "", plan("90")));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json", "--report", "d.html"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = place.text("d.html");
+  const auto after = [&page](const std::string& before, const std::string& opening, std::size_t from) {
+    const std::size_t at = page.find(opening, page.find(before, from)) + opening.size();
+    return page.substr(at, page.find('"', at) - at);
+  };
+  const std::size_t first = page.find("<svg"), second = page.find("<svg", first + 1);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_EQ(after("<svg", "viewBox=\"", first), after("<svg", "viewBox=\"", second));
+  const std::string plot = after("first-plot", " d=\"", first);
+  EXPECT_GT(plot.size(), 20u);
+  EXPECT_EQ(plot, after("second-plot", " d=\"", second)) << "the same ground lies at the same place";
+}
+
 TEST(Compare, ASceneWithItselfDiffersInNothing) {
   const Workplace place;
   place.write("a.json", moving_scene());

@@ -45,6 +45,21 @@ TEST(PlaceProblems, NamesWhatHangsWithItsHeight) {
   EXPECT_NE(model.problems[0].message.find("13.8 m above the ground"), std::string::npos);
 }
 
+// Two that stand and attract each other: no link makes room for such, and none is advised.
+TEST(PlaceProblems, WhatHelpsIsWhatTheSceneAllows) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40}}},
+    {"id": "solver", "types": {"standing_solver": {}}},
+    {"id": "a", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {}}},
+    {"id": "b", "position": [30.5, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {}}}], "links": [
+    {"id": "pull", "kind": "attract", "from": "a", "to": "b"}]})");
+  world.tick(3);
+  const auto collapsed = reading::collapsed_volumes(world.state());
+  ASSERT_EQ(collapsed.size(), 1u);
+  EXPECT_EQ(collapsed[0].text.find("make_room"), std::string::npos) << collapsed[0].text;
+  EXPECT_NE(collapsed[0].text.find("move them apart"), std::string::npos) << collapsed[0].text;
+}
+
 // The flats stand on the shop, which its set-back leaves no ground: that is what is wrong with both, and not that they share a
 // place.
 TEST(PlaceProblems, WhoStandsOnAVolumeWithoutABodyLiesOnNoPointWithIt) {

@@ -59,6 +59,18 @@ TEST(Problems, APressGoesThere) {
   EXPECT_TRUE(desktop.editor().picks.nodes.contains(node));
 }
 
+TEST(Problems, ABrokenRuleOfAPlotIsListedWithWhoBreaksIt) {
+  ListDesktop desktop("scenes/nodes/plot.json");
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"plot", {"plot.height_max"}, {"3"}})));
+  desktop.ticks(30);
+  const auto broken = desktop.of(ProblemKind::rule);
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_EQ(broken[0].subject, "Plot breaks a rule");
+  EXPECT_NE(broken[0].text.find("of 3.0 m allowed, by `"), std::string::npos) << broken[0].text;
+  EXPECT_EQ(broken[0].nodes.front(), "plot");
+  EXPECT_EQ(broken[0].nodes.size(), 3u) << "with both volumes on it";
+}
+
 TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
   ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"site", {"boundary.height"}, {"12"}})));

@@ -23,6 +23,7 @@ Sign sign_of(const Theme& theme, const ProblemItem& item) {
   const Colours& c = theme.colours();
   switch (item.kind) {
     case ProblemKind::conflict: return {icon::kBalance, c.warning};
+    case ProblemKind::rule: return {icon::kWarning, c.bad};
     case ProblemKind::shortage: return {icon::kWarning, item.is_error ? c.bad : c.warning};
     case ProblemKind::failing: return {icon::kError, c.bad};
     case ProblemKind::no_room: return {icon::kCube, c.warning};

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/solver.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -58,11 +59,18 @@ std::string what_of(const State& state, const std::string& link) {
   return "Link " + link + " fails";
 }
 
+// What a solver of standing volumes says is often no want of room: who stands where, or which storeys vanish.
+std::string what_is_short(const State& state, const reading::ProblemRow& row) {
+  const bool stands = reading::row_of<reading::StandingFigures>(state, state.plan->node_index(row.node)).has_value();
+  return stands ? row.place.substr(5) + " builds otherwise than asked" : "The boundary is too small";
+}
+
 }  // namespace
 
 const char* label_of(ProblemKind kind) {
   switch (kind) {
     case ProblemKind::conflict: return "Conflicts";
+    case ProblemKind::rule: return "Rules";
     case ProblemKind::shortage: return "Shortages";
     case ProblemKind::failing: return "Failures";
     case ProblemKind::no_room: return "Without room";
@@ -85,7 +93,7 @@ void ProblemList::add_conflicts(const State& state) {
   std::vector<std::size_t> order;
   for (const reading::TensePort& tense : problems_.tense()) {
     // What was before decides on places in the list alone, never on what is listed.
-    if (tense.severity < reading::kMinorSeverity) continue;
+    if (tense.is_minor) continue;
     const auto before = bands_.find(tense.ref);
     const int band = std::max(0, band_of(tense.severity, before != bands_.end() ? &before->second : nullptr));
     bands.emplace(tense.ref, band);
@@ -186,14 +194,16 @@ void ProblemList::add_failures(const State& state) {
           !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
         continue;
       ProblemItem item;
-      item.kind = is_shortage ? ProblemKind::shortage : ProblemKind::failing;
+      item.kind = row.is_rule ? ProblemKind::rule : is_shortage ? ProblemKind::shortage : ProblemKind::failing;
       item.key = row.place;
       item.is_error = true;
       item.text = row.message;
-      item.subject = is_shortage        ? "The boundary is too small"
+      item.subject = row.is_rule        ? row.place.substr(5) + " breaks a rule"
+                     : is_shortage      ? what_is_short(state, row)
                      : row.node.empty() ? what_of(state, row.link)
                                         : row.place.substr(5) + " fails";
       if (!row.node.empty()) item.nodes = {row.node};
+      item.nodes.insert(item.nodes.end(), row.others.begin(), row.others.end());
       if (!row.link.empty()) item.links = {row.link};
       items_.push_back(std::move(item));
     }

@@ -14,8 +14,8 @@
 namespace bl::desktop {
 
 /// In the order of the list.
-enum class ProblemKind { conflict, shortage, failing, no_room, place, idle, file };
-inline constexpr std::size_t kProblemKinds = 7;
+enum class ProblemKind { conflict, rule, shortage, failing, no_room, place, idle, file };
+inline constexpr std::size_t kProblemKinds = 8;
 
 struct ProblemItem {
   ProblemKind kind = ProblemKind::file;

@@ -149,6 +149,7 @@ export interface Goal {
   status: Status;
   score?: number;
   direction?: "at_least" | "at_most" | "near";
+  why?: string; ///< of a rule of a plot that is broken: by whom, and which link holds it
 }
 export interface Control {
   node: string;

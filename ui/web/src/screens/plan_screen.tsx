@@ -126,6 +126,11 @@ export function Figures({ s }: { s: Session }): JSX.Element | null {
               <StatusWord status={figure.status} />
             </div>
             <p>{goal_sentence(figure)}</p>
+            {figure.why ? (
+              <p class="small faint" lang="en">
+                {figure.why}
+              </p>
+            ) : null}
           </li>
         ))}
       </ul>
