@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/define/port_builder.h"
+#include "core/export/forms.h"
 #include "core/export/proposal_model.h"
 
 namespace bl::exporting {
@@ -55,7 +56,7 @@ enum class Paper { a4, a3, a2, a1, a0 };
 /// The sizes for a declaration of options.
 std::vector<Choice<Paper>> paper_choices();
 
-struct SheetOptions {
+struct SheetOptions : FormOptions {
   Paper paper = Paper::a3;
   double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
   bool surroundings = true, labels = true;

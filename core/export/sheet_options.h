@@ -20,6 +20,7 @@ void declare_sheet_options(FormatBuilder<T>& f) {
           "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
           "`none`.");
   f.option(&SheetOptions::labels, "labels").doc("With the name and floor area of each storey.");
+  declare_form_option(f);
 }
 
 }  // namespace bl::exporting

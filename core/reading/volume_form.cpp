@@ -17,8 +17,8 @@ namespace bl::reading {
 namespace {
 
 constexpr std::array<VolumeFormChoice, kVolumeForms> kForms = {{
-    {VolumeForm::as_is, "as_is", "As they are",
-     "Standing volumes as buildings, rounded ones as cells wrapped onto their balls.", "as they are"},
+    {VolumeForm::as_is, "as_is", "As they are", "Standing volumes as buildings, rounded ones as cells wrapped onto their balls.",
+     "as they are"},
     {VolumeForm::balls, "balls", "Balls",
      "A bubble diagram: each volume as a ball of the same volume, not cut by others; floors in the middle of each storey.",
      "as balls"},
@@ -33,7 +33,7 @@ constexpr std::array<VolumeFormChoice, kVolumeForms> kForms = {{
      "as standing bodies"},
 }};
 
-constexpr int kRound = 48, kUpward = 24;  // parts of a ball's mesh
+constexpr int kRound = 32, kUpward = 16;  // parts of a ball's mesh
 
 void append(const Mesh& part, Mesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -90,7 +90,7 @@ std::vector<Cut> cuts_of(double bottom, double height, double storey) {
   return cuts;
 }
 
-FormedVolume as_ball(const FormSource& source) {
+FormedVolume as_ball(const FormSource& source, bool with_body) {
   // So large that the mesh has the volume that the figure says.
   static const std::pair<Mesh, double> unit = [] {
     Mesh ball = unit_ball();
@@ -101,16 +101,19 @@ FormedVolume as_ball(const FormSource& source) {
   const double radius = ball_radius(source.volume), reach = std::cbrt(source.volume / unit.second);
   if (!(radius > 0)) return made;
   const Point3 middle = ball_middle(source);
-  Mesh mesh = unit.first;
-  for (Point3& v : mesh.vertices) v = middle + reach * v;
-  made.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  if (with_body) {
+    Mesh mesh = unit.first;
+    for (Point3& v : mesh.vertices) v = middle + reach * v;
+    made.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  }
   made.volume = source.volume;
   made.bottom = middle.z - radius;
   made.top = middle.z + radius;
   for (const Cut& cut : cuts_of(made.bottom, 2 * radius, source.storey_height)) {
     const double squared = radius * radius - (cut.at - middle.z) * (cut.at - middle.z);
     if (!(squared > 0)) continue;
-    made.storeys.push_back({cut.bottom, cut.top, std::numbers::pi * squared, {{circle(middle, std::sqrt(squared)), {}}}});
+    made.storeys.push_back({cut.bottom, cut.top, std::numbers::pi * squared, {}});
+    if (with_body) made.storeys.back().faces.push_back({circle(middle, std::sqrt(squared)), {}});
     made.floor_area += made.storeys.back().area;
   }
   return made;
@@ -141,29 +144,29 @@ FormedVolume as_cell(const FormSource& source) {
   return made;
 }
 
-void pile_up(FormedVolume& made) {
+void pile_up(FormedVolume& made, bool with_body) {
   Mesh mesh;
   for (const FormedStorey& storey : made.storeys) {
     made.floor_area += storey.area;
     made.volume += storey.area * (storey.top - storey.bottom);
-    for (const geometry::PlateFace& face : storey.faces)
-      append(geometry::prism_mesh(face.outer, face.holes, storey.bottom, storey.top), mesh);
+    for (std::size_t k = 0; with_body && k < storey.faces.size(); ++k)
+      append(geometry::prism_mesh(storey.faces[k].outer, storey.faces[k].holes, storey.bottom, storey.top), mesh);
   }
   if (made.storeys.empty()) return;
   made.bottom = made.storeys.front().bottom;
   made.top = made.storeys.back().top;
-  made.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  if (with_body) made.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
-FormedVolume as_slabs(const FormSource& source) {
+FormedVolume as_slabs(const FormSource& source, bool with_body) {
   FormedVolume made;
   made.storeys = source.storeys;
   for (FormedStorey& storey : made.storeys) storey.top = storey.bottom + source.storey_height;
-  pile_up(made);
+  pile_up(made, with_body);
   return made;
 }
 
-FormedVolume as_standing(const FormSource& source) {
+FormedVolume as_standing(const FormSource& source, bool with_body) {
   FormedVolume made;
   const auto largest = std::max_element(source.storeys.begin(), source.storeys.end(),
                                         [](const FormedStorey& a, const FormedStorey& b) { return a.area < b.area; });
@@ -174,7 +177,13 @@ FormedVolume as_standing(const FormSource& source) {
     const double floor = source.bottom + k * source.storey_height;
     made.storeys.push_back({floor, floor + source.storey_height, largest->area, largest->faces});
   }
-  pile_up(made);
+  pile_up(made, with_body);
+  if (!with_body) return made;
+  // One body: there is nothing between its storeys.
+  Mesh mesh;
+  for (const geometry::PlateFace& face : largest->faces)
+    append(geometry::prism_mesh(face.outer, face.holes, made.bottom, made.top), mesh);
+  made.mesh = std::make_shared<const Mesh>(std::move(mesh));
   return made;
 }
 
@@ -196,7 +205,7 @@ Point3 ball_middle(const FormSource& source) {
 
 // Without its wrap, so that its faces stay flat.
 MeshPointer flat_cell(const FormSource& source) {
-  const MeshPointer coarse = coarse_of(source.shape);
+  const std::shared_ptr<const Mesh> coarse = source.shape ? source.shape.coarse() : nullptr;
   if (!coarse) return nullptr;
   const Mesh& whole = coarse->whole ? *coarse->whole : *coarse;
   if (!whole.wrap) return nullptr;
@@ -208,12 +217,12 @@ MeshPointer flat_cell(const FormSource& source) {
   return cut ? cut_cell(*cut, source.bottom, Kept::above) : nullptr;
 }
 
-FormedVolume in_form(const FormSource& source, VolumeForm form) {
+FormedVolume in_form(const FormSource& source, VolumeForm form, bool with_body) {
   switch (form) {
-    case VolumeForm::balls: return as_ball(source);
+    case VolumeForm::balls: return as_ball(source, with_body);
     case VolumeForm::cells: return as_cell(source);
-    case VolumeForm::slabs: return as_slabs(source);
-    case VolumeForm::standing: return as_standing(source);
+    case VolumeForm::slabs: return as_slabs(source, with_body);
+    case VolumeForm::standing: return as_standing(source, with_body);
     default: return {};
   }
 }

@@ -33,11 +33,11 @@ struct FormedStorey {
 /// A volume as its solver made it: what other forms of it follow from.
 struct FormSource {
   bool is_standing = false;
-  Point3 position;                    ///< [m]
-  double volume = 0, floor_area = 0;  ///< [m³], [m²]
+  Point3 position;                                   ///< [m]
+  double volume = 0, floor_area = 0;                 ///< [m³], [m²]
   double bottom = 0, height = 0, storey_height = 3;  ///< [m]
-  MeshPointer shape;                  ///< of a rounded one, with its coarse mesh; only cells want it
-  std::vector<FormedStorey> storeys;  ///< balls and cells do without
+  MeshPointer shape;                                 ///< of a rounded one, with its coarse mesh; only cells want it
+  std::vector<FormedStorey> storeys;                 ///< balls and cells do without
 };
 
 struct FormedVolume {
@@ -48,12 +48,15 @@ struct FormedVolume {
 };
 
 /// For every form but `as_is`: null mesh where the volume has none. A volume that stands is, in every form but balls, what it is.
-/// - balls: one ball of the same volume, around the place of a rounded volume or the middle of one that stands; its floors are cut
+/// - balls: one ball of the same volume, around the place of a rounded volume or the middle of one that stands; its floors are
+/// cut
 ///   in the middle of each storey, as solvers measure rounded volumes.
-/// - cells: what neighbours and boundary leave between the volume's own bottom and top, with flat facets, measured in the same way.
+/// - cells: what neighbours and boundary leave between the volume's own bottom and top, with flat facets, measured in the same
+/// way.
 /// - slabs: each storey as a plate of its floor; the floor area is that of the scene, the volume floors times storey height.
 /// - standing: whole storeys on the largest floor, as many as the volume fills, at least one; such bodies may meet each other.
-FormedVolume in_form(const FormSource& source, VolumeForm form);
+/// Without its body, storeys have no faces and there is no mesh, except of cells: figures alone take less time.
+FormedVolume in_form(const FormSource& source, VolumeForm form, bool with_body = true);
 
 /// The radius of a ball of that volume [m].
 double ball_radius(double volume);

@@ -20,7 +20,7 @@ namespace {
 enum class DxfArrangement { stacked, beside };
 
 struct DxfFormat {
-  struct Options {
+  struct Options : FormOptions {
     DxfArrangement storeys = DxfArrangement::stacked;
     bool surroundings = true;
     double text_height = 1;
@@ -46,6 +46,7 @@ struct DxfFormat {
             "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
             "`none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
+    declare_form_option(f);
   }
 
   // Of AutoCAD's list of colours, one for each use in turn.

@@ -14,6 +14,7 @@
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
+#include "ui/desktop/view/drawn_form.h"
 
 namespace bl::desktop {
 
@@ -51,10 +52,19 @@ void ExportDialog::begin(const std::string& beside, const std::string& section) 
     before_section_.reset();
   }
   if (!section.empty()) choose_section(section);
+  follow_form();
   if (scene_ == beside && !folder_.empty()) return;  // the same scene again: what was chosen stays
   scene_ = beside;
   folder_ = paths::path(beside).parent_path().string();
   name_ = paths::path(beside).stem().string();
+}
+
+// What is exported measures what is seen: the form in which the 3D view draws volumes.
+void ExportDialog::follow_form() {
+  const std::string form = form_of(editor_->person.drawn_as).id;
+  for (const exporting::FormatDefinition& format : exporting::all_formats())
+    if (const PortDefinition* option = format.find_port("form"); option != nullptr)
+      values_of(format)[static_cast<std::size_t>(option - format.ports.data())] = form;
 }
 
 // Every format that has an option for it gets the section; the first that can show it alone is chosen.

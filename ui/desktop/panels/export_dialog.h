@@ -46,6 +46,7 @@ class ExportDialog {
     std::map<std::string, std::vector<Value>> options;
   };
   std::optional<Chosen> before_section_;
+  void follow_form();
   void choose_section(const std::string& section);
   std::vector<std::string> asked_;  ///< the files that a person was asked about: whether to replace them
 };

@@ -75,6 +75,8 @@ class SceneView {
   // --- In which form volumes are drawn, and how many storeys from the ground up.
   DrawnLook drawn_look() const { return {form_of(editor_->person.drawn_as).form, storeys_shown_}; }
   void draw_as(const std::string& form) { editor_->person.drawn_as = form; }
+  /// What a volume measures in that form; nothing where volumes are drawn as they are.
+  std::optional<DrawnShapes::FormFigures> form_figures(std::uint32_t node) const { return drawn_.figures_of(node); }
   /// 0, or as many as there are: all.
   void show_storeys(int count);
   /// So many more or fewer than are shown now.
