@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/define/port_builder.h"
+#include "core/export/forms.h"
 #include "core/export/proposal_model.h"
 
 namespace bl::exporting {
@@ -76,16 +77,39 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition.ports);
     constexpr bool kFillsFolder = requires(const Proposal& p, const Options& o) { T::write(p, o, true); };
     definition.may_fill_folder = kFillsFolder;
-    definition.write = [ports](const Proposal& proposal, std::span<const Value> values, bool is_folder) {
+    definition.write = [ports](const Proposal& proposal, std::span<const Value> values, bool is_folder) -> Result<ExportFiles> {
       Options options;
       for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&options, values[p]);
       (void)is_folder;
-      if constexpr (kFillsFolder) return T::write(proposal, options, is_folder);
-      else return T::write(proposal, options);
+      const auto written = [&](const Proposal& formed) -> Result<ExportFiles> {
+        if constexpr (kFillsFolder) return T::write(formed, options, is_folder);
+        else return T::write(formed, options);
+      };
+      if constexpr (std::derived_from<Options, FormOptions>) {
+        if (options.form != VolumeForm::as_is) {
+          if constexpr (requires { T::why_not(options.form); })
+            if (const std::string why = T::why_not(options.form); !why.empty())
+              return Error{ErrorCode::out_of_range, "form", why};
+          const Proposal formed = in_form(proposal, options.form);
+          if (formed.buildings.empty())
+            return Error{ErrorCode::missing, "form",
+                         std::string("no volume has a body ") + reading::choice_of(options.form).measured};
+          return written(formed);
+        }
+      }
+      return written(proposal);
     };
     return definition;
   }
 };
+
+/// For formats whose options begin with FormOptions: the proposal comes in the form that is asked for. A format that cannot say
+/// one has `static std::string why_not(VolumeForm)`, a sentence, empty for those that it can.
+template <class T>
+void declare_form_option(FormatBuilder<T>& f) {
+  f.option(&FormOptions::form, "form", form_choices())
+      .doc("In which form volumes are drawn and measured; plots and indicators keep the figures of the scene.");
+}
 
 using FormatList = std::vector<FormatDefinition>;
 /// All formats of the program, in the order of their ids.

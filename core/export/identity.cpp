@@ -23,7 +23,8 @@ std::vector<std::pair<std::string, std::string>> identity_of(const Proposal& pro
                                                            {"hash", proposal.hash},
                                                            {"tick", std::to_string(proposal.tick)},
                                                            {"settled", proposal.is_settled ? "yes" : "no"},
-                                                           {"units", "m, m2, m3"}};
+                                                           {"units", "m, m2, m3"},
+                                                           {"volumes", reading::choice_of(proposal.form).measured}};
   rows.emplace_back("coordinate_system", has_system(proposal) ? place.crs : "local metres");
   if (has_system(proposal)) rows.emplace_back("origin", shortest(place.origin_x) + " " + shortest(place.origin_y));
   if (place.is_on_earth()) rows.emplace_back("latitude_longitude", shortest(place.latitude) + " " + shortest(place.longitude));

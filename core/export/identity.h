@@ -10,7 +10,8 @@
 
 namespace bl::exporting {
 
-/// Name and value: scene, file, hash, tick, settled, units, coordinate system, origin, place on Earth, true north.
+/// Name and value: scene, file, hash, tick, settled, units, the form of volumes, coordinate system, origin, place on Earth, true
+/// north.
 std::vector<std::pair<std::string, std::string>> identity_of(const Proposal& proposal);
 /// The same in one line, for headers.
 std::string identity_line(const Proposal& proposal);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/text.h"
 #include "core/export/plan_places.h"
@@ -20,6 +21,11 @@ class PlanMaker : SheetFrame {
     sheet_.level = level;
     sheet_.title = proposal.name() + ", level " + std::to_string(level);
   }
+  /// What a plane at that height cuts [m].
+  PlanMaker(const Proposal& proposal, double height, const SheetOptions& options)
+      : SheetFrame(proposal, options), height_(height) {
+    sheet_.title = proposal.name() + ", level cut";
+  }
 
   Result<PlanSheet> make() {
     const PlanExtent extent = plan_extent(proposal_);
@@ -32,17 +38,12 @@ class PlanMaker : SheetFrame {
     add_lands();
     add_storeys();
     add_dimensions();
-    if (options_.section != "none") {
-      const auto line = section_line(proposal_, options_.section == "auto" ? "" : options_.section);
-      if (!line) return line.error();
-      add_section_line(*line);
+    if (height_) {
+      add_cut_title();
+    } else {
+      if (auto marked = mark_section(); !marked) return marked.error();
+      add_level_title();
     }
-    double area = 0;
-    for (const Building& b : proposal_.buildings)
-      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
-    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels - 1) + ", from " +
-                  fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
-              "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
     add_legend();
     add_scale_bar();
     add_north();
@@ -50,6 +51,36 @@ class PlanMaker : SheetFrame {
   }
 
  private:
+  Result<void> mark_section() {
+    if (options_.section != "none" && !level_cut(options_.section)) {
+      const auto line = section_line(proposal_, options_.section == "auto" ? "" : options_.section);
+      if (!line) return line.error();
+      add_section_line(*line);
+    }
+    return {};
+  }
+
+  void add_level_title() {
+    double area = 0;
+    for (const Building& b : proposal_.buildings)
+      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
+    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels - 1) + ", from " +
+                  fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
+              "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
+  }
+
+  void add_cut_title() {
+    double area = 0;
+    std::size_t cut = 0;
+    for (const Building& b : proposal_.buildings) {
+      const LevelPart part = level_part(b, *height_);
+      area += area_of(part.faces);
+      cut += part.faces.empty() ? 0 : 1;
+    }
+    add_title("Level cut at " + std::string(*height_ >= 0 ? "+" : "") + fixed(*height_, 2) + " m",
+              "Volumes cut: " + std::to_string(cut) + "; their area at this height " + fixed(area, 1) + " m²");
+  }
+
   SheetShape shape_of(const std::vector<geometry::PlateFace>& faces, const std::string& name) const {
     SheetShape shape;
     shape.name = name;
@@ -108,6 +139,10 @@ class PlanMaker : SheetFrame {
     for (const UseRow& use : proposal_.uses) uses.push_back({"use_" + to_identifier(use.use), use_name(use.use), true, {}, {}});
     uses.push_back({"use_other", "other", true, {}, {}});
     for (const Building& b : proposal_.buildings) {
+      if (height_) {
+        add_cut(b, uses[proposal_.use_number(b.use)], labels);
+        continue;
+      }
       const auto own = std::find_if(b.storeys.begin(), b.storeys.end(), [&](const Storey& s) { return s.level == sheet_.level; });
       if (own == b.storeys.end()) {
         if (const Storey* storey = passing(b, cut)) {
@@ -130,6 +165,17 @@ class PlanMaker : SheetFrame {
     for (SheetGroup& group : uses)
       if (!group.shapes.empty()) sheet_.groups.push_back(std::move(group));
     sheet_.groups.push_back(std::move(labels));
+  }
+
+  void add_cut(const Building& b, SheetGroup& use, SheetGroup& labels) const {
+    const LevelPart part = level_part(b, *height_);
+    if (part.faces.empty()) return;
+    SheetShape shape = shape_of(part.faces, b.label);
+    shape.is_filled = true;
+    shape.fill = b.colour;
+    shape.width = 0.5;  // heavier than a plan: it is a cut
+    use.shapes.push_back(std::move(shape));
+    if (options_.labels) add_label(b, *part.storey, labels);
   }
 
   // In a size that fits into the plate, as far as it can be read; else the area alone; else nothing: the schedule has it.
@@ -177,9 +223,15 @@ class PlanMaker : SheetFrame {
       group.texts.push_back({{place.x, place.y - 1}, 3, SheetAnchor::middle, true, "A"});
     sheet_.groups.push_back(std::move(group));
   }
+
+  std::optional<double> height_;  // of a level cut [m]; none: the sheet shows a level
 };
 
 }  // namespace
+
+Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const SheetOptions& options) {
+  return PlanMaker(proposal, height, options).make();
+}
 
 Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options) {
   return PlanMaker(proposal, level, options).make();

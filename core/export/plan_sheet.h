@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/define/port_builder.h"
+#include "core/export/forms.h"
 #include "core/export/proposal_model.h"
 
 namespace bl::exporting {
@@ -55,16 +56,19 @@ enum class Paper { a4, a3, a2, a1, a0 };
 /// The sizes for a declaration of options.
 std::vector<Choice<Paper>> paper_choices();
 
-struct SheetOptions {
+struct SheetOptions : FormOptions {
   Paper paper = Paper::a3;
   double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
   bool surroundings = true, labels = true;
-  std::string section = "auto";  ///< a line as `section_line` reads it; `auto`: along the longest side; `none`: no section
+  /// A line as `section_line` reads it, or one height; `auto`: along the longest side; `none`: no section.
+  std::string section = "auto";
 };
 
 /// Fails where the scale does not fit on the paper; the sentence names one that does.
 Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options);
-/// The cut along the line that the options name. Fails as above, and on what is no line.
+/// The plan that a level plane at a height cuts [m above the origin]. Fails as above.
+Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const SheetOptions& options);
+/// The cut along the line or at the height that the options name. Fails as above, and on what is neither.
 Result<PlanSheet> section_sheet(const Proposal& proposal, const SheetOptions& options);
 
 }  // namespace bl::exporting

@@ -10,6 +10,7 @@
 #include "core/drawing/palette.h"
 #include "core/geometry/plates.h"
 #include "core/import/local_frame.h"
+#include "core/reading/volume_form.h"
 
 namespace bl::exporting {
 
@@ -109,9 +110,10 @@ struct Proposal {
   std::string hash;  ///< of the state
   std::int64_t tick = 0;
   bool is_settled = false;
-  importing::GeoReference reference;  ///< of the local frame; `crs` is empty where the scene says nothing
-  std::vector<Building> buildings;    ///< ascending id
-  std::vector<Building> shapeless;    ///< volumes without a shape: they have figures, but neither storeys nor a mesh
+  reading::VolumeForm form = reading::VolumeForm::as_is;  ///< that buildings, uses and sums have; the rest is of the scene
+  importing::GeoReference reference;                      ///< of the local frame; `crs` is empty where the scene says nothing
+  std::vector<Building> buildings;                        ///< ascending id
+  std::vector<Building> shapeless;  ///< volumes without a shape: they have figures, but neither storeys nor a mesh
   std::vector<Land> lands;
   std::vector<Neighbour> neighbours;
   std::vector<Street> streets;

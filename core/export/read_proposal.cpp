@@ -89,24 +89,6 @@ void add_building(const reading::VolumeRow& volume, const drawing::Palette& pale
   all.shapeless.push_back(std::move(building));
 }
 
-// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
-void number_levels(Proposal& all) {
-  all.level_height = std::numeric_limits<double>::infinity();
-  all.ground = std::numeric_limits<double>::infinity();
-  for (const Building& building : all.buildings) {
-    all.ground = std::min(all.ground, building.storeys.front().bottom);
-    all.level_height = std::min(all.level_height, building.storey_height);
-  }
-  for (Building& building : all.buildings)
-    for (Storey& storey : building.storeys) {
-      // What stands belongs where its floor is: high halls are on the plan of the ground floor. A rounded volume is cut in the
-      // middle of its storeys; that of the last one, which may be lower, is taken as that of a whole one.
-      const double height = storey.bottom + (building.is_standing ? 0 : building.storey_height / 2);
-      storey.level = static_cast<int>(std::floor((height - all.ground) / all.level_height + 1e-9));
-      all.levels = std::max(all.levels, storey.level + 1);
-    }
-}
-
 void add_lands(const State& state, const reading::ReportModel& model, Proposal& all) {
   for (const reading::SiteRow& site : model.sites) {
     if (!site.shape) continue;
@@ -188,6 +170,25 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
 }
 
 }  // namespace
+
+// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
+void number_levels(Proposal& all) {
+  all.level_height = std::numeric_limits<double>::infinity();
+  all.levels = 0;
+  all.ground = std::numeric_limits<double>::infinity();
+  for (const Building& building : all.buildings) {
+    all.ground = std::min(all.ground, building.storeys.front().bottom);
+    all.level_height = std::min(all.level_height, building.storey_height);
+  }
+  for (Building& building : all.buildings)
+    for (Storey& storey : building.storeys) {
+      // What stands belongs where its floor is: high halls are on the plan of the ground floor. A rounded volume is cut in the
+      // middle of its storeys; that of the last one, which may be lower, is taken as that of a whole one.
+      const double height = storey.bottom + (building.is_standing ? 0 : building.storey_height / 2);
+      storey.level = static_cast<int>(std::floor((height - all.ground) / all.level_height + 1e-9));
+      all.levels = std::max(all.levels, storey.level + 1);
+    }
+}
 
 void stand(const geometry::StandingBody& body, Building& building) {
   building.is_standing = true;

@@ -21,6 +21,9 @@ Result<Proposal> read_proposal(const State& state, const std::string& file);
 /// Gives a building the storeys, the outline and the mesh of a volume that stands.
 void stand(const geometry::StandingBody& body, Building& building);
 
+/// Gives each storey its level, and the proposal its number of levels.
+void number_levels(Proposal& proposal);
+
 /// Rings that may turn either way, as faces with holes by the even-odd rule; rings of less than three corners are left out.
 std::vector<geometry::PlateFace> faces_of_rings(std::vector<geometry::Ring> rings);
 

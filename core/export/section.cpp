@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/export/plan_places.h"
+#include "core/export/read_proposal.h"
 #include "core/geometry/mesh_lines.h"
 
 namespace bl::exporting {
@@ -194,6 +195,27 @@ void measure(const SectionFrame& frame, const Proposal& proposal, Section& made)
 
 }  // namespace
 
+std::optional<double> level_cut(const std::string& text) {
+  const auto height = parse_number(text);
+  return height && std::abs(*height) < 1e9 ? std::optional(*height) : std::nullopt;
+}
+
+LevelPart level_part(const Building& building, double height) {
+  LevelPart part;
+  for (const Storey& storey : building.storeys)
+    if (storey.bottom <= height && height < storey.top) part.storey = &storey;
+  if (part.storey == nullptr) return part;
+  if (building.is_standing) {
+    part.faces = part.storey->faces;
+    return part;
+  }
+  std::vector<Ring> rings;
+  for (geometry::Polyline& line : geometry::section(*building.mesh, height, [](std::size_t) { return true; }))
+    if (line.is_closed) rings.push_back(std::move(line.points));
+  part.faces = faces_of_rings(std::move(rings));
+  return part;
+}
+
 Result<SectionLine> section_line(const Proposal& proposal, const std::string& text) {
   std::string plain = text;
   std::replace(plain.begin(), plain.end(), ',', ' ');
@@ -202,7 +224,7 @@ Result<SectionLine> section_line(const Proposal& proposal, const std::string& te
     const std::size_t end = std::min(plain.find(' ', at), plain.size());
     const auto number = parse_number(plain.substr(at, end - at));
     if (!number || !(std::abs(*number) < 1e9))
-      return Error{ErrorCode::parse, "section", "expects X1,Y1,X2,Y2 in metres, found `" + text + "`"};
+      return Error{ErrorCode::parse, "section", "expects X1,Y1,X2,Y2 in metres, or one height, found `" + text + "`"};
     numbers.push_back(*number);
     at = plain.find_first_not_of(' ', end);
   }

@@ -1,6 +1,7 @@
 // A vertical cut through the proposal: what it cuts, the floors in it, what stands behind it, and the ground.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct SectionLine {
 /// "X1 Y1 X2 Y2" in metres, also with commas; empty: along the longest side of the land, through the middle. Fails on other
 /// texts, and on a line without length.
 Result<SectionLine> section_line(const Proposal& proposal, const std::string& text);
+/// The height of a level cut [m above the origin], where the text is one number; nothing where it is none.
+std::optional<double> level_cut(const std::string& text);
 
 /// Of one building, or of one that stands already. Rings have the way along the line as x, from `from` on, and the height as y
 /// [m].
@@ -39,5 +42,13 @@ struct Section {
 /// Thickness of floors and roofs as they are drawn [m].
 inline constexpr double kSectionSlab = 0.3;
 Section section_of(const Proposal& proposal, const SectionLine& line, bool with_surroundings);
+
+/// What a level plane cuts of a building.
+struct LevelPart {
+  const Storey* storey = nullptr;  ///< that it goes through; none: the plane misses the building
+  std::vector<geometry::PlateFace> faces;
+};
+/// A standing volume has the plate of that storey; of a rounded one the mesh is cut at just that height.
+LevelPart level_part(const Building& building, double height);
 
 }  // namespace bl::exporting

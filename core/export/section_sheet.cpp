@@ -163,6 +163,7 @@ class SectionMaker : SheetFrame {
 }  // namespace
 
 Result<PlanSheet> section_sheet(const Proposal& proposal, const SheetOptions& options) {
+  if (const auto height = level_cut(options.section)) return level_cut_sheet(proposal, *height, options);
   const auto line = section_line(proposal, options.section == "auto" ? "" : options.section);
   if (!line) return line.error();
   return SectionMaker(proposal, options, *line).make();

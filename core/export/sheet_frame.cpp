@@ -88,7 +88,11 @@ void SheetFrame::add_title(const std::string& what, const std::string& figures) 
   const std::string place = place_text(proposal_);
   group.texts.push_back(
       {{x, y + 24}, 2.5, SheetAnchor::start, false, place.empty() ? "no place on Earth: metres of the scene" : place});
-  group.texts.push_back({{x, y + 30}, 2.5, SheetAnchor::start, false, figures});
+  group.texts.push_back({{x, y + 30},
+                         2.5,
+                         SheetAnchor::start,
+                         false,
+                         figures + ". Volumes are drawn and measured " + reading::choice_of(proposal_.form).measured});
   sheet_.groups.push_back(std::move(group));
 }
 

@@ -16,8 +16,11 @@ void declare_sheet_options(FormatBuilder<T>& f) {
       .doc("The n of 1:n; 0: the largest usual one that fits.");
   f.option(&SheetOptions::surroundings, "surroundings").doc("With existing buildings and streets.");
   f.option(&SheetOptions::section, "section")
-      .doc("Where the section is cut: X1,Y1,X2,Y2 in metres, `auto` along the longest side through the middle, or `none`.");
+      .doc(
+          "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
+          "`none`.");
   f.option(&SheetOptions::labels, "labels").doc("With the name and floor area of each storey.");
+  declare_form_option(f);
 }
 
 }  // namespace bl::exporting

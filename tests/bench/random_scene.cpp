@@ -63,6 +63,36 @@ Result<Scene> random_scene(int count, const Registry& registry, double fill) {
   return (*session)->scene();
 }
 
+Result<Scene> standing_scene(int count, const Registry& registry) {
+  constexpr double kPlotSide = 40, kCovered = 0.5, kStorey = 3, kSetback = 1.5;  // [m] for each volume; share; [m]
+  Random random(20070);
+  const double side = std::round(kPlotSide * std::sqrt(static_cast<double>(count)) * 1000) / 1000;
+  std::vector<double> shares;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += shares.emplace_back(random.uniform(1, 8));
+  std::vector<Command> commands;
+  const auto add = [&](const std::string& id, const Json& node) {
+    commands.push_back(command<AddNode>({id, JsonValue::of(node)}));
+  };
+  const Json plan = {{0.0, 0.0, 0.0}, {side, 0.0, 0.0}, {side, side, 0.0}, {0.0, side, 0.0}};
+  add("box", {{"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", 60}}}}}});
+  add("solver", {{"types", {{"standing_solver", Json::object()}}}});
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(0, side), y = random.uniform(0, side);
+    const int storeys = 2 + static_cast<int>(random.below(6));
+    const double footprint = kCovered * side * side * shares[static_cast<std::size_t>(i)] / sum;
+    add(padded(i + 1, count),
+        {{"position", {x, y, 0.0}},
+         {"types",
+          {{"smart_volume", {{"demand", footprint * storeys * kStorey}, {"storey_height", kStorey}}},
+           {"footprint", {{"form", "round"}, {"storeys", storeys}, {"setback", kSetback}, {"full_storeys", storeys - 1}}}}}});
+  }
+  auto session = Session::start(registry, Scene{}, nullptr, 1);
+  if (!session) return session.error();
+  if (auto done = (*session)->submit(command<Batch>({commands}), "bench"); !done) return done.error();
+  return (*session)->scene();
+}
+
 Result<Scene> linked_scene(int count, double fill) {
   auto scene = random_scene(count, full_registry(), fill);
   if (!scene) return scene.error();

@@ -13,6 +13,10 @@ namespace bl::cli::bench {
 /// count.
 Result<Scene> random_scene(int count, const Registry& registry, double fill = 0.5);
 
+/// As many that stand at random places of a square plot: round ones of two to seven storeys, a set-back at the top, footprints
+/// over a factor of 8 that would cover half of the plot.
+Result<Scene> standing_scene(int count, const Registry& registry);
+
 /// The same volumes, kept inside of their box and held to a sum, of which every twentieth keeps its distance from the others of
 /// its kind: three links to sets.
 Result<Scene> linked_scene(int count, double fill);

@@ -142,11 +142,12 @@ std::vector<WindowCase> cases_of_frames(int frames) {
            }}};
 }
 
-Result<void> measure(int count, const WindowBenchOptions& options, Progress& progress, TextTable& table, nlohmann::json& rows) {
-  const auto scene = random_scene(count, full_registry(), kFill);
+Result<void> measure(int count, bool is_standing, const WindowBenchOptions& options, Progress& progress, TextTable& table,
+                     nlohmann::json& rows) {
+  const auto scene = is_standing ? standing_scene(count, full_registry()) : random_scene(count, full_registry(), kFill);
   if (!scene) return scene.error();
   BenchWindow window(*scene);
-  const std::string what = std::to_string(count) + " volumes";
+  const std::string what = std::to_string(count) + (is_standing ? " that stand" : " volumes");
   for (int t = 0; t < kMostTicksToRest && !window.session().moment()->state->is_settled() && !is_interrupted(); ++t) {
     progress.show(what + ", tick " + std::to_string(t + 1));
     window.tick();
@@ -165,6 +166,7 @@ Result<void> measure(int count, const WindowBenchOptions& options, Progress& pro
     const std::string hash = hex_digits(window.editor().state().hash);
     table.add({what, one.name, fixed(1000 * middle, 3), fixed(1000 * late, 3), fixed(1000 * times.back(), 3), hash});
     rows.push_back({{"volumes", count},
+                    {"stand", is_standing},
                     {"case", one.name},
                     {"frames", times.size()},
                     {"median_seconds", middle},
@@ -184,11 +186,12 @@ int window_bench(const WindowBenchOptions& options) {
   {
     Progress progress;
     for (const int count : options.sites)
-      if (auto done = measure(count, options, progress, table, rows); !done) {
-        progress.clear();
-        print_error("bench --window", done.error());
-        return kBadInput;
-      }
+      for (const bool is_standing : {false, true})
+        if (auto done = measure(count, is_standing, options, progress, table, rows); !done) {
+          progress.clear();
+          print_error("bench --window", done.error());
+          return kBadInput;
+        }
   }
   table.print();
   if (!options.json.empty())
@@ -207,7 +210,8 @@ int main(int count, char** arguments) {
   return bl::cli::guarded([&] {
     CLI::App app{"Measures the window's own work for each frame, without a graphics driver.", "behaviourlinks-window-bench"};
     bl::cli::bench::WindowBenchOptions options;
-    app.add_option("--sites", options.sites, "Random volumes in a box, 70 % full. Default: 1000 and 10000.")
+    app.add_option("--sites", options.sites,
+                   "Random volumes in a box, 70 % full, and as many that stand on half of a plot. Default: 1000 and 10000.")
         ->type_name("N")
         ->check(CLI::Range(1, 10000000));
     app.add_option("--frames", options.frames, "Frames of each row. Default: 60.")->type_name("N")->check(CLI::Range(1, 100000));

@@ -17,9 +17,15 @@ namespace {
 
 struct CityJsonFormat {
   using CityText = nlohmann::ordered_json;
-  struct Options {
+  struct Options : FormOptions {
     bool surroundings = true;
   };
+
+  static std::string why_not(VolumeForm form) {
+    return form == VolumeForm::balls
+               ? "a ball is no building, and CityJSON says buildings: use form=cells, form=slabs or form=standing"
+               : "";
+  }
 
   static void declare(FormatBuilder<CityJsonFormat>& f) {
     f.id("cityjson").label("City model (CityJSON 2.0)");
@@ -29,6 +35,7 @@ struct CityJsonFormat {
         "coordinate system, which is named where it has an EPSG code; else a note says that they are metres of the scene.");
     f.ending(".city.json").begins("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"metadata\":{\"identifier\":\"BehaviourLinks");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    declare_form_option(f);
   }
 
   // Tenths of a millimetre: finer than anybody builds.

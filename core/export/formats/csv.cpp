@@ -9,7 +9,7 @@ namespace bl::exporting {
 namespace {
 
 struct CsvFormat {
-  struct Options {
+  struct Options : FormOptions {
     bool storeys = true;
   };
 
@@ -18,10 +18,11 @@ struct CsvFormat {
     f.doc(
         "One table by RFC 4180 with decimal points: a row for each storey, each building, each use, one for all, and one for "
         "each indicator with its target. The floor "
-        "areas of the storeys add up to that of their building, and buildings to uses. The last columns name the scene and its "
-        "state.");
+        "areas of the storeys add up to that of their building, and buildings to uses. The last columns name the scene, its "
+        "state, and the form that was measured.");
     f.ending(".csv").begins("row,building,");
     f.option(&Options::storeys, "storeys").doc("With a row for each storey.");
+    declare_form_option(f);
   }
 
   using Row = std::vector<csv::CsvCell>;
@@ -55,7 +56,8 @@ struct CsvFormat {
                                              "scene",
                                              "hash",
                                              "tick",
-                                             "place"};
+                                             "place",
+                                             "measured"};
     std::vector<Row> rows;
     const auto add_building = [&](const Building& b, const char* form, csv::CsvCell drawn) {
       rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, std::move(drawn),
@@ -83,7 +85,8 @@ struct CsvFormat {
     }
     for (Row& row : rows) row.resize(kBuildingColumns + kIndicatorColumns, "");
     for (Row& row : rows)
-      for (csv::CsvCell& cell : Row{proposal.name(), proposal.hash, proposal.tick, place_text(proposal)})
+      for (csv::CsvCell& cell :
+           Row{proposal.name(), proposal.hash, proposal.tick, place_text(proposal), reading::choice_of(proposal.form).measured})
         row.push_back(std::move(cell));
     return ExportFiles{{{"schedule.csv", csv::write_csv(header, rows)}}, {}};
   }

@@ -20,7 +20,7 @@ namespace {
 enum class DxfArrangement { stacked, beside };
 
 struct DxfFormat {
-  struct Options {
+  struct Options : FormOptions {
     DxfArrangement storeys = DxfArrangement::stacked;
     bool surroundings = true;
     double text_height = 1;
@@ -42,8 +42,11 @@ struct DxfFormat {
         .doc("How the storeys lie.");
     f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
     f.option(&Options::section, "section")
-        .doc("Where the section is cut: X1,Y1,X2,Y2 in metres, `auto` along the longest side through the middle, or `none`.");
+        .doc(
+            "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
+            "`none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
+    declare_form_option(f);
   }
 
   // Of AutoCAD's list of colours, one for each use in turn.
@@ -143,9 +146,19 @@ struct DxfFormat {
                    true);
     }
 
+    // At its true place and height, so that it lies in the model where it was cut.
+    void level_section(double height) {
+      drawing.layer("SECTION-CUT", 5);
+      drawing.layer("SECTION-TEXT", 7);
+      for (const Building& b : proposal.buildings) faces("SECTION-CUT", level_part(b, height).faces, height, {});
+      drawing.text("SECTION-TEXT", {extent.low.x, extent.high.y + 4 * options.text_height, height}, 2 * options.text_height,
+                   "Level cut at " + std::string(height >= 0 ? "+" : "") + fixed(height, 2) + " m");
+    }
+
     // Above the plans, where the height is the way up; the line in the plan has the letter of the section at its ends.
     Result<void> section() {
       if (options.section == "none") return {};
+      if (const auto height = level_cut(options.section)) return level_section(*height), Result<void>{};
       const auto cut = section_line(proposal, options.section == "auto" ? "" : options.section);
       if (!cut) return cut.error();
       const Section made = section_of(proposal, *cut, options.surroundings);

@@ -17,7 +17,7 @@ using Ordered = nlohmann::ordered_json;
 enum class GeoFrame { wgs84, scene };
 
 struct GeoJsonFormat {
-  struct Options {
+  struct Options : FormOptions {
     GeoFrame coordinates = GeoFrame::wgs84;
     bool surroundings = true;
   };
@@ -36,6 +36,7 @@ struct GeoJsonFormat {
                "Metres of the scene's coordinate system, or from its origin where it has none; a note says so."}})
         .doc("What the coordinates are.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, and streets.");
+    declare_form_option(f);
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {

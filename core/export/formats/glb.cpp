@@ -17,7 +17,7 @@ namespace {
 
 struct GlbFormat {
   using GlbJson = nlohmann::ordered_json;
-  struct Options {
+  struct Options : FormOptions {
     bool surroundings = true;
   };
 
@@ -28,6 +28,7 @@ struct GlbFormat {
         "figures as extras; its use is its material. Coordinates are singles from the origin of the scene.");
     f.ending(".glb").begins("glTF");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, and terrain.");
+    declare_form_option(f);
   }
 
   // Colours of glTF are linear, those of screens are not.

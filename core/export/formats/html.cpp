@@ -22,7 +22,7 @@ constexpr std::size_t kMostPageBytes = 3000000;
 
 struct HtmlFormat {
   using PageJson = nlohmann::ordered_json;
-  struct Options {
+  struct Options : FormOptions {
     bool surroundings = true;
   };
 
@@ -34,6 +34,7 @@ struct HtmlFormat {
         "with the keyboard. At most 3 MB: where there is much to show, shapes become coarser, and a note says so.");
     f.ending(".html").begins("<!doctype html>\n<!-- BehaviourLinks proposal -->").shell("proposal.html");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, streets and terrain.");
+    declare_form_option(f);
   }
 
   /// How coarse the shapes are: tried one after another until the page is small enough.

@@ -17,10 +17,16 @@ namespace bl::exporting {
 namespace {
 
 struct IfcFormat {
-  struct Options {
+  struct Options : FormOptions {
     bool slabs = true, walls = true, surroundings = true;
     double slab_thickness = 0.3, wall_thickness = 0.3;
   };
+
+  static std::string why_not(VolumeForm form) {
+    return form == VolumeForm::balls
+               ? "a ball has no storeys that could be built, and IFC says buildings: use form=slabs or form=standing"
+               : "";
+  }
 
   static void declare(FormatBuilder<IfcFormat>& f) {
     f.id("ifc").label("Building model (IFC4)");
@@ -40,6 +46,7 @@ struct IfcFormat {
     f.option(&Options::walls, "walls").doc("With the walls of the façades of what stands, as simple bodies.");
     f.option(&Options::wall_thickness, "wall_thickness").unit(Unit::metre).range(0.01, 5).doc("Thickness of the walls.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    declare_form_option(f);
   }
 
   // 128 bits in the 64 signs of IFC, from a name that does not change.

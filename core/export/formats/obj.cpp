@@ -10,7 +10,7 @@ namespace bl::exporting {
 namespace {
 
 struct ObjFormat {
-  struct Options {
+  struct Options : FormOptions {
     bool surroundings = false;
   };
 
@@ -23,6 +23,7 @@ struct ObjFormat {
     f.ending(".obj").begins("# BehaviourLinks:");
     f.option(&Options::surroundings, "surroundings")
         .doc("With the buildings that stand already, and terrain, which is an open surface.");
+    declare_form_option(f);
   }
 
   static std::string library_of(const Proposal& proposal) {

@@ -13,7 +13,7 @@ namespace {
 enum class StlLayout { text, binary };
 
 struct StlFormat {
-  struct Options {
+  struct Options : FormOptions {
     double scale = 500;
     StlLayout layout = StlLayout::binary;
     bool surroundings = false;
@@ -34,6 +34,7 @@ struct StlFormat {
               {StlLayout::text, "text", "Named solids, one for each building."}})
         .doc("How triangles are written.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    declare_form_option(f);
   }
 
   static std::string solid_name(std::string text) {
@@ -77,7 +78,8 @@ struct StlFormat {
 
   static std::string as_binary(const std::vector<Solid>& solids, const ModelScale& scale, const Proposal& proposal) {
     // A head of 80 bytes that begins with "solid" would be taken for text.
-    std::string out = "BehaviourLinks binary; mm; tick " + std::to_string(proposal.tick) + "; hash " + proposal.hash;
+    std::string out = "BehaviourLinks binary; mm; tick " + std::to_string(proposal.tick) + "; hash " + proposal.hash + "; form " +
+                      reading::choice_of(proposal.form).id;
     out.resize(80, ' ');
     std::uint32_t count = 0;
     for (const Solid& solid : solids) count += static_cast<std::uint32_t>(solid.mesh->triangles.size());

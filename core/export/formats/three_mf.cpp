@@ -13,7 +13,7 @@ namespace bl::exporting {
 namespace {
 
 struct ThreeMfFormat {
-  struct Options {
+  struct Options : FormOptions {
     double scale = 500;
     bool surroundings = false;
   };
@@ -26,6 +26,7 @@ struct ThreeMfFormat {
     f.ending(".3mf").begins("PK\x03\x04");
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
+    declare_form_option(f);
   }
 
   static constexpr const char* kTypes =

@@ -11,7 +11,7 @@ namespace bl::exporting {
 namespace {
 
 struct XlsxFormat {
-  struct Options {
+  struct Options : FormOptions {
     bool formulas = true;
   };
 
@@ -24,6 +24,7 @@ struct XlsxFormat {
         "do not calculate read the same numbers.");
     f.ending(".xlsx").begins("PK\x03\x04");
     f.option(&Options::formulas, "formulas").doc("Sums as formulas; else as numbers alone.");
+    declare_form_option(f);
   }
 
   using Cells = std::vector<XlsxCell>;

@@ -1,6 +1,7 @@
 // Standing volumes in exports: plates, courtyards and arcs keep their exact areas.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -147,6 +148,34 @@ TEST(Section, LinesThatAreNoneAreRefused) {
     EXPECT_NE(line.error().message.find("X1,Y1,X2,Y2"), std::string::npos) << line.error().message;
   }
   EXPECT_TRUE(section_line(made.proposal, ""));
+}
+
+// By hand: the disc of 10 m has two storeys of 3 m, so a plane at 4.5 m cuts the upper one, and one at 7 m passes over it.
+TEST(Section, ALevelCutHasThePlatesAtItsHeight) {
+  const Standing made = standing_proposal();
+  EXPECT_FALSE(level_cut("1,2,3,4"));
+  EXPECT_FALSE(level_cut("auto"));
+  EXPECT_FALSE(level_cut("1e300"));
+  ASSERT_EQ(level_cut("-4.5"), -4.5);
+  const auto disc = std::find_if(made.proposal.buildings.begin(), made.proposal.buildings.end(),
+                                 [](const Building& building) { return building.id == "house_2"; });
+  ASSERT_NE(disc, made.proposal.buildings.end());
+  const LevelPart upper = level_part(*disc, 4.5), above = level_part(*disc, 7);
+  ASSERT_NE(upper.storey, nullptr);
+  EXPECT_EQ(upper.storey->number, 1);
+  EXPECT_NEAR(area_of(upper.faces), upper.storey->floor_area, 0.1);  // chords
+  EXPECT_EQ(above.storey, nullptr);
+  EXPECT_TRUE(above.faces.empty());
+  for (const char* id : {"svg", "pdf", "dxf"}) {
+    const FormatDefinition* format = find_format(id);
+    ASSERT_NE(format, nullptr) << id;
+    const auto options = option_values(*format, {"section=4.5", "level=-1"});
+    ASSERT_TRUE(options) << options.error().text();
+    const auto files = format->write(made.proposal, *options, false);
+    ASSERT_TRUE(files) << id << ": " << files.error().text();
+    if (std::string(id) == "pdf") continue;  // its text is packed
+    EXPECT_NE(files->files.front().content.find("Level cut at +4.50 m"), std::string::npos) << id;
+  }
 }
 
 // Walls lie within the plate, side by side: together they are what is lost when the plate is moved in by their thickness.

@@ -3,6 +3,7 @@
 #include "core/export/write_files.h"
 #include "core/graph/sums_of_now.h"
 #include "tests/ui/desktop/import_support.h"
+#include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 namespace {
@@ -107,6 +108,31 @@ TEST(WindowExport, OptionsAreThoseOfTheDeclaration) {
   desktop.frames(2);
   EXPECT_TRUE(desktop.is_open()) << "Enter has left the field, not the dialog";
   EXPECT_EQ(memory_of(desktop.editor()).complaint_key, "export/dxf/text_height");
+}
+
+TEST(WindowExport, MeasuresTheFormThatIsSeen) {
+  const Folder folder("export_form");
+  ExportDesktop desktop(folder);
+  desktop.press("export/csv");
+  desktop.press("export/write");
+  ASSERT_FALSE(desktop.is_open()) << desktop.told();
+  EXPECT_NE(bytes_of(folder.at("standing.csv")).find("as they are"), std::string::npos);
+  desktop.editor().view->draw_as("balls");
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_E, true);
+  desktop.frames(3);
+  desktop.press("export/write");
+  desktop.press("export/write");  // the first one is replaced
+  ASSERT_FALSE(desktop.is_open()) << desktop.told();
+  EXPECT_NE(bytes_of(folder.at("standing.csv")).find("as balls"), std::string::npos);
+  // A format that cannot say it refuses, and nothing is written.
+  desktop.key(GLFW_KEY_E, true);
+  desktop.frames(3);
+  desktop.press("export/ifc");
+  desktop.press("export/write");
+  EXPECT_TRUE(desktop.is_open());
+  EXPECT_NE(desktop.told().find("a ball has no storeys that could be built"), std::string::npos) << desktop.told();
+  EXPECT_TRUE(bytes_of(folder.at("standing.ifc")).empty());
 }
 
 TEST(WindowExport, SaysWhyNothingCanBeWritten) {

@@ -5,6 +5,7 @@
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/statistics_record.h"
 #include "ui/desktop/view/colouring.h"
 
@@ -305,6 +306,35 @@ TEST(Statistics, APressOnABarChoosesItsVolume) {
   EXPECT_EQ(volumes[desktop.record().ordered(desktop.editor()).front()].id, "assisted_living");
   desktop.press_on("volume/assisted_living");
   EXPECT_EQ(desktop.editor().picks.nodes, std::set<std::string>{"assisted_living"});
+}
+
+// The garden keeps its sun, and takes two storeys from the tower: the brief says so below what the offices got.
+TEST(Statistics, TheBriefSaysWhoTakesStoreys) {
+  ListDesktop desktop("scenes/studies/tower_and_garden.json");
+  desktop.ticks(80);
+  desktop.open_tab("Statistics");
+  EXPECT_TRUE(desktop.has("use/office/why"));
+  EXPECT_FALSE(desktop.has("use/housing/why")) << "the houses have their storeys";
+  EXPECT_NE(desktop.record().why["office"].find("Tower: 8 of 10 storeys: link `sun` (Solar right)"), std::string::npos)
+      << desktop.record().why["office"];
+}
+
+// In another form bars and sums are those of that form.
+TEST(Statistics, FollowTheFormThatIsDrawn) {
+  ListDesktop desktop(kListedQuarter);
+  desktop.ticks(60);
+  desktop.editor().view->draw_as("slabs");
+  desktop.open_tab("Statistics");
+  const std::uint32_t library = desktop.editor().index_of("library");
+  const auto figures = desktop.editor().view->form_figures(library);
+  ASSERT_TRUE(figures);
+  const auto& accounts = desktop.record().figures(desktop.editor()).accounts;
+  const reading::VolumeAccount& own = accounts.volumes[accounts.row_of(library)];
+  EXPECT_NE(figures->volume, own.volume);
+  EXPECT_EQ(figures->floor_area, own.floor_area);
+  desktop.editor().view->draw_as("as_is");
+  desktop.frames(2);
+  EXPECT_FALSE(desktop.editor().view->form_figures(library));
 }
 
 TEST(Statistics, AThousandVolumesAreDrawnOnlyWhereTheyAreSeen) {

@@ -11,7 +11,6 @@
 #include "tests/support/world.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/scene_view.h"
-#include "ui/desktop/view/cell_cut.h"
 #include "ui/desktop/view/drawn_form.h"
 
 namespace bl::desktop {
@@ -43,18 +42,18 @@ TEST(CellCut, ACutBallIsItsCap) {
   constexpr double kRadius = 10;
   const MeshPointer ball = ball_cell({3, 4, 5}, kRadius);
   for (const double height : {-3.0, 1.0, 5.0, 9.0, 13.0}) {
-    const MeshPointer left = cut_cell(*ball, height, Kept::below);
+    const MeshPointer left = reading::cut_cell(*ball, height, reading::Kept::below);
     ASSERT_TRUE(left) << height;
     const Mesh mesh = wrapped(left, 5);
     EXPECT_LE(highest(mesh), height + 1e-9) << height;
     const double cap = height - (5 - kRadius), volume = std::numbers::pi * cap * cap * (3 * kRadius - cap) / 3;
     EXPECT_NEAR(enclosed_volume(mesh) / volume, 1, 0.02) << height;
-    const MeshPointer rest = cut_cell(*ball, height, Kept::above);
+    const MeshPointer rest = reading::cut_cell(*ball, height, reading::Kept::above);
     ASSERT_TRUE(rest) << height;
     const double whole = 4.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
     EXPECT_NEAR(enclosed_volume(wrapped(rest, 5)) / whole, 1 - volume / whole, 0.02) << height;
   }
-  EXPECT_FALSE(cut_cell(*ball, -5.5, Kept::below)) << "there is nothing of the ball";
+  EXPECT_FALSE(reading::cut_cell(*ball, -5.5, reading::Kept::below)) << "there is nothing of the ball";
 }
 
 class DrawnScene : public ::testing::TestWithParam<const char*> {
@@ -105,7 +104,7 @@ TEST_P(DrawnScene, CellsHaveFlatFacetsBetweenTheirOwnTopAndBottom) {
 TEST_P(DrawnScene, ACutShowsTheLowestStoreysOfEachVolume) {
   const int all = storeys_in(*facts_);
   ASSERT_GT(all, 3);
-  for (const DrawnForm form : {DrawnForm::as_is, DrawnForm::balls, DrawnForm::cells, DrawnForm::slabs})
+  for (const DrawnForm form : {DrawnForm::as_is, DrawnForm::balls, DrawnForm::cells, DrawnForm::slabs, DrawnForm::standing})
     for (int shown = 1; shown < all; shown += 2) {
       DrawnShapes shapes;
       const auto drawn = shapes.of(facts_, {form, shown});
@@ -116,10 +115,39 @@ TEST_P(DrawnScene, ACutShowsTheLowestStoreysOfEachVolume) {
         ASSERT_GT(own, 0) << volume.id;
         if (own >= storeys_of(volume)) continue;
         const double top = volume.figures.bottom + own * storey;
-        const bool has_facets = form == DrawnForm::slabs || (form != DrawnForm::balls && stands(*facts_, volume));
+        const bool has_facets =
+            form == DrawnForm::slabs || form == DrawnForm::standing || (form != DrawnForm::balls && stands(*facts_, volume));
         EXPECT_LE(highest(has_facets ? *volume.cell : wrapped(volume.cell, 3)), top + 1e-6) << volume.id << " of " << shown;
       }
     }
+}
+
+// Figures are those of the whole form, also where storeys are cut away; exports have the same by the same function.
+TEST_P(DrawnScene, FiguresFollowTheForm) {
+  for (const DrawnForm form : {DrawnForm::balls, DrawnForm::cells, DrawnForm::slabs, DrawnForm::standing}) {
+    DrawnShapes whole, cut;
+    const auto drawn = whole.of(facts_, {form, 0});
+    cut.of(facts_, {form, 1});
+    for (const VolumeFacts& volume : drawn->volumes) {
+      const auto figures = whole.figures_of(volume.node), of_cut = cut.figures_of(volume.node);
+      ASSERT_TRUE(figures && of_cut) << volume.id;
+      EXPECT_EQ(figures->volume, of_cut->volume) << volume.id;
+      EXPECT_EQ(figures->floor_area, of_cut->floor_area) << volume.id;
+      EXPECT_GT(figures->floor_area, 0) << volume.id;
+      const double storey = volume.figures.storey_height;
+      if (form == DrawnForm::balls) EXPECT_EQ(figures->volume, volume.volume) << volume.id;
+      else if (stands(*facts_, volume)) EXPECT_EQ(figures->floor_area, volume.floor_area) << volume.id;
+      else if (form == DrawnForm::slabs) EXPECT_NEAR(figures->volume, volume.floor_area * storey, 1e-6 * volume.volume);
+      else if (form == DrawnForm::standing) EXPECT_NEAR(figures->volume, figures->floor_area * storey, 1e-6 * volume.volume);
+      else EXPECT_GE(figures->volume, 0.999 * volume.volume) << volume.id;
+    }
+    const auto& rows = whole.legend().rows;
+    ASSERT_FALSE(rows.empty());
+    EXPECT_NE(rows.front().label.find(std::string("Figures ") + reading::choice_of(form).measured), std::string::npos);
+  }
+  DrawnShapes plain;
+  plain.of(facts_, {});
+  EXPECT_FALSE(plain.figures_of(facts_->volumes.front().node)) << "the scene's own figures are not doubled";
 }
 
 TEST_P(DrawnScene, WhatHasNotChangedKeepsItsShape) {

@@ -365,14 +365,16 @@ TEST_F(ViewPanel, ADragThatLeavesTheWindowKeepsTheCamera) {
 }
 
 TEST_F(ViewPanel, AnotherSceneIsSeenAfresh) {
-  // A new document often lies where the old one lay in memory.
+  // A new document often lies where the old one lay in memory. Each time another file: that of before would bring its section
+  // back.
+  const char* files[] = {"smart_volume", "boundary", "plot", "street"};
   for (int k = 0; k < 4; ++k) {
     if (!editor().view->section().is_on) editor().view->toggle_section();
     desktop.frames(1);
     ASSERT_TRUE(editor().view->section().is_on);
     editor().document.reset();
     editor().moment.reset();
-    ASSERT_TRUE(editor().open(BL_SOURCE_DIR "/scenes/nodes/smart_volume.json"));
+    ASSERT_TRUE(editor().open(std::string(BL_SOURCE_DIR "/scenes/nodes/") + files[k] + ".json"));
     desktop.frames(1);
     EXPECT_FALSE(editor().view->section().is_on) << "the cut of the scene before, time " << k;
   }

@@ -102,6 +102,9 @@ TEST_F(ViewReshape, TheSquareHandleChangesTheSidesAndKeepsTheArea) {
                   static_cast<float>(middle.y + 1.25 * (grip->y - middle.y))};
   desktop.drag(*grip, to);
   EXPECT_NEAR(port("aspect"), before / (1.25 * 1.25), 0.03 * before);
+  editor().undo();
+  desktop.frames(2);
+  EXPECT_EQ(port("aspect"), before);
 }
 
 TEST_F(ViewReshape, ALockedPortSaysSoAndHandlesAreThoseOfTheForm) {

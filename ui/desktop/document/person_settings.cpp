@@ -34,6 +34,7 @@ void each_member(Settings& s, Visit visit) {
   visit("seats", s.seats);
   visit("recent_rooms", s.recent_rooms);
   visit("plans", s.plans);
+  visit("sections", s.sections);
 }
 
 }  // namespace

@@ -40,8 +40,9 @@ class Dialogs {
   /// A scene to open, from inside another dialog.
   void choose_scene();
   void ask_save_as(std::function<void()> then = {});
-  /// The proposal as it is shown, in the formats of other programs.
-  void show_export();
+  /// The proposal as it is shown, in the formats of other programs. With a `section`, as their options have it, drawings of it
+  /// are what is offered first.
+  void show_export(const std::string& section = "");
   ExportDialog& exports() { return *export_; }
   void ask_report();
   void ask_log();

@@ -14,6 +14,7 @@
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
+#include "ui/desktop/view/drawn_form.h"
 
 namespace bl::desktop {
 
@@ -41,13 +42,46 @@ std::string names_of(const std::vector<std::string>& files) {
 
 }  // namespace
 
-void ExportDialog::begin(const std::string& beside) {
+void ExportDialog::begin(const std::string& beside, const std::string& section) {
   asked_.clear();
   if (looked_at_.empty()) looked_at_ = exporting::all_formats().front().id;
+  if (before_section_) {
+    chosen_ = std::move(before_section_->formats);
+    looked_at_ = std::move(before_section_->looked_at);
+    options_ = std::move(before_section_->options);
+    before_section_.reset();
+  }
+  if (!section.empty()) choose_section(section);
+  follow_form();
   if (scene_ == beside && !folder_.empty()) return;  // the same scene again: what was chosen stays
   scene_ = beside;
   folder_ = paths::path(beside).parent_path().string();
   name_ = paths::path(beside).stem().string();
+}
+
+// What is exported measures what is seen: the form in which the 3D view draws volumes.
+void ExportDialog::follow_form() {
+  const std::string form = form_of(editor_->person.drawn_as).id;
+  for (const exporting::FormatDefinition& format : exporting::all_formats())
+    if (const PortDefinition* option = format.find_port("form"); option != nullptr)
+      values_of(format)[static_cast<std::size_t>(option - format.ports.data())] = form;
+}
+
+// Every format that has an option for it gets the section; the first that can show it alone is chosen.
+void ExportDialog::choose_section(const std::string& section) {
+  before_section_ = Chosen{chosen_, looked_at_, options_};
+  chosen_.clear();
+  for (const exporting::FormatDefinition& format : exporting::all_formats()) {
+    const PortDefinition *cut = format.find_port("section"), *level = format.find_port("level");
+    if (cut == nullptr) continue;
+    std::vector<Value>& values = values_of(format);
+    values[static_cast<std::size_t>(cut - format.ports.data())] = section;
+    if (level == nullptr) continue;
+    values[static_cast<std::size_t>(level - format.ports.data())] = std::int64_t{-1};
+    if (!chosen_.empty()) continue;
+    chosen_.insert(format.id);
+    looked_at_ = format.id;
+  }
 }
 
 std::vector<Value>& ExportDialog::values_of(const exporting::FormatDefinition& format) {
@@ -231,9 +265,9 @@ std::optional<std::vector<std::string>> ExportDialog::write(std::vector<std::str
   return written;
 }
 
-void Dialogs::show_export() {
+void Dialogs::show_export(const std::string& section) {
   told_.clear();
-  export_->begin(place_to_save(*editor_));
+  export_->begin(place_to_save(*editor_), section);
   show(Kind::exporting);
 }
 

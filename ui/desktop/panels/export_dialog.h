@@ -17,7 +17,8 @@ class ExportDialog {
   explicit ExportDialog(Workbench& editor) : editor_(&editor) {}
 
   /// For the scene that is open now. `beside`: the scene's file, or the one that it would be saved as.
-  void begin(const std::string& beside);
+  /// With a `section`, drawings show it, until the dialog is opened without one.
+  void begin(const std::string& beside, const std::string& section);
   /// The list, the options of the format that is looked at, folder and name.
   void draw();
   /// What is missing, as a sentence; empty: it can be written.
@@ -38,7 +39,16 @@ class ExportDialog {
   std::set<std::string> chosen_, in_folders_;          ///< formats; those of which several files are wanted
   std::string looked_at_;                              ///< the format whose options are shown
   std::map<std::string, std::vector<Value>> options_;  ///< by format, in the order of its options
-  std::vector<std::string> asked_;                     ///< the files that a person was asked about: whether to replace them
+  /// What was chosen before the section was.
+  struct Chosen {
+    std::set<std::string> formats;
+    std::string looked_at;
+    std::map<std::string, std::vector<Value>> options;
+  };
+  std::optional<Chosen> before_section_;
+  void follow_form();
+  void choose_section(const std::string& section);
+  std::vector<std::string> asked_;  ///< the files that a person was asked about: whether to replace them
 };
 
 }  // namespace bl::desktop

@@ -53,6 +53,7 @@ void SceneView::draw(ImVec2 size) {
   if (move_)
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
+  keep_section();
   follow_sun();
   follow_choice();
   choices_.folder = editor_->document->folder();
@@ -89,6 +90,7 @@ void SceneView::draw_overlay() {
   draw_others();
   draw_gizmo();
   draw_reshape();
+  draw_plane_handles();
   draw_dimensions();
   draw_scale_and_north();
   draw_legends(editor_->is_beamer);
@@ -111,6 +113,7 @@ void SceneView::draw_overlay() {
   if (editor_->is_beamer) return draw_title();
   draw_storey_slider();
   draw_tools();
+  draw_section_strip();
 }
 
 void SceneView::forget() {
@@ -123,6 +126,7 @@ void SceneView::forget() {
   pictures_ = {};
   move_.reset();
   reshape_.reset();
+  plane_drag_.reset();
   preview_.reset();
   is_sun_running_ = false;
   shade_.clear();
@@ -141,6 +145,7 @@ void SceneView::follow_document() {
   is_walking_ = false;
   pin_.reset();
   choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .held = {}};
+  recall_section();
   wants_fit_ = true;
   has_fitted_boundary_ = false;
 }
@@ -274,25 +279,6 @@ void SceneView::toggle_walk() {
   camera.distance = 10;
   camera.target = stand + camera.distance * camera.forward();
   go_to(camera);
-}
-
-void SceneView::toggle_section() {
-  if (choices_.section.is_on) {
-    choices_.section.is_on = false;
-    return;
-  }
-  choices_.section = {};
-  next_section();
-}
-
-void SceneView::next_section() {
-  if (!facts_) return;
-  ViewSection& section = choices_.section;
-  const Point3 middle = facts_->centre;
-  if (!section.is_on) section = {true, {0, 0, 1}, facts_->ground + 0.45 * 2 * (middle.z - facts_->ground)};
-  else if (section.normal.z != 0) section = {true, {0, -1, 0}, -middle.y};
-  else if (section.normal.y != 0) section = {true, {1, 0, 0}, middle.x};
-  else section = {};
 }
 
 void SceneView::store_camera(int number) {

@@ -16,6 +16,7 @@
 #include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/renderer.h"
 #include "ui/desktop/view/scene_facts.h"
+#include "ui/desktop/view/section_plane.h"
 #include "ui/desktop/view/view_builder.h"
 
 namespace bl::desktop {
@@ -63,6 +64,9 @@ class SceneView {
   /// Off, level, from south to north, from east to west, off.
   void next_section();
   void toggle_section();
+  void set_section(const ViewSection& section);
+  /// The section that is shown, as exporters of drawings take it; empty where there is none.
+  std::string section_for_export() const;
   void store_camera(int number);
   void recall_camera(int number);
   void begin_move_by_key();
@@ -71,6 +75,8 @@ class SceneView {
   // --- In which form volumes are drawn, and how many storeys from the ground up.
   DrawnLook drawn_look() const { return {form_of(editor_->person.drawn_as).form, storeys_shown_}; }
   void draw_as(const std::string& form) { editor_->person.drawn_as = form; }
+  /// What a volume measures in that form; nothing where volumes are drawn as they are.
+  std::optional<DrawnShapes::FormFigures> form_figures(std::uint32_t node) const { return drawn_.figures_of(node); }
   /// 0, or as many as there are: all.
   void show_storeys(int count);
   /// So many more or fewer than are shown now.
@@ -105,11 +111,15 @@ class SceneView {
   const ViewSection& section() const { return choices_.section; }
   const std::string& colour_choice() const { return editor_->person.colour_by; }
   bool is_walking() const { return is_walking_; }
-  bool is_moving() const { return move_.has_value() || reshape_.has_value(); }
+  bool is_moving() const { return move_ || reshape_ || plane_drag_; }
   /// What a hand can change of the form of the chosen standing volume.
   enum class Handle { angle, aspect, storeys };
   /// Where its handles stand in the window [pixels]; only those that can be taken hold of.
   std::vector<std::pair<Handle, ImVec2>> handles() const;
+  /// What a hand can change of the section's plane.
+  enum class PlaneHandle { place, angle };
+  /// Where its handles stand in the window [pixels].
+  std::vector<std::pair<PlaneHandle, ImVec2>> plane_handles() const;
   /// Where the mouse is in the scene; nothing where it is elsewhere.
   std::optional<Point3> cursor() const;
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.
@@ -147,6 +157,14 @@ class SceneView {
     double turned = 0;            ///< how far the hand has come around since then [degree]
     double storey_height = 3;     ///< [m]
     std::int64_t gesture = 0;
+  };
+  // What a hand does with the section's plane.
+  struct PlaneDrag {
+    PlaneHandle handle = PlaneHandle::place;
+    ViewSection start;
+    Point3 pivot;
+    double grip = 0;    ///< where the hand took hold: along the axis [m], or an angle [degree]
+    double turned = 0;  ///< how far the hand has come around since then [degree]
   };
   enum class Drag { none, pressed, orbit, pan, zoom, box };
 
@@ -199,6 +217,22 @@ class SceneView {
   void go_on_reshaping();
   void end_reshape(bool is_kept);
   void draw_reshape();
+
+  // scene_view_section.cpp
+  struct PlaneHandlePlace {
+    PlaneHandle handle = PlaneHandle::place;
+    Point3 at;
+  };
+  void recall_section();
+  void keep_section();
+  std::vector<PlaneHandlePlace> plane_handle_places() const;
+  std::optional<PlaneHandlePlace> plane_handle_at(ImVec2 mouse) const;
+  std::optional<double> hand_on(const PlaneDrag& drag) const;
+  void begin_plane_drag(const PlaneHandlePlace& place);
+  void go_on_with_plane();
+  void draw_plane_handles();
+  std::optional<double> plane_field(const char* key, const std::string& shown, double value, double per_pixel, bool is_length);
+  void draw_section_strip();
 
   // scene_view_storeys.cpp
   void follow_look();
@@ -302,6 +336,10 @@ class SceneView {
   std::string clicked_node_, clicked_link_;  ///< of the press that may become a click
   std::optional<Move> move_;
   std::optional<Reshape> reshape_;
+  std::optional<PlaneDrag> plane_drag_;
+  ViewSection kept_section_;  ///< as the person's settings have it
+  double plane_scrub_ = 0;    ///< where the drag of a field of the strip has come to, before rounding
+  float strip_width_ = 0;     ///< of the strip in the last frame [pixels]
   int hot_handle_ = -1;
   std::optional<std::pair<Point3, Point3>> wanted_box_;  ///< to be brought into sight once its nodes are known
   std::optional<Pin> pin_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
+#include "core/reading/storeys.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -37,16 +38,23 @@ struct CardWriter {
   }
 };
 
-// What a shape measures that is drawn in place of the volume's own. A ball has its volume and no floors.
-void add_drawn_row(CardWriter& card, const Colours& c, const VolumeFacts& volume, DrawnForm form) {
-  if (!volume.is_drawn_otherwise || form == DrawnForm::balls) return;
-  if (form == DrawnForm::cells)
-    card.row(c.text_soft, c.text, "Cell, as drawn", reading::quantity(volume.drawn_volume, Unit::cubic_metre));
-  else card.row(c.text_soft, c.text, "Floors, as drawn", reading::quantity(volume.drawn_area, Unit::square_metre));
+// Figures of another form say which it is; those of the scene say it beside them.
+void add_form_rows(CardWriter& card, const Colours& c, const DrawnShapes::FormFigures& figures, DrawnForm form) {
+  const std::string how = reading::choice_of(form).measured;
+  card.row(c.text_soft, c.text, "Volume " + how, reading::quantity(figures.volume, Unit::cubic_metre));
+  card.row(c.text_soft, c.text, "Floor area " + how, reading::quantity(figures.floor_area, Unit::square_metre));
 }
 
 const char* start_text(bool is_playing) {
   return is_playing ? "The first tick is under way." : "Nothing has run yet: press P to run.";
+}
+
+// Why it has less than it wishes, or nothing.
+void add_reasons(CardWriter& card, const Colours& c, const State& state, const VolumeFacts& volume, bool is_playing) {
+  ImFont* font = card.theme.fonts().small;
+  if (const std::string why = reading::why_lower(state, volume.node); !why.empty()) card.text(font, c.warning, why, 3);
+  if (state.tick == 0) card.text(font, c.text_soft, start_text(is_playing), 1);
+  else if (!volume.figures.reason.empty() && volume.figures.state != "alive") card.text(font, c.bad, volume.figures.reason, 3);
 }
 
 }  // namespace
@@ -104,6 +112,7 @@ void SceneView::draw_card() {
   const std::vector<std::string> pulls = pulls_on(volume.node);
   const double standing_share = volume.standing();
   const ImU32 standing = colour_of_account(theme, tone_of_account(volume, facts_->tolerance));
+  const auto form = form_figures(volume.node);
   const auto write = [&](CardWriter& card) {
     card.text(theme.fonts().strong, c.text, volume.name, 1);
     card.text(theme.fonts().small, c.text_soft,
@@ -120,17 +129,16 @@ void SceneView::draw_card() {
       }
     }
     card.y += theme.px(kBarHeight + 6);
-    card.row(c.text_soft, c.text, "Volume", reading::quantity(volume.volume, Unit::cubic_metre));
+    card.row(c.text_soft, c.text, form ? "Volume as it is" : "Volume", reading::quantity(volume.volume, Unit::cubic_metre));
     card.row(c.text_soft, c.text, "Asked for", reading::quantity(volume.asked, Unit::cubic_metre));
     if (volume.withheld() > facts_->tolerance * volume.asked)
       card.row(c.text_soft, c.warning, "Limited to", reading::quantity(volume.limited, Unit::cubic_metre));
     card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
              volume.asked > 0 ? reading::signed_percent(standing_share) : "asks for nothing");
-    card.row(c.text_soft, c.text, "Floor area", reading::quantity(volume.floor_area, Unit::square_metre));
-    add_drawn_row(card, c, volume, drawn_look().form);
-    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, start_text(editor_->moment->is_playing), 1);
-    else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
-      card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);
+    card.row(c.text_soft, c.text, form ? "Floor area as it is" : "Floor area",
+             reading::quantity(volume.floor_area, Unit::square_metre));
+    if (form) add_form_rows(card, c, *form, drawn_look().form);
+    add_reasons(card, c, *facts_->state, volume, editor_->moment->is_playing);
     if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
     if (pulls.empty()) return;
     card.y += theme.px(3);

@@ -97,7 +97,7 @@ void SceneView::walk_about() {
 
 void SceneView::take_keys() {
   if (is_walking_ && editor_->area == Area::view) walk_about();
-  if (move_ || reshape_) hold_keys();
+  if (is_moving()) hold_keys();
   if (move_ && move_->is_by_key) take_typed();
 }
 
@@ -106,7 +106,7 @@ void SceneView::take_mouse() {
   if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::zoom) {
     if (ImGui::IsMouseDown(drag_button_)) navigate(ImGui::GetIO().MouseDelta);  // none while the pointer is nowhere
     else drag_ = Drag::none;
-  } else if (is_hovered_ && drag_ == Drag::none && !reshape_ && !(move_ && !move_->is_by_key)) {
+  } else if (is_hovered_ && drag_ == Drag::none && !reshape_ && !plane_drag_ && !(move_ && !move_->is_by_key)) {
     const Drag begun = drag_of_preset(drag_button_);
     const bool ends_move = move_ && begun != Drag::none && drag_button_ == ImGuiMouseButton_Right;
     if (ends_move) end_move(false);
@@ -114,6 +114,7 @@ void SceneView::take_mouse() {
   }
   if (move_) return go_on_moving();
   if (reshape_) return go_on_reshaping();
+  if (plane_drag_) return go_on_with_plane();
   take_left_button();
   point_at();
 }
@@ -127,6 +128,7 @@ void SceneView::take_left_button() {
     // With Shift or Ctrl people choose; while a hand already moves things, they make it fine or snap.
     const bool takes_hold = !io.KeyShift && !io.KeyCtrl && !is_placing();
     if (const auto place = takes_hold ? reshape_at(io.MousePos) : std::nullopt) return begin_reshape(*place);
+    if (const auto place = takes_hold ? plane_handle_at(io.MousePos) : std::nullopt) return begin_plane_drag(*place);
     const int handle = takes_hold ? handle_at(io.MousePos) : -1;
     if (handle >= 0) return begin_move(handle, false);
     drag_ = Drag::pressed;
@@ -246,7 +248,8 @@ void SceneView::point_at() {
     found = id;
   };
   if (shows("marks"))
-    for (const MarkFacts& mark : facts_->marks) try_mark(mark.node, mark.id);
+    for (const MarkFacts& mark : facts_->marks)
+      if (!hides(choices_.section, place_of(mark.node))) try_mark(mark.node, mark.id);
   // As they are drawn: a volume without a shape has its mark whatever the layers say.
   for (const VolumeFacts& volume : facts_->volumes)
     if (!volume.cell) try_mark(volume.node, volume.id);

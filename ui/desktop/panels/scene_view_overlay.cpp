@@ -16,6 +16,7 @@ struct LabelRequest {
   const std::string* text = nullptr;
   Seen at;
   bool is_chosen = false, is_mark = false;
+  double reach = 0;  ///< of a volume in the picture, from its middle [pixels]
   std::uint32_t node = 0;
   std::optional<StreamText> stream;
 };
@@ -23,6 +24,8 @@ struct LabelRequest {
 namespace {
 
 constexpr std::size_t kMostLabels = 70, kMostSigns = 120, kMostDots = 4000;
+// How wide a volume is in the picture at the least, as a share of its label.
+constexpr double kLeastShareOfLabel = 0.55;
 constexpr float kLeastVolumeOnScreen = 9;  // [points]: smaller ones have no label of their own
 
 struct Rectangle {
@@ -77,7 +80,7 @@ void SceneView::draw_marks() {
   const auto draw = [&](std::uint32_t node, const std::string& id, Icon icon, ImU32 tone) {
     const Seen at = seen(place_of(node));
     const bool is_inside = at.x > -20 && at.y > -20 && at.x < width() + 20 && at.y < height() + 20;
-    if (!at.is_in_front || !is_inside) return;
+    if (!at.is_in_front || !is_inside || hides(choices_.section, place_of(node))) return;
     const ImVec2 p = on_screen(at);
     const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
     // A draw list has room for so many corners; a crowd of marks is read as dots anyway.
@@ -146,7 +149,8 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
   const VolumeColumns& columns = facts_->columns;
   for (std::size_t k = 0; k < volumes; ++k)
     consider(columns.node[k], columns.radius[k] / lens.metres_per_pixel(columns.position[k]), order++);
-  for (std::size_t k = 0; k < marks; ++k) consider(facts_->marks[k].node, of_marks, order++);
+  for (std::size_t k = 0; k < marks; ++k)
+    if (!hides(choices_.section, place_of(facts_->marks[k].node))) consider(facts_->marks[k].node, of_marks, order++);
   const std::size_t count = std::min(kMostLabels, candidates.size());
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
   std::vector<LabelRequest> wishes;
@@ -157,6 +161,7 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
     wish.text = wish.is_mark ? &facts_->marks[row - volumes].name : &facts_->volumes[row].name;
     wish.node = wish.is_mark ? facts_->marks[row - volumes].node : facts_->volumes[row].node;
     wish.at = lens.project(place_of(wish.node));
+    if (!wish.is_mark) wish.reach = columns.radius[row] / lens.metres_per_pixel(columns.position[row]);
     wish.is_chosen = wish.node == hovered || chosen.contains(wish.node);
     wish.stream = stream_of(*editor_, *facts_->state, wish.node);
   }
@@ -177,6 +182,8 @@ void SceneView::draw_labels() {
     if (!anchor.is_in_front) continue;
     const ImVec2 p = on_screen(anchor);
     const ImVec2 extent = extent_of(font, w);
+    // What is much smaller than its name would be hidden by it: the card says it where people point.
+    if (!w.is_mark && !w.is_chosen && 2 * w.reach < kLeastShareOfLabel * extent.x) continue;
     const float below = w.is_mark ? theme.px(20) + (w.stream ? 0.575f * font->FontSize : 0) : 0;
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {{{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
@@ -260,7 +267,7 @@ void SceneView::draw_layers_popup() {
   }
   ImGui::Separator();
   bool is_cut = choices_.section.is_on;
-  if (ImGui::Checkbox("Section plane (Shift+wheel moves it)", &is_cut)) toggle_section();
+  if (ImGui::Checkbox("Section (Alt+B; Shift+wheel moves it)", &is_cut)) toggle_section();
   if (choices_.section.is_on && ImGui::SmallButton("Turn it")) next_section();
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
+#include "core/reading/storeys.h"
 #include "core/reading/views/solver.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
@@ -16,6 +17,21 @@
 namespace bl::desktop {
 
 namespace {
+
+// In the form that the 3D view draws volumes in, an account has the volume and the floor area of that form; what is asked for
+// stays.
+bool is_in_another_form(const Workbench& editor) {
+  return editor.view != nullptr && editor.view->drawn_look().form != DrawnForm::as_is;
+}
+void take_form(const Workbench& editor, std::uint32_t node, reading::Account& account) {
+  if (editor.view == nullptr) return;
+  if (const auto figures = editor.view->form_figures(node))
+    account.volume = figures->volume, account.floor_area = figures->floor_area;
+}
+// "as slabs": which form a figure measures.
+std::string form_words(const Workbench& editor) {
+  return reading::choice_of(editor.view == nullptr ? DrawnForm::as_is : editor.view->drawn_look().form).measured;
+}
 
 void column_title(Workbench& editor, const std::string& text) { small_text(editor, text, editor.theme.colours().text_soft, -1); }
 
@@ -68,7 +84,7 @@ void draw_run(Workbench& editor, const RunRecord& record, ImVec2 size) {
 
 void draw_orders(Workbench& editor, RunRecord& record) {
   const Theme& theme = editor.theme;
-  column_title(editor, "Demand and volume, by");
+  column_title(editor, "Demand and volume " + form_words(editor) + ", by");
   constexpr std::pair<VolumeOrder, const char*> kOrders[] = {
       {VolumeOrder::error, "error"}, {VolumeOrder::name, "name"}, {VolumeOrder::use, "use"}, {VolumeOrder::size, "size"}};
   for (const auto& [order, word] : kOrders) {
@@ -156,19 +172,53 @@ void draw_volumes(Workbench& editor, RunRecord& record) {
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const reading::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
-      draw_volume(editor, volume, row, height, largest, model.accounts.tolerance,
-                  colour_of_use(editor.theme, numbers.of(volume.use)));
+      const ImU32 colour = colour_of_use(editor.theme, numbers.of(volume.use));
+      if (!is_in_another_form(editor)) {
+        draw_volume(editor, volume, row, height, largest, model.accounts.tolerance, colour);
+        continue;
+      }
+      reading::VolumeRow formed = volume;
+      take_form(editor, editor.index_of(volume.id), formed);
+      draw_volume(editor, formed, row, height, largest, model.accounts.tolerance, colour);
     }
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 
-// One line of the programme: what is wanted as the mark, what there is as the bar.
-void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, double largest, double tolerance) {
+// Why uses have less than was asked for: the storeys that their volumes lack and who takes them, else what limits take away. Made
+// once for each state whose figures are shown.
+const std::string& why_less(const Workbench& editor, RunRecord& record, const reading::UseAccount& use) {
+  const reading::Accounts& accounts = record.figures(editor).accounts;
+  if (record.why_revision != record.figures_revision()) {
+    record.why_revision = record.figures_revision();
+    record.why.clear();
+    std::map<std::string, std::size_t> more;
+    for (const reading::VolumeAccount& volume : accounts.volumes) {
+      if (volume.node >= editor.state().plan->nodes.size()) continue;
+      const std::string why = reading::why_lower(editor.state(), volume.node);
+      if (why.empty()) continue;
+      const auto [at, is_first] = record.why.emplace(volume.use, editor.state().plan->nodes[volume.node].name + ": " + why);
+      more[volume.use] += is_first ? 0 : 1;
+    }
+    for (auto& [name, why] : record.why)
+      if (more[name] > 0) why += ", and " + std::to_string(more[name]) + " more";
+    for (const reading::UseAccount& one : accounts.uses) {
+      const double withheld = one.asked_area - one.limited_area;
+      if (withheld > accounts.tolerance * one.asked_area)
+        record.why.emplace(one.use, "limits take " + reading::quantity(withheld, Unit::square_metre) + " of what was asked for");
+    }
+  }
+  return record.why[use.use];
+}
+
+// One line of the programme: what is wanted as the mark, what there is as the bar, and below why it is not what was wanted.
+void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, double largest, double tolerance,
+              const std::string& why) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = std::round(theme.fonts().small->FontSize + theme.px(14));
+  const float width = ImGui::GetContentRegionAvail().x, line = theme.fonts().small->FontSize;
+  const float height = std::round(line + theme.px(14) + (why.empty() ? 0 : line + theme.px(2)));
   ImGui::Dummy({width, height});
   ImFont* small = theme.fonts().small;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -184,29 +234,61 @@ void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, d
   const float y = at.y + small->FontSize + theme.px(4);
   bar(theme, {at.x, y}, {at.x + width, y + theme.px(5)}, use.floor_area / std::max(largest, 1e-9),
       use.asked_area / std::max(largest, 1e-9), colour);
+  if (!why.empty()) {
+    ImGui::PushFont(small);
+    list.AddText({at.x, y + theme.px(8)}, theme.colours().warning, fitted(why, width).c_str());
+    ImGui::PopFont();
+    note_place(editor, "use/" + use.use + "/why");
+  }
   if (!ImGui::IsItemHovered()) return;
   card(editor, name,
        reading::quantity(use.floor_area, Unit::square_metre) + " of " + reading::quantity(use.asked_area, Unit::square_metre) +
            " floor area asked for",
        reading::counted(use.volumes, "volume") + ", " + reading::quantity(use.volume, Unit::cubic_metre) +
+           (why.empty() ? "" : "\n" + why) +
            (use.is_in_programme ? "" : "\nnot in any programme: the demands of its volumes count"));
 }
 
-void draw_programme(Workbench& editor, const reading::ReportModel& model) {
-  column_title(editor, "Floor area by use");
+// Sums over the same volumes, in the form that is drawn.
+reading::Accounts accounts_in_form(const Workbench& editor, const reading::Accounts& given) {
+  reading::Accounts accounts = given;
+  const auto clear = [](reading::Account& account) { account.volume = account.floor_area = 0; };
+  clear(accounts.all);
+  std::for_each(accounts.uses.begin(), accounts.uses.end(), clear);
+  for (reading::VolumeAccount& volume : accounts.volumes) {
+    take_form(editor, volume.node, volume);
+    const auto use = std::find_if(accounts.uses.begin(), accounts.uses.end(),
+                                  [&](const reading::UseAccount& one) { return one.use == volume.use; });
+    for (reading::Account* sum : {static_cast<reading::Account*>(&accounts.all),
+                                  use == accounts.uses.end() ? nullptr : static_cast<reading::Account*>(&*use)}) {
+      if (sum == nullptr) continue;
+      sum->volume += volume.volume;
+      sum->floor_area += volume.floor_area;
+    }
+  }
+  return accounts;
+}
+
+void draw_programme(Workbench& editor, RunRecord& record) {
+  const reading::ReportModel& model = record.figures(editor);
+  column_title(editor, "Floor area by use, " + form_words(editor));
   ImGui::BeginChild("uses", {0, 0});
-  const reading::Accounts& accounts = model.accounts;
+  const bool is_formed = is_in_another_form(editor);
+  const reading::Accounts of_form = is_formed ? accounts_in_form(editor, model.accounts) : reading::Accounts{};
+  const reading::Accounts& accounts = is_formed ? of_form : model.accounts;
   double largest = 0;
   for (const reading::UseAccount& use : accounts.uses) largest = std::max({largest, use.floor_area, use.asked_area});
   const UseNumbers numbers(editor.state().plan->scene);
   for (const reading::UseAccount& use : accounts.uses)
-    draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest, accounts.tolerance);
+    draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest, accounts.tolerance,
+             why_less(editor, record, use));
   if (!accounts.uses.empty()) {
     reading::UseAccount total = accounts.all;
     total.use = "all uses";
     total.is_in_programme = true;
     ImGui::Separator();
-    draw_use(editor, total, editor.theme.colours().text_faint, std::max(total.floor_area, total.asked_area), accounts.tolerance);
+    draw_use(editor, total, editor.theme.colours().text_faint, std::max(total.floor_area, total.asked_area), accounts.tolerance,
+             "");
   }
   ImGui::EndChild();
 }
@@ -276,7 +358,7 @@ void draw_statistics(Workbench& editor) {
   ImGui::SameLine(0, gap);
   column("demands", shares[1], [&] { draw_volumes(editor, record); });
   ImGui::SameLine(0, gap);
-  column("programme", shares[2], [&] { draw_programme(editor, record.figures(editor)); });
+  column("programme", shares[2], [&] { draw_programme(editor, record); });
   ImGui::SameLine(0, gap);
   column("facts", shares[3], [&] { draw_engine(editor, record); });
   ImGui::PopStyleVar();

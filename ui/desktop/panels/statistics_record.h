@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ class RunRecord {
   // Columns of samples, the oldest first; all of one length.
   std::vector<double> tick, worst, mean, volume, move, tick_ms, bytes;
   double frame_rate = 0;  ///< smoothed [1/s]
+  /// Why uses have less than they asked for, by use, of the figures at that revision.
+  std::map<std::string, std::string> why;
+  std::uint64_t why_revision = 0;
   VolumeOrder order = VolumeOrder::error;
   bool is_order_stale = true;
 

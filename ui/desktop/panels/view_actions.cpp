@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include "ui/desktop/panels/actions.h"
+#include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/panels/scene_view.h"
 
@@ -59,6 +60,13 @@ void add_camera_actions(std::vector<Action>& list) {
       {"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Workbench& e) {
          e.view->next_section();
        }});
+  list.push_back({"View",
+                  "Export this section ...",
+                  {},
+                  {},
+                  Area::none,
+                  [](const Workbench& e) { return has_document(e) && e.view != nullptr && e.view->section().is_on; },
+                  [](Workbench& e) { e.dialogs->show_export(e.view->section_for_export()); }});
   list.push_back({"View",
                   "Move the selection",
                   {GLFW_KEY_G},

@@ -11,22 +11,13 @@
 #include "core/geometry/mesh_lines.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/polygon_triangles.h"
+#include "core/reading/cell_cut.h"
 #include "core/reading/exact_shape.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/view/cell_cut.h"
 
 namespace bl::desktop {
 
 namespace {
-
-constexpr std::array<FormChoice, kFormCount> kForms = {{
-    {DrawnForm::as_is, "as_is", "As they are", "Standing volumes as buildings, rounded ones as cells wrapped onto their balls."},
-    {DrawnForm::balls, "balls", "Balls", "A bubble diagram: each volume as a ball of the same volume, not cut by others."},
-    {DrawnForm::cells, "cells", "Cells with flat facets",
-     "What the neighbours leave to a rounded volume, between its own top and bottom. Standing volumes have flat facets as they "
-     "are."},
-    {DrawnForm::slabs, "slabs", "Slabs", "Each storey as a plate of its floor: what could be built of a rounded volume."},
-}};
 
 // Arcs lie within this of their chords [m].
 constexpr double kChords = 0.02;
@@ -66,6 +57,7 @@ MeshPointer shape_of(const Mesh& mesh) {
 struct Slabs {
   Mesh mesh;
   double area = 0, volume = 0;
+  std::vector<std::vector<geometry::PlateFace>> faces;  // of the storeys of a rounded volume
 };
 
 Slabs slabs_of(const geometry::StandingBody& body) {
@@ -100,40 +92,48 @@ Slabs slabs_of(const SceneFacts& facts, const VolumeFacts& volume, int storeys) 
       for (geometry::Polyline& line : geometry::section(*figures.mesh, z, [](std::size_t) { return true; }))
         if (line.is_closed) rings.push_back(std::move(line.points));
     }
-    for (const geometry::Ring& ring : rings) {
+    made.faces.emplace_back();
+    for (geometry::Ring& ring : rings) {
       if (ring.size() < 3) continue;
-      const double area = std::abs(geometry::signed_area(ring));
+      if (geometry::signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+      const double area = geometry::signed_area(ring);
       made.area += area;
       made.volume += area * storey;
       append(geometry::prism_mesh(ring, {}, floor, floor + thickness_of(storey)), made.mesh);
+      for (Point3& corner : ring) corner.z = 0;
+      made.faces.back().push_back({std::move(ring), {}});
     }
   }
   return made;
 }
 
-// Without its wrap, so that its faces stay flat.
-MeshPointer flat_cell(const VolumeFacts& volume, double& size) {
-  const reading::VolumeFigures& figures = volume.figures;
-  const Mesh& whole = volume.cell->whole ? *volume.cell->whole : *volume.cell;
-  if (!whole.wrap) return nullptr;
-  Mesh loose = whole;
-  MeshWrap wrap = *whole.wrap;
-  wrap.radius = 1e9;  // nothing lies beyond such a ball
-  loose.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
-  MeshPointer cut = cut_cell(loose, figures.bottom + figures.height, Kept::below);
-  if (cut) cut = cut_cell(*cut, figures.bottom, Kept::above);
-  if (!cut) return nullptr;
-  size = enclosed_volume(*cut);
-  return cut;
+reading::FormSource source_of(const VolumeFacts& volume, bool is_standing) {
+  const reading::VolumeFigures& f = volume.figures;
+  return {is_standing, f.position, volume.volume, volume.floor_area, f.bottom, f.height, f.storey_height, f.mesh, {}};
+}
+
+// Its floors where the solver measures them, with their shares of the floor area of the scene.
+std::vector<reading::FormedStorey> floors_of(const SceneFacts& facts, const VolumeFacts& volume) {
+  const Slabs whole = slabs_of(facts, volume, 0);
+  std::vector<reading::FormedStorey> floors;
+  for (std::size_t k = 0; k < whole.faces.size(); ++k) {
+    const double bottom = volume.figures.bottom + static_cast<double>(k) * volume.figures.storey_height;
+    double area = 0;
+    for (const geometry::PlateFace& face : whole.faces[k]) area += geometry::signed_area(face.outer);
+    if (area > 0)
+      floors.push_back({bottom, bottom + volume.figures.storey_height, volume.floor_area * area / whole.area, whole.faces[k]});
+  }
+  return floors;
 }
 
 }  // namespace
 
-std::span<const FormChoice> form_choices() { return kForms; }
+std::span<const FormChoice> form_choices() { return reading::volume_forms(); }
 
 const FormChoice& form_of(const std::string& id) {
-  const auto found = std::find_if(kForms.begin(), kForms.end(), [&](const FormChoice& choice) { return id == choice.id; });
-  return found == kForms.end() ? kForms.front() : *found;
+  const std::span<const FormChoice> forms = form_choices();
+  const auto found = std::find_if(forms.begin(), forms.end(), [&](const FormChoice& choice) { return id == choice.id; });
+  return found == forms.end() ? forms.front() : *found;
 }
 
 int storeys_below(const VolumeFacts& volume, double ground) {
@@ -158,16 +158,43 @@ bool DrawnShapes::Shape::is_of_same(const Shape& o) const {
          storey_height == o.storey_height && volume == o.volume && weight == o.weight && storeys == o.storeys && form == o.form;
 }
 
+// A rounded volume as whole storeys on its largest floor.
+void DrawnShapes::fill_standing(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) {
+  reading::FormSource source = source_of(volume, false);
+  source.storeys = floors_of(facts, volume);
+  const reading::FormedVolume formed = reading::in_form(source, DrawnForm::standing);
+  if (formed.mesh == nullptr) return;
+  shape.form_area = formed.floor_area;
+  shape.form_volume = formed.volume;
+  const std::size_t all = formed.storeys.size();
+  const std::size_t shown = shape.storeys == 0 ? all : std::min(all, static_cast<std::size_t>(shape.storeys));
+  const reading::FormedStorey& last = formed.storeys[shown - 1];
+  // One body, so that storeys have no walls between them.
+  Mesh mesh;
+  for (const geometry::PlateFace& face : last.faces)
+    append(geometry::prism_mesh(face.outer, face.holes, formed.bottom, last.top), mesh);
+  MeshPointer made = shape_of(mesh);
+  if (!made) return;
+  shape.made = std::move(made);
+  shape.drawn_area = static_cast<double>(shown) * last.area;
+  shape.drawn_volume = last.area * (last.top - formed.bottom);
+}
+
 // A shape that cannot be made is left as it is; one of which the cut leaves nothing is none.
 void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const {
   shape.made = volume.cell;
-  shape.drawn_volume = volume.volume;
-  shape.drawn_area = volume.floor_area;
+  shape.drawn_volume = shape.form_volume = volume.volume;
+  shape.drawn_area = shape.form_area = volume.floor_area;
   const reading::VolumeFigures& figures = volume.figures;
-  const geometry::StandingBody body = lowest_of(body_of(facts, volume), shape.storeys);
+  const geometry::StandingBody whole = body_of(facts, volume);
+  const bool is_standing = !whole.stacks.empty();
+  const geometry::StandingBody body = lowest_of(whole, shape.storeys);
   const double top = figures.bottom + shape.storeys * figures.storey_height;
+  if (shape.form == DrawnForm::standing && !is_standing) return fill_standing(facts, volume, shape);
   if (shape.form == DrawnForm::slabs) {
     const Slabs slabs = body.stacks.empty() ? slabs_of(facts, volume, shape.storeys) : slabs_of(body);
+    // Floors are those of the scene; of a rounded volume a slab has its storey's whole height.
+    if (!is_standing) shape.form_volume = volume.floor_area * figures.storey_height;
     MeshPointer made = shape_of(slabs.mesh);
     if (!made) return;
     shape.made = std::move(made);
@@ -177,10 +204,10 @@ void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape
     return;
   }
   if (shape.form == DrawnForm::balls) {
-    const double radius = std::cbrt(0.75 * volume.volume / std::numbers::pi);
-    Point3 middle = figures.position;
-    if (!body.stacks.empty()) middle.z = figures.bottom + figures.height / 2;
-    if (radius > 0) shape.made = ball_cell(middle, radius);
+    const reading::FormSource source = source_of(volume, is_standing);
+    const double radius = reading::ball_radius(volume.volume);
+    shape.drawn_area = shape.form_area = reading::in_form(source, DrawnForm::balls, false).floor_area;
+    if (radius > 0) shape.made = ball_cell(reading::ball_middle(source), radius);
   } else if (!body.stacks.empty()) {
     if (shape.storeys == 0) return;
     const Slabs slabs = slabs_of(body);
@@ -191,10 +218,12 @@ void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape
     shape.drawn_volume = slabs.volume;
     return;
   } else if (shape.form == DrawnForm::cells && !volume.is_ball) {
-    double size = 0;
-    if (MeshPointer flat = flat_cell(volume, size)) {
+    const reading::FormSource source = source_of(volume, false);
+    if (MeshPointer flat = reading::flat_cell(source)) {
+      const reading::FormedVolume formed = reading::in_form(source, DrawnForm::cells);
       shape.made = std::move(flat);
-      shape.drawn_volume = size;
+      shape.drawn_volume = shape.form_volume = formed.volume;
+      shape.drawn_area = shape.form_area = formed.floor_area;
     }
   }
   if (shape.storeys == 0 || !shape.made) return;
@@ -203,7 +232,7 @@ void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape
     shape.drawn_area = measured.area;
     shape.drawn_volume = measured.volume;
   }
-  shape.made = cut_cell(*shape.made, top, Kept::below);
+  shape.made = reading::cut_cell(*shape.made, top, reading::Kept::below);
 }
 
 // Where memory does not suffice for another shape, the volume keeps its own.
@@ -221,11 +250,15 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
   std::vector<VolumeFacts> volumes;
   for (const VolumeFacts& volume : facts->volumes) {
     const int below = storeys_below(volume, facts->ground), all = storeys_of(volume);
-    if (look.storeys > 0 && below >= look.storeys) continue;
+    const bool is_above = look.storeys > 0 && below >= look.storeys;
+    if (is_above && look.form == DrawnForm::as_is) continue;
     VolumeFacts& drawn = volumes.emplace_back(volume);
-    if (!volume.cell) continue;
+    if (!volume.cell) {
+      if (is_above) volumes.pop_back();
+      continue;
+    }
     const reading::VolumeFigures& f = volume.figures;
-    const int storeys = look.storeys == 0 || all == 0 || below + all <= look.storeys ? 0 : look.storeys - below;
+    const int storeys = look.storeys == 0 || all == 0 || is_above || below + all <= look.storeys ? 0 : look.storeys - below;
     Shape shape;
     shape.mesh = f.mesh;
     shape.cell = volume.cell;
@@ -240,7 +273,8 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
     const auto before = shapes_.find(volume.node);
     if (before != shapes_.end() && before->second.is_of_same(shape)) shape = before->second;
     else fill_or_leave(*facts, volume, shape);
-    if (!shape.made) {
+    // What lies above the cut is not drawn, but its figures count.
+    if (!shape.made || is_above) {
       volumes.pop_back();
     } else {
       drawn.cell = shape.made;
@@ -261,22 +295,30 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
   return made_;
 }
 
+std::optional<DrawnShapes::FormFigures> DrawnShapes::figures_of(std::uint32_t node) const {
+  const auto found = shapes_.find(node);
+  if (look_.form == DrawnForm::as_is || found == shapes_.end()) return {};
+  return FormFigures{found->second.form_volume, found->second.form_area};
+}
+
 void DrawnShapes::tell(const SceneFacts& all, const SceneFacts& drawn, const DrawnLook& look) {
   const auto square = [](double area) { return reading::quantity(area, Unit::square_metre); };
   const auto cubic = [](double volume) { return reading::quantity(volume, Unit::cubic_metre); };
-  double volume = 0, area = 0, scene_volume = 0, scene_area = 0;
+  double volume = 0, area = 0, scene_volume = 0, scene_area = 0, form_volume = 0, form_area = 0;
   for (const VolumeFacts& one : drawn.volumes) volume += one.drawn_volume, area += one.drawn_area;
+  for (const auto& [node, shape] : shapes_) form_volume += shape.form_volume, form_area += shape.form_area;
   for (const VolumeFacts& one : all.volumes) scene_volume += one.volume, scene_area += one.floor_area;
   legend_ = {};
-  const FormChoice& form = *std::find_if(kForms.begin(), kForms.end(), [&](const FormChoice& f) { return f.form == look.form; });
+  const FormChoice& form = reading::choice_of(look.form);
   legend_.title = std::string("Drawn: ") + form.label;
   if (look.storeys > 0)
     legend_.title += ", " + reading::counted(static_cast<std::size_t>(look.storeys), "storey") + " from the ground";
-  // What these forms have no floors for is not measured.
-  const bool has_floors = look.form == DrawnForm::slabs || look.form == DrawnForm::as_is;
-  if (has_floors) legend_.rows.push_back({square(area) + " floor area drawn, " + square(scene_area) + " in the figures", 0});
-  if (look.storeys == 0 || has_floors)
-    legend_.rows.push_back({cubic(volume) + " drawn, " + cubic(scene_volume) + " in the figures", 0});
+  // The floors of a ball or a cell that is cut are not measured.
+  const bool has_floors = look.form != DrawnForm::balls && look.form != DrawnForm::cells;
+  if (look.storeys > 0 && has_floors) legend_.rows.push_back({square(area) + " floor area and " + cubic(volume) + " drawn", 0});
+  if (look.form != DrawnForm::as_is)
+    legend_.rows.push_back({std::string("Figures ") + form.measured + ": " + square(form_area) + ", " + cubic(form_volume), 0});
+  legend_.rows.push_back({"As they are: " + square(scene_area) + ", " + cubic(scene_volume), 0});
 }
 
 }  // namespace bl::desktop

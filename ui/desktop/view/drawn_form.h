@@ -4,22 +4,21 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "core/geometry/plates.h"
+#include "core/reading/volume_form.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
 
-enum class DrawnForm : std::uint8_t { as_is, balls, cells, slabs };
-
-struct FormChoice {
-  DrawnForm form = DrawnForm::as_is;
-  const char *id, *label, *doc;
-};
-inline constexpr std::size_t kFormCount = 4;
+/// The same forms as those of exports.
+using DrawnForm = reading::VolumeForm;
+using FormChoice = reading::VolumeFormChoice;
+inline constexpr std::size_t kFormCount = reading::kVolumeForms;
 /// All forms, in the order of menus; the first is that of a new window.
 std::span<const FormChoice> form_choices();
 /// By its id; the first where there is none of that id.
@@ -46,6 +45,12 @@ class DrawnShapes {
   std::shared_ptr<const SceneFacts> of(const std::shared_ptr<const SceneFacts>& facts, const DrawnLook& look);
   /// What is drawn and what it measures, beside the figures of the scene; empty where volumes are drawn whole as they are.
   const Legend& legend() const { return legend_; }
+  /// What a volume measures in the form that is drawn, whole, though it may be cut; nothing where it has no shape, or is drawn as
+  /// it is.
+  struct FormFigures {
+    double volume = 0, floor_area = 0;  ///< [m³], [m²]
+  };
+  std::optional<FormFigures> figures_of(std::uint32_t node) const;
 
  private:
   struct Shape {
@@ -56,10 +61,11 @@ class DrawnShapes {
     DrawnForm form = DrawnForm::as_is;
     MeshPointer made;
     bool is_edgeless = false;
-    double drawn_volume = 0, drawn_area = 0;
+    double drawn_volume = 0, drawn_area = 0, form_volume = 0, form_area = 0;
     bool is_of_same(const Shape& other) const;
   };
   void fill_or_leave(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const;
+  static void fill_standing(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape);
   void fill(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const;
   void tell(const SceneFacts& all, const SceneFacts& drawn, const DrawnLook& look);
 

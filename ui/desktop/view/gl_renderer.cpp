@@ -241,10 +241,13 @@ void GlRenderer::draw_volumes(const ViewScene& scene) {
   program.set_colour("cut_colour", c.cut);
   program.set_colour("ground_colour", c.ground);
   program.set("section", section_of(scene));
+  set_point(program, "eye", scene.camera.eye() - scene.origin);
+  set_point(program, "looking", scene.camera.forward());
+  program.set("is_parallel", scene.camera.is_parallel ? 1.0f : 0.0f);
   if (scene.section.is_on) {
-    set_point(program, "eye", scene.camera.eye() - scene.origin);
-    set_point(program, "looking", scene.camera.forward());
-    program.set("is_parallel", scene.camera.is_parallel ? 1.0f : 0.0f);
+    // Strokes some nine pixels apart, in steps of two so that they stand still while the camera moves a little.
+    const double pixel_size = scene.camera.metres_per_pixel(scene.camera.target, picture_.height());
+    program.set("hatch", static_cast<float>(std::exp2(std::round(std::log2(std::max(1e-6, 9 * pixel_ * pixel_size))))));
   }
   program.set("pixel", pixel_);
   program.set("half_height", 0.5f * static_cast<float>(picture_.height()));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/desktop/view/cell_marks.h"
+
 namespace bl::desktop {
 
 namespace {
@@ -39,6 +41,10 @@ bool is_alike(const Mesh& a, const Mesh& b) {
   return true;
 }
 
+bool has_no_rim(const Mesh& cell, std::uint32_t vertex) {
+  return vertex < cell.wrap->seams.size() && (cell.wrap->seams[vertex] & kNoRim) != 0;
+}
+
 std::vector<float> corner_texels(const Mesh& cell) {
   std::vector<float> out;
   out.reserve(4 * corners_of(cell));
@@ -52,7 +58,8 @@ std::vector<float> corner_texels(const Mesh& cell) {
   std::size_t t = 0, centre = cell.vertices.size();
   for (const MeshWrap::Part& part : cell.wrap->parts) {
     for (std::uint32_t k = 0; k < part.triangles && t < cell.triangles.size(); ++k, ++t)
-      out[4 * cell.triangles[t][0] + 3] = static_cast<float>(centre);
+      // The centre's number, and a half where the triangle has no edge.
+      out[4 * cell.triangles[t][0] + 3] = static_cast<float>(centre) + (has_no_rim(cell, cell.triangles[t][0]) ? 0.5f : 0.0f);
     centre += 1 + part.seams.size();
   }
   for (const MeshWrap::Part& part : cell.wrap->parts) {

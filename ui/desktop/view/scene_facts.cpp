@@ -2,13 +2,12 @@
 #include "ui/desktop/view/scene_facts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <map>
 #include <set>
 
-#include "core/geometry/mesh_lines.h"
 #include "core/reading/changed_nodes.h"
 #include "core/reading/views/facade.h"
 #include "core/reading/views/node.h"
@@ -24,8 +23,6 @@ namespace {
 
 // Links over sets with more pairs than this would hide what they join.
 constexpr std::size_t kMostPairs = 80;
-// Faces that meet at a smaller angle than this look like one (cosine).
-constexpr double kSharp = 0.97;
 
 // What its style makes of the façade, where one dresses it.
 void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
@@ -380,55 +377,6 @@ std::shared_ptr<const SceneFacts> facts_with(const SceneFacts& facts, std::vecto
   make_columns(*other, volumes);
   other->volumes = published(VolumeList::Draft(std::move(volumes)));
   return other;
-}
-
-MeshPointer ball_cell(const Point3& centre, double radius) {
-  Mesh mesh;
-  for (int k = 0; k < 8; ++k) {
-    const Vector3 corner{(k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0, (k & 4) != 0 ? 1.0 : -1.0};
-    mesh.vertices.push_back(centre + 1.01 * radius * corner);
-  }
-  constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const auto& face : kFaces) {
-    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(0.25 *
-                            (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
-    for (std::size_t i = 0; i < 4; ++i) mesh.triangles.push_back({middle, face[i], face[(i + 1) % 4]});
-  }
-  MeshWrap wrap{centre, radius, {{24, centre, {}}}, std::vector<std::uint32_t>(mesh.vertices.size(), 0)};
-  mesh.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
-  return std::make_shared<const Mesh>(std::move(mesh));
-}
-
-MeshPointer as_cell(const Mesh& mesh) {
-  Mesh cell{mesh.vertices, mesh.triangles, {}, {}};
-  Point3 low = cell.vertices.front(), high = low;
-  for (const Point3& v : cell.vertices) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  const Point3 centre = 0.5 * (low + high);
-  MeshWrap wrap{centre,
-                distance(low, high) + 1,
-                {{static_cast<std::uint32_t>(cell.triangles.size()), centre, {}}},
-                std::vector<std::uint32_t>(cell.vertices.size(), 0)};
-  cell.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
-  return std::make_shared<const Mesh>(std::move(cell));
-}
-
-std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& given) {
-  const Mesh mesh = geometry::joined(given);
-  const std::vector<Vector3> normals = geometry::unit_normals(mesh);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) sides[std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3])].push_back(t);
-  std::vector<std::pair<Point3, Point3>> edges;
-  for (const auto& [edge, faces] : sides) {
-    const bool is_smooth = faces.size() == 2 && dot(normals[faces[0]], normals[faces[1]]) > kSharp;
-    if (!is_smooth) edges.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
-  }
-  return edges;
 }
 
 }  // namespace bl::desktop

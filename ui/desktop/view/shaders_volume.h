@@ -14,7 +14,7 @@ uniform samplerBuffer records;
 layout(location = 0) in vec2 weights;
 layout(location = 1) in uvec4 triangle;
 
-struct Divided { vec3 flat_place, place, normal; float centre_weight; vec4 ball; };
+struct Divided { vec3 flat_place, place, normal; float centre_weight; vec4 ball; bool has_rim; };
 
 vec3 wrapped(vec3 place, float radius, vec3 inside) {
   float squared = radius * radius;
@@ -37,6 +37,7 @@ Divided divided() {
   vec4 b = texelFetch(corners, first + int(triangle.z));
   d.flat_place = c.xyz + weights.x * (a.xyz - c.xyz) + weights.y * (b.xyz - c.xyz);
   d.centre_weight = 1.0 - weights.x - weights.y;
+  d.has_rim = fract(c.w) < 0.25;
   // The face's centre lies on no seam: its fourth number says instead where its part's wrap has its centre.
   int seams = d.centre_weight > 1e-6 ? 0 : 0xffffff;
   if (weights.x > 1e-6) seams &= int(a.w);
@@ -97,6 +98,8 @@ void main() {
 inline constexpr const char* kVolumeVertex = R"(
 uniform mat4 matrix;
 uniform float half_height, pixel;
+uniform vec3 eye, looking;
+uniform float is_parallel;
 out vec3 world, flat_place;
 out float centre_weight;
 flat out vec3 facet_normal;
@@ -108,7 +111,7 @@ flat out float fineness;
 float fineness_of(vec4 ball) {
   float row = length(vec3(matrix[0].y, matrix[1].y, matrix[2].y));
   float depth = max((matrix * vec4(ball.xyz, 1.0)).w, 1e-6);
-  return smoothstep(2.5, 9.0, ball.w * row * half_height / depth / pixel);
+  return smoothstep(2.5, 22.0, ball.w * row * half_height / depth / pixel);
 }
 
 void main() {
@@ -116,10 +119,12 @@ void main() {
   fineness = fineness_of(d.ball);
   world = d.ball.xyz + d.place;
   flat_place = d.flat_place;
-  centre_weight = d.centre_weight;
+  centre_weight = d.has_rim ? d.centre_weight : 1.0;
   facet_normal = d.normal;
   number = int(triangle.w);
   gl_Position = matrix * vec4(world, 1.0);
+  // Where bodies stand on each other, the floor of the upper one lies in the roof below: what looks away stays behind.
+  if (dot(d.normal, is_parallel > 0.5 ? -looking : eye - world) < 0.0) gl_Position.z += 1e-4 * gl_Position.w;
 }
 )";
 
@@ -233,7 +238,7 @@ uniform float pixel, with_edges, with_storeys;
 #ifdef WITH_SECTION
 uniform mat4 matrix;
 uniform vec3 eye, looking;
-uniform float is_parallel;
+uniform float is_parallel, hatch;
 #endif
 in vec3 world, flat_place;
 in float centre_weight;
@@ -260,18 +265,36 @@ void main() {
   float faint = (flags & 4) != 0 ? 1.0 : 0.0;
 #ifdef WITH_SECTION
   gl_FragDepth = gl_FragCoord.z;
-  if (dot(section.xyz, world) > section.w) discard;
+  // Where the line of sight has come through the plane: what is painted on the cut is measured there.
+  vec3 way = is_parallel > 0.5 ? looking : normalize(world - eye);
+  float across = dot(section.xyz, way);
+  float back = abs(across) > 1e-4 ? max(0.0, (dot(section.xyz, world) - section.w) / across) : 0.0;
+  vec3 on_cut = world - back * way;
+  bool is_upright = abs(section.z) < 0.5;
+  float stroke = (dot(on_cut, vec3(-section.y, section.x, 0.0)) + on_cut.z) / hatch;
+  if (!is_upright) stroke = (on_cut.x + on_cut.y) / hatch;
+  float stroke_size = max(fwidth(stroke), 1e-6), metre_size = max(fwidth(on_cut.z), 1e-6);
+  // A roof that lies in the plane stays whole.
+  if (dot(section.xyz, world) > section.w + 0.002) discard;
   if (!gl_FrontFacing) {
     // The inside is seen first only where the cut opens it, because volumes share no space: there the solid is painted. A wall
     // that two volumes share belongs to the one that is cut: it moves a little towards the cut.
-    vec3 way = is_parallel > 0.5 ? looking : normalize(world - eye);
-    float across = dot(section.xyz, way);
-    float back = abs(across) > 1e-4 ? max(0.0, (dot(section.xyz, world) - section.w) / across) : 0.0;
     vec4 clip = matrix * vec4(world - 0.03 * back * way, 1.0);
     gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
-    colour = vec4(mix(cut_colour.rgb, own, 0.66), 1.0);
-    if ((flags & 1) != 0) colour.rgb = mix(colour.rgb, vec3(1.0), 0.14);
-    if ((flags & 2) != 0) colour.rgb = mix(colour.rgb, chosen_colour.rgb, 0.5);
+    vec3 cut = mix(cut_colour.rgb, own, 0.66);
+    cut = mix(cut, edge_colour.rgb, 0.30 * line(abs(fract(stroke) - 0.5) / stroke_size, 0.4 * pixel));
+    if (is_upright && with_storeys > 0.5 && storey.y > 0.0) {
+      // Floors and roofs as in drawings: so thick, and never thinner than a line.
+      float level = (on_cut.z - storey.x) / storey.y, under = (ceil(level - 1e-4) - level) * storey.y;
+      float slab = 1.0 - smoothstep(-0.5, 0.5, (under - max(0.3, 1.2 * pixel * metre_size)) / metre_size);
+      cut = mix(cut, mix(edge_colour.rgb, own, 0.18), slab * smoothstep(0.40, 0.16, metre_size / storey.y));
+    }
+    if ((flags & 32) != 0) cut = mix(cut, ground_colour.rgb, 0.25);
+    if ((flags & 1) != 0) cut = mix(cut, vec3(1.0), 0.14);
+    if ((flags & 2) != 0) cut = mix(cut, chosen_colour.rgb, 0.4);
+    colour = vec4(cut, 1.0);
+    // A number of its own, so that a line goes round what is cut.
+    label = (label | 28u) ^ 0x80000000u;
     return;
   }
 #else

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/desktop/view/section_plane.h"
 #include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
@@ -65,6 +66,7 @@ struct Builder {
   void add_frame();
   void add_boundary();
   void add_media();
+  void add_section();
   void add_links();
   void add_weights();
   void add_neighbours();
@@ -108,6 +110,14 @@ void Builder::add_boundary() {
     for (const auto& [a, b] : boundary.edges)
       line(a, b, faded(ink, is_chosen ? 0.95f : 0.5f), is_chosen || is_hovered ? 2.0f : 1.1f, 0.22f);
   }
+}
+
+// The plane that people drag, where it stands out of the model.
+void Builder::add_section() {
+  if (!choices.section.is_on) return;
+  const auto corners = section_corners(choices.section, model_box(facts));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    line(corners[k], corners[(k + 1) % corners.size()], faded(theme.colours().accent, 0.85f), 1.4f, 0.35f);
 }
 
 void Builder::add_media() {
@@ -226,6 +236,7 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
       (last != nullptr ? *last : fresh)
           .of({facts, colouring.colours, picks, builder.shows("facades"), builder.shows("buildings"), theme.is_dark()});
   builder.add_boundary();
+  builder.add_section();
   builder.add_media();
   builder.add_links();
   builder.add_weights();

@@ -1,5 +1,5 @@
 // Each part is convex and its faces are fans, so that a cut is one new face for each part.
-#include "ui/desktop/view/cell_cut.h"
+#include "core/reading/cell_cut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace bl::desktop {
+namespace bl::reading {
 
 namespace {
 
@@ -179,4 +179,4 @@ MeshPointer cut_cell(const Mesh& cell, double height, Kept kept) {
   return CellCutter(cell, height, kept).cut();
 }
 
-}  // namespace bl::desktop
+}  // namespace bl::reading

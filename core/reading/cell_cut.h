@@ -5,7 +5,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl::desktop {
+namespace bl::reading {
 
 enum class Kept : std::uint8_t { below, above };
 
@@ -13,4 +13,4 @@ enum class Kept : std::uint8_t { below, above };
 /// nothing of it is left.
 MeshPointer cut_cell(const Mesh& cell, double height, Kept kept);
 
-}  // namespace bl::desktop
+}  // namespace bl::reading
