@@ -166,7 +166,7 @@ bool SiteBuildings::has_cleared() const {
   return std::any_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.cleared > 0; });
 }
 
-void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
                          importing::ImportReport& report) {
   const auto stays = stays_.find(building);
   if (stays == stays_.end()) return;
@@ -174,6 +174,14 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
     Site& site = sites_[stay.site];
     if (made.row != importing::kNoRow)
       report.remark(made.row, share_text(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
+    // Only now: another site may have cleared what this one would keep.
+    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
+    const std::size_t before = site.rows.row_of("name", node);
+    if (!is_changed && before < site.rows.rows.size()) continue;
+    if (before < site.rows.rows.size()) {
+      const std::size_t name = site.rows.column("name");
+      std::erase_if(site.rows.rows, [&](const TableRow& row) { return std::get<std::string>(row[name]) == node; });
+    }
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
     for (const Point3& corner : made.outer) {
@@ -186,16 +194,14 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
                            : column == "top" ? top
                                              : bottom);
     }
-    ++site.barred;
-    // Only now: another site may have cleared what this one would keep.
-    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
+    site.is_changed = true;
   }
 }
 
 std::vector<std::pair<std::string, Table>> SiteBuildings::exclusions() const {
   std::vector<std::pair<std::string, Table>> changed;
   for (const Site& site : sites_)
-    if (site.barred > 0) changed.emplace_back(site.id, site.rows);
+    if (site.is_changed) changed.emplace_back(site.id, site.rows);
   return changed;
 }
 

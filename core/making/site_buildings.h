@@ -32,8 +32,9 @@ class SiteBuildings {
   void judge(const importing::Context& context);
   /// Is that building of the file left out?
   bool is_cleared(std::size_t building) const;
-  /// Adds a detail to the row of a building that stays, and makes its site leave out its ground.
-  void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+  /// Adds a detail to the row of a building that stays, and makes its site leave out its ground. `is_changed`: the node is new,
+  /// or another than before.
+  void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
             importing::ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
 
@@ -51,7 +52,8 @@ class SiteBuildings {
     double bottom = 0, top = 0;
     Table rows;                            // its exclusions
     std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
-    std::size_t cleared = 0, barred = 0;
+    std::size_t cleared = 0;
+    bool is_changed = false;  // its exclusions
   };
   struct Stay {
     std::size_t site = 0;
