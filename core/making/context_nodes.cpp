@@ -162,6 +162,11 @@ void ContextNodes::add(const importing::Context& context, const NodeMaking& maki
   add_buildings(context, making, sites, report, unused);
   std::size_t ground = 0;
   for (const importing::ContextArea& area : context.areas) {
+    if (const std::string site = sites.site_without(area); !site.empty() && area.row != importing::kNoRow) {
+      report.made(area.row, site);
+      report.remark(area.row, "the site `" + site + "` leaves its ground out");
+      continue;
+    }
     if (!area.is_plot) {
       ++ground;
       if (area.row != importing::kNoRow) unused[area.row] = "there is no typification for it";

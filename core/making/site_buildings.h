@@ -38,6 +38,11 @@ class SiteBuildings {
             importing::ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
 
+  /// Makes sites leave out the streets and areas of these kinds (`kClearGrounds`) that reach into them, up to their whole height.
+  void clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets);
+  /// The site that leaves out an area of the file; empty: none.
+  std::string site_without(const importing::ContextArea& area) const;
+
   /// Was any building left out?
   bool has_cleared() const;
   /// The new values of the sites' exclusions, by node.
@@ -50,10 +55,10 @@ class SiteBuildings {
     std::string id;
     std::vector<std::vector<geometry::Ring>> grounds;  // each an outline with its holes
     double bottom = 0, top = 0;
-    Table rows;                            // its exclusions
-    std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
+    Table rows, rows_before;                              // its exclusions
+    std::map<std::string, std::size_t> grounds_left_out;  // by kind
+    std::set<std::size_t> kept, reaching;                 // whole buildings that stay, by their number in `judged_`
     std::size_t cleared = 0;
-    bool is_changed = false;  // its exclusions
   };
   struct Stay {
     std::size_t site = 0;
@@ -64,6 +69,7 @@ class SiteBuildings {
   };
 
   double inside(const Site& site, const importing::ContextBuilding& building) const;
+  bool leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings);
   bool clears(std::size_t buildings, const std::string& site);
 
   std::vector<Site> sites_;
@@ -72,6 +78,8 @@ class SiteBuildings {
   bool is_assumed_ = false;
   AskToClear ask_;
   std::map<std::size_t, std::vector<Stay>> stays_;  // by building of the file
+  std::map<std::string, std::string> left_out_;     // areas of the file, and the site without them
+  std::vector<std::string> ground_notes_;
 };
 
 }  // namespace bl::making
