@@ -13,6 +13,12 @@ struct PlanExtent {
 
 /// Around all buildings, plots and boundaries; existing buildings and streets may lie outside.
 PlanExtent plan_extent(const Proposal& proposal);
+/// Where words stand on the largest face: a strip of it without holes, as wide and high as that is [m].
+struct LabelPlace {
+  Point3 middle;
+  double width = 0, height = 0;
+};
+LabelPlace label_place(const std::vector<geometry::PlateFace>& faces);
 /// The centroid of the largest face; its first corner where it has no area.
 Point3 middle_of(const std::vector<geometry::PlateFace>& faces);
 

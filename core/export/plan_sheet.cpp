@@ -2,8 +2,10 @@
 #include "core/export/plan_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/export/plan_places.h"
@@ -135,6 +137,7 @@ class PlanMaker : SheetFrame {
   void add_storeys() {
     const double cut = proposal_.ground + (sheet_.level + 0.5) * proposal_.level_height;
     SheetGroup passed{"passing", "Storeys of other levels", true, {}, {}}, labels{"labels", "Labels", true, {}, {}};
+    std::vector<std::pair<const Building*, const Storey*>> own_labels, passing_labels;
     std::vector<SheetGroup> uses;
     for (const UseRow& use : proposal_.uses) uses.push_back({"use_" + to_identifier(use.use), use_name(use.use), true, {}, {}});
     uses.push_back({"use_other", "other", true, {}, {}});
@@ -150,7 +153,7 @@ class PlanMaker : SheetFrame {
           passed.shapes.back().stroke = kGrey;
           passed.shapes.back().is_filled = true;
           passed.shapes.back().fill = drawing::mix(b.colour, drawing::kWhite, 0.7);
-          if (options_.labels) add_label(b, *storey, labels, false);
+          passing_labels.emplace_back(&b, storey);
         }
         continue;
       }
@@ -159,7 +162,14 @@ class PlanMaker : SheetFrame {
       shape.fill = b.colour;
       shape.width = 0.35;
       uses[proposal_.use_number(b.use)].shapes.push_back(std::move(shape));
-      if (options_.labels) add_label(b, *own, labels);
+      own_labels.emplace_back(&b, &*own);
+    }
+    if (options_.labels) {
+      // Where two would cross, the larger storey keeps its words; those of other levels come last.
+      std::stable_sort(own_labels.begin(), own_labels.end(),
+                       [](const auto& a, const auto& c) { return a.second->floor_area > c.second->floor_area; });
+      for (const auto& [building, storey] : own_labels) add_label(*building, *storey, labels);
+      for (const auto& [building, storey] : passing_labels) add_label(*building, *storey, labels, false);
     }
     sheet_.groups.push_back(std::move(passed));
     for (SheetGroup& group : uses)
@@ -167,7 +177,7 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(labels));
   }
 
-  void add_cut(const Building& b, SheetGroup& use, SheetGroup& labels) const {
+  void add_cut(const Building& b, SheetGroup& use, SheetGroup& labels) {
     const LevelPart part = level_part(b, *height_);
     if (part.faces.empty()) return;
     SheetShape shape = shape_of(part.faces, b.label);
@@ -178,23 +188,34 @@ class PlanMaker : SheetFrame {
     if (options_.labels) add_label(b, *part.storey, labels);
   }
 
-  // In a size that fits into the plate, as far as it can be read; else the area alone; else nothing: the schedule has it.
-  void add_label(const Building& b, const Storey& storey, SheetGroup& labels, bool with_area = true) const {
-    double low = 1e20, high = -1e20;
-    for (const geometry::PlateFace& face : storey.faces)
-      for (const Point3& p : face.outer) low = std::min(low, p.x), high = std::max(high, p.x);
-    const double room = millimetres() * (high - low) * 0.9;
+  // In a size that fits into the plate, as far as it can be read and nothing else is written there; else the area alone; else
+  // nothing: the schedule has it.
+  void add_label(const Building& b, const Storey& storey, SheetGroup& labels, bool with_area = true) {
+    const LabelPlace place = label_place(storey.faces);
+    const double room = millimetres() * place.width * 0.9, high = millimetres() * place.height * 0.9;
     // The area of a storey stands on one sheet only: where it is drawn in full.
     const std::string area = with_area ? fixed(storey.floor_area, 0) + " m²" : "(storey " + std::to_string(storey.number) + ")";
-    const SheetPoint middle = at(middle_of(storey.faces));
-    const auto width = [](const std::string& words) { return 0.55 * static_cast<double>(words.size()); };  // at a size of 1 mm
-    const double size = std::min(2.5, room / std::max(width(b.label), width(area)));
-    if (size >= 1.2) {
+    const SheetPoint middle = at(place.middle);
+    const auto width = [](const std::string& words) { return 0.58 * static_cast<double>(words.size()); };  // at a size of 1 mm
+    const double longest = std::max(width(b.label), width(area)), most = std::min({2.5, room / longest, high / kTwoLines});
+    for (const double size : {most, std::min(most, 1.6)}) {
+      if (size < 1.2 || !takes_place(middle, size * longest, size * kTwoLines)) continue;
       labels.texts.push_back({{middle.x, middle.y - 0.2 * size}, size, SheetAnchor::middle, true, b.label});
       labels.texts.push_back({{middle.x, middle.y + 1.1 * size}, size, SheetAnchor::middle, false, area});
-    } else if (const double small = std::min(2.0, room / width(area)); small >= 1.0) {
-      labels.texts.push_back({{middle.x, middle.y + 0.35 * small}, small, SheetAnchor::middle, false, area});
+      return;
     }
+    if (const double small = std::min({2.0, room / width(area), high});
+        small >= 1.0 && takes_place(middle, small * width(area), small))
+      labels.texts.push_back({{middle.x, middle.y + 0.35 * small}, small, SheetAnchor::middle, false, area});
+  }
+
+  // Is nothing written there yet? Then something is from now on.
+  bool takes_place(SheetPoint middle, double width, double height) {
+    const std::array<double, 4> box{middle.x - width / 2, middle.y - height / 2, middle.x + width / 2, middle.y + height / 2};
+    for (const auto& other : written_)
+      if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) return false;
+    written_.push_back(box);
+    return true;
   }
 
   void add_dimensions() {
@@ -224,7 +245,9 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(group));
   }
 
-  std::optional<double> height_;  // of a level cut [m]; none: the sheet shows a level
+  std::optional<double> height_;                // of a level cut [m]; none: the sheet shows a level
+  static constexpr double kTwoLines = 2.4;      // high, as a share of the size of their letters
+  std::vector<std::array<double, 4>> written_;  // what labels cover: left, top, right and bottom [mm]
 };
 
 }  // namespace

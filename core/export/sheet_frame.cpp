@@ -22,6 +22,41 @@ std::pair<double, double> size_of(Paper paper) {
   return kSizes[static_cast<std::size_t>(paper)];
 }
 
+// Letters are about so wide, as a share of their size.
+constexpr double kLetter = 0.55, kBoldLetter = 0.6;
+constexpr double kSmallestText = 1.8;  // [mm]
+
+std::size_t letters_in(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+// A text in its size, else in a smaller one, else cut off where its room ends.
+SheetText fitted(SheetPoint place, double size, bool is_bold, std::string text, double room) {
+  const double letter = is_bold ? kBoldLetter : kLetter;
+  const double whole = letter * static_cast<double>(letters_in(text));
+  double fit = std::min(size, room / std::max(whole, 1e-9));
+  if (fit < std::min(size, kSmallestText)) {
+    fit = std::min(size, kSmallestText);
+    const auto most = static_cast<std::size_t>(std::max(1.0, room / (letter * fit) - 1));
+    while (letters_in(text) > most) {
+      while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+      text.pop_back();
+    }
+    text += "…";
+  }
+  return {place, fit, SheetAnchor::start, is_bold, std::move(text)};
+}
+
+// A projection that was made for the site says nothing that its middle does not; the files for programs have it in full.
+std::string place_on_paper(const Proposal& proposal) {
+  const std::string place = place_text(proposal);
+  if (place.empty()) return "no place on Earth: metres of the scene";
+  if (!proposal.reference.crs.starts_with("+")) return place;
+  return fixed(proposal.reference.latitude, 6) + "°, " + fixed(proposal.reference.longitude, 6) +
+         "°: metres around that place (transverse Mercator, WGS84)";
+}
+
 }  // namespace
 
 SheetFrame::SheetFrame(const Proposal& proposal, const SheetOptions& options) : proposal_(proposal), options_(options) {
@@ -60,7 +95,8 @@ void SheetFrame::dimension(SheetGroup& group, SheetPoint a, SheetPoint b, double
   const double dx = is_upright ? 1.2 : 0, dy = is_upright ? 0 : 1.2;
   line.lines = {{a, b}, {{a.x - dx, a.y - dy}, {a.x + dx, a.y + dy}}, {{b.x - dx, b.y - dy}, {b.x + dx, b.y + dy}}};
   group.shapes.push_back(std::move(line));
-  const SheetPoint middle = {(a.x + b.x) / 2 + (is_upright ? 1.5 : 0), (a.y + b.y) / 2 - (is_upright ? 0 : 1)};
+  // An upright one is written below the middle, where the letter of a section stands.
+  const SheetPoint middle = {(a.x + b.x) / 2 + (is_upright ? 1.5 : 0), is_upright ? 0.4 * a.y + 0.6 * b.y : (a.y + b.y) / 2 - 1};
   group.texts.push_back({middle, 2.2, is_upright ? SheetAnchor::start : SheetAnchor::middle, false, fixed(length, 2)});
 }
 
@@ -75,40 +111,42 @@ void SheetFrame::add_title(const std::string& what, const std::string& figures) 
   frame.lines = {rectangle({kMargin, kMargin}, {sheet_.width - kMargin, sheet_.height - kMargin}),
                  rectangle({kMargin, sheet_.window_high.y}, {sheet_.width - kMargin, sheet_.height - kMargin})};
   group.shapes.push_back(std::move(frame));
-  const double x = kMargin + 3, y = sheet_.window_high.y;
-  group.texts.push_back({{x, y + 7}, 5, SheetAnchor::start, true, proposal_.name()});
-  group.texts.push_back(
-      {{x, y + 13}, 3.5, SheetAnchor::start, false, what + " · 1:" + shortest(sheet_.scale) + " · lengths in metres"});
-  group.texts.push_back({{x, y + 19},
-                         2.5,
-                         SheetAnchor::start,
-                         false,
-                         proposal_.file + " · tick " + std::to_string(proposal_.tick) +
-                             (proposal_.is_settled ? ", settled" : ", not settled") + " · hash " + proposal_.hash});
-  const std::string place = place_text(proposal_);
-  group.texts.push_back(
-      {{x, y + 24}, 2.5, SheetAnchor::start, false, place.empty() ? "no place on Earth: metres of the scene" : place});
-  group.texts.push_back({{x, y + 30},
-                         2.5,
-                         SheetAnchor::start,
-                         false,
-                         figures + ". Volumes are drawn and measured " + reading::choice_of(proposal_.form).measured});
+  const double x = kMargin + 3, y = sheet_.window_high.y, room = legend_left() - x - 3;
+  const auto write = [&](double down, double size, bool is_bold, const std::string& text) {
+    group.texts.push_back(fitted({x, y + down}, size, is_bold, text, room));
+  };
+  write(7, 5, true, proposal_.name());
+  write(13, 3.5, false, what + " · 1:" + shortest(sheet_.scale) + " · lengths in metres");
+  write(19, 2.5, false,
+        proposal_.file + " · tick " + std::to_string(proposal_.tick) + (proposal_.is_settled ? ", settled" : ", not settled") +
+            " · hash " + proposal_.hash);
+  write(24, 2.5, false, place_on_paper(proposal_));
+  write(30, 2.5, false, figures + ". Volumes are drawn and measured " + reading::choice_of(proposal_.form).measured);
   sheet_.groups.push_back(std::move(group));
 }
 
 void SheetFrame::add_legend() {
   SheetGroup group{"legend", "Uses", false, {}, {}};
-  const double left = kMargin + 0.42 * (sheet_.width - 2 * kMargin), width = 0.13 * (sheet_.width - 2 * kMargin);
-  constexpr std::size_t kRows = 6;
-  for (std::size_t k = 0; k < std::min<std::size_t>(proposal_.uses.size(), 2 * kRows); ++k) {
-    const double x = left + width * static_cast<double>(k / kRows),
-                 y = sheet_.window_high.y + 3 + 5 * static_cast<double>(k % kRows);
+  // Two columns of six as long as they do; then three of nine in smaller writing, the last of which says what is left over.
+  const std::size_t uses = proposal_.uses.size();
+  const bool is_dense = uses > 12;
+  const std::size_t columns = is_dense ? 3 : 2, rows = is_dense ? 9 : 6, most = columns * rows;
+  const double pitch = 30.0 / static_cast<double>(rows), size = is_dense ? 2 : 2.5;
+  const double width = 0.26 * (sheet_.width - 2 * kMargin) / static_cast<double>(columns);
+  for (std::size_t k = 0; k < std::min(uses, most); ++k) {
+    const double x = legend_left() + width * static_cast<double>(k / rows),
+                 y = sheet_.window_high.y + 2.5 + pitch * static_cast<double>(k % rows);
+    if (uses > most && k + 1 == most) {
+      group.texts.push_back({{x, y + size}, size, SheetAnchor::start, false, "and " + std::to_string(uses - k) + " more uses"});
+      break;
+    }
     SheetShape patch;
-    patch.lines = {rectangle({x, y}, {x + 5, y + 3})};
+    patch.lines = {rectangle({x, y}, {x + 2 * size, y + 1.2 * size})};
     patch.is_filled = true;
     patch.fill = proposal_.uses[k].colour;
     group.shapes.push_back(std::move(patch));
-    group.texts.push_back({{x + 6.5, y + 2.5}, 2.5, SheetAnchor::start, false, use_name(proposal_.uses[k].use)});
+    group.texts.push_back(
+        fitted({x + 2.6 * size, y + size}, size, false, use_name(proposal_.uses[k].use), width - 2.6 * size - 1));
   }
   sheet_.groups.push_back(std::move(group));
 }

@@ -20,6 +20,7 @@ class SheetFrame {
 
   double window_width() const { return sheet_.window_high.x - sheet_.window_low.x; }
   double window_height() const { return sheet_.window_high.y - sheet_.window_low.y; }
+  double legend_left() const { return kMargin + 0.42 * (sheet_.width - 2 * kMargin); }
   double millimetres() const { return 1000 / sheet_.scale; }  // per metre
   /// Where a point of the drawing [m] is on the sheet [mm], by its first two coordinates.
   SheetPoint at(const Point3& p) const;

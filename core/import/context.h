@@ -60,6 +60,7 @@ struct ContextStreet {
   std::size_t start = 0, end = 0;  ///< indices of junctions
   double lanes = 1;                ///< of both directions together
   double speed = 0;                ///< allowed [m/s]
+  double width = 0;                ///< [m]; 0: not known
   bool is_lanes_assumed = true, is_speed_assumed = true;
   bool is_one_way = false;  ///< from `start` to `end`
   bool for_cars = true, for_cycles = true, for_feet = true;

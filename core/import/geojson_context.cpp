@@ -34,6 +34,7 @@ constexpr std::array kAliases = {
     Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse", "natural"}},
     Alias{"id", {"id", "uid", "osm_id", "identificatie", "gml_id", "fid", "gid"}},
     Alias{"lanes", {"lanes", "num_lanes"}},
+    Alias{"width", {"width", "breite", "largeur", "breedte"}},
     Alias{"speed", {"maxspeed", "speed_limit", "speed"}},
     Alias{"oneway", {"oneway", "one_way"}},
     Alias{"class", {"highway", "road_class", "fclass", "class"}},
@@ -205,7 +206,7 @@ class GeoImporter {
     const std::string road_class = properties.get("class");
     // Without a class of its own a line is a street that all may use.
     tags["highway"] = road_class.empty() ? "road" : road_class;
-    for (const auto& [key, ours] : {std::pair{"lanes", "lanes"}, {"maxspeed", "speed"}, {"oneway", "oneway"}})
+    for (const auto& [key, ours] : {std::pair{"lanes", "lanes"}, {"maxspeed", "speed"}, {"oneway", "oneway"}, {"width", "width"}})
       if (const std::string value = properties.get(ours); !value.empty()) tags[key] = value;
     // As Geofabrik's extracts have it: forth, to (against the line), both.
     if (const std::string way = lower_case(tags["oneway"]); way == "f") tags["oneway"] = "yes";
@@ -262,6 +263,7 @@ class GeoImporter {
         street.end = junction(raw.line[i]);
         street.lanes = raw.road.lanes;
         street.speed = raw.road.speed;
+        street.width = raw.road.width;
         street.is_lanes_assumed = raw.road.is_lanes_assumed;
         street.is_speed_assumed = raw.road.is_speed_assumed;
         street.is_one_way = raw.road.direction != 0;

@@ -90,6 +90,7 @@ class Streets {
     street.end = junction(nodes.back(), street.line.back());
     street.lanes = road.lanes;
     street.speed = road.speed;
+    street.width = road.width;
     street.is_lanes_assumed = road.is_lanes_assumed;
     street.is_speed_assumed = road.is_speed_assumed;
     street.is_one_way = road.direction != 0;

@@ -193,6 +193,7 @@ OsmRoad osm_road(const OsmTags& tags) {
     if (!road.is_lanes_assumed) road.lanes = *number;
     else road.fault += (road.fault.empty() ? "" : ", ") + std::string("lanes=") + lanes.substr(0, 40);
   }
+  if (const auto width = osm_length(tag_of(tags, "width")); width && *width > 0 && *width <= 200) road.width = *width;
   if (const std::string& speed = tag_of(tags, "maxspeed"); !speed.empty()) {
     const auto number = osm_speed(speed);
     road.is_speed_assumed = !(number && *number <= 200);

@@ -31,6 +31,7 @@ struct OsmRoad {
   std::string why_not;  ///< of other values of `highway`: the reason
   std::string road_class;
   double lanes = 1, speed = 0;  ///< speed [m/s]
+  double width = 0;             ///< [m]; 0: no tag says
   bool is_lanes_assumed = true, is_speed_assumed = true;
   int direction = 0;  ///< 0 both, 1 along the line, -1 against it
   bool for_cars = true, for_cycles = true, for_feet = true;

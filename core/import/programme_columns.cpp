@@ -224,6 +224,7 @@ const std::array<ProgrammeColumnInfo, kProgrammeColumns>& programme_columns() {
        {"adjacent_to", "adjacent", "adjacency", "adjacencies", "next_to", "near", "neighbours", "neighbors"}},
       {ProgrammeColumn::tags, "tags", Unit::none, {"tags", "tag", "labels", "keywords"}},
       {ProgrammeColumn::standing, "standing", Unit::none, {"standing", "stands_on", "support"}},
+      {ProgrammeColumn::storeys, "storeys", Unit::count, {"storeys", "stories", "floors", "levels", "number_of_storeys"}},
   }};
   return columns;
 }

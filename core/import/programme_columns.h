@@ -25,9 +25,10 @@ enum class ProgrammeColumn {
   storey_height,
   adjacent_to,
   tags,
-  standing
+  standing,
+  storeys
 };
-constexpr std::size_t kProgrammeColumns = 10;
+constexpr std::size_t kProgrammeColumns = 11;
 
 /// The name of a column and its aliases. Names are compared in the form of normal_header.
 struct ProgrammeColumnInfo {

@@ -17,7 +17,8 @@ namespace bl::importing {
 namespace {
 
 constexpr std::array kNumbers = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max,
-                                 ProgrammeColumn::count, ProgrammeColumn::storey_height};
+                                 ProgrammeColumn::count,      ProgrammeColumn::storey_height,  ProgrammeColumn::storeys};
+constexpr double kMostStoreys = 200;     // more is a number in the wrong column
 constexpr double kMostItems = 100000;    // of one row: more is a number in the wrong column
 constexpr double kTallestStorey = 1000;  // [m]
 constexpr double kLargestArea = 1e9;     // [m²] of one item
@@ -48,13 +49,15 @@ class ProgrammeImporter {
   Result<void> settle_area(const csv::CsvRecord& record, ProgrammeRow& row);
   Result<void> read_standing(const csv::CsvRecord& record, ProgrammeRow& row) const;
   void make_unique();
+  void tell_storey_heights();
   Result<void> join_neighbours();
 
   const ProgrammeOptions& options_;
   csv::CsvText csv_;
   ProgrammeHeader header_;
   std::array<char, kProgrammeColumns> decimals_{};
-  std::vector<std::string> written_uses_;  // per row, before they were made unique
+  std::vector<std::string> written_uses_;           // per row, before they were made unique
+  std::vector<std::string> without_storey_height_;  // uses of rows that give none
   ProgrammeImport import_;
 };
 
@@ -196,6 +199,13 @@ Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
     return Error{
         ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
         "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
+  if (!*height) without_storey_height_.push_back(row.use);
+  auto storeys = number(record, ProgrammeColumn::storeys);
+  if (!storeys) return storeys.error();
+  if (const double wished = storeys->value_or(1); !(wished >= 1 && wished <= kMostStoreys && wished == std::floor(wished)))
+    return Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::storeys),
+                 "The number of storeys is " + written_out(wished) + ". It must be a whole number from 1 to 200, or empty."};
+  row.storeys = static_cast<int>(storeys->value_or(0));
   row.adjacent_to = split_list(field(record, ProgrammeColumn::adjacent_to), "|;");
   row.tags = split_list(field(record, ProgrammeColumn::tags), "|;,");
   if (auto standing = read_standing(record, row); !standing) return standing.error();
@@ -219,6 +229,17 @@ void ProgrammeImporter::make_unique() {
     }
     if (row.name.empty()) row.name = row.use;
   }
+}
+
+// A height that nobody gave decides on storeys and volumes all the same.
+void ProgrammeImporter::tell_storey_heights() {
+  if (without_storey_height_.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < without_storey_height_.size() && i < 6; ++i)
+    list += (i == 0 ? "`" : ", `") + without_storey_height_[i] + "`";
+  if (without_storey_height_.size() > 6) list += ", ...";
+  import_.notes.push_back("Rows without a storey height: " + std::to_string(without_storey_height_.size()) + " (" + list +
+                          "). They have " + written_out(options_.storey_height) + " m.");
 }
 
 // A name of several rows means all of them.
@@ -277,6 +298,7 @@ Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
     import_.floor_area += row->count * row->floor_area;
     import_.rows.push_back(*std::move(row));
   }
+  tell_storey_heights();
   make_unique();
   if (auto joined = join_neighbours(); !joined) return joined.error();
   return std::move(import_);

@@ -15,7 +15,7 @@ namespace bl::importing {
 struct ProgrammeOptions {
   /// Our column → the header in the file, where that is called otherwise: {"use", "Room Name"}. Columns: use, name,
   /// floor_area_m2, floor_area_min_m2, floor_area_max_m2, count, storey_height_m, adjacent_to, tags,
-  /// standing.
+  /// standing, storeys.
   std::map<std::string, std::string> columns;
   std::optional<char> separator;  ///< ',', ';' or '\t'; nothing: found out
   std::optional<char> decimal;    ///< '.' or ','; nothing: found out per column
@@ -31,6 +31,7 @@ struct ProgrammeRow {
   double floor_area = 0;                 ///< of ONE item [m²]; `count` multiplies it
   std::optional<double> floor_area_max;  ///< of ONE item [m²]
   double storey_height = 0;              ///< [m]
+  int storeys = 0;                       ///< that its volumes wish for; 0: nothing is said
   int count = 1;
   std::vector<std::string> adjacent_to;  ///< uses of this import
   std::vector<std::string> tags;

@@ -97,7 +97,8 @@ class Import {
     tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
     // A site that was to be cleared and had all of a file's buildings is cleared: nothing is missing then.
-    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared()) {
+    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared() && !nodes_.is_again() &&
+        sites_.exclusions().empty()) {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
       return std::move(result_);
     }
@@ -245,8 +246,14 @@ class Import {
     auto text = importing::unpacked(*bytes);
     if (!text) return fail(file, text.error());
     const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
-    making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, context_.watch};
     const Format format = format_of(file, *text);
+    making_ = {o_.source.empty() ? name : o_.source,
+               o_.licence,
+               o_.unit,
+               o_.is_extruded,
+               o_.takes_all_streets,
+               format == Format::osm,
+               context_.watch};
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
       return fail(
           file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
@@ -268,8 +275,11 @@ class Import {
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
+    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets);
     take(file, context->report, context->notes, context->reference);
+    nodes_.begin(making_);
     nodes_.add(*context, making_, sites_, result_.reports.back().second);
+    nodes_.end(file);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -281,7 +291,9 @@ class Import {
     std::vector<std::string> notes = grid->notes;
     notes.insert(notes.end(), terrain->notes.begin(), terrain->notes.end());
     take(file, terrain->report, notes, terrain->reference);
+    nodes_.begin(making_);
     nodes_.add(*terrain, making_, result_.reports.back().second);
+    nodes_.end(file);
   }
 
   void read_layer(const std::string& file, const std::string& text, Format format) {
@@ -295,7 +307,9 @@ class Import {
     if (!told(file, layer)) return;
     has_layer_ = true;
     take(file, layer->report, layer->notes, layer->reference);
+    nodes_.begin(making_);
     nodes_.add(*layer, making_, result_.reports.back().second);
+    nodes_.end(file);
   }
 
   const Scene& scene_;

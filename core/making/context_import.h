@@ -39,6 +39,7 @@ struct ImportOptions {
   importing::ContextOptions context;
   InsideChoice inside = InsideChoice::unsaid;  ///< of buildings that stand inside a site of the scene
   AskToClear ask_to_clear;                     ///< who is asked where that is unsaid; empty: they are kept, and a note says so
+  std::vector<std::string> keep_clear;         ///< of `kClearGrounds`: what sites leave out
   bool keeps = false, clears = false;          ///< as the command line has it; `inside` is what counts
   bool is_forced = false, is_extruded = false, takes_all_streets = false;
 };

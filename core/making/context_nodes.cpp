@@ -84,7 +84,7 @@ class Fitting {
 
 }  // namespace
 
-ContextNodes::ContextNodes(const Scene& scene, const Registry& registry) : registry_(&registry) {
+ContextNodes::ContextNodes(const Scene& scene, const Registry& registry) : registry_(&registry), earlier_(scene, registry) {
   for (const auto& [id, node] : scene.nodes) taken_.insert(id);
 }
 
@@ -95,6 +95,23 @@ std::string ContextNodes::fresh_id(const std::string& wanted) {
   std::size_t& number = numbers_[stem];
   while (!taken_.insert(id).second) id = stem + "_" + std::to_string(number = std::max<std::size_t>(2, number + 1));
   return id;
+}
+
+std::string ContextNodes::id_of(const std::string& kind, const std::string& wanted, const std::string& element,
+                                const Point3& place) {
+  std::string known = earlier_.claim(kind, to_identifier(wanted), element, {tidy(place.x), tidy(place.y), tidy(place.z)});
+  return known.empty() ? fresh_id(wanted) : known;
+}
+
+void ContextNodes::begin(const NodeMaking& making) { earlier_.begin(making.source, making.licence, making.has_lasting_ids); }
+
+void ContextNodes::end(const std::string& file) {
+  bool is_first = true;
+  for (const std::string& note : earlier_.end()) {
+    notes_.push_back(is_first ? file + " " + note : note);
+    is_first = false;
+    is_again_ = true;
+  }
 }
 
 void ContextNodes::place(const importing::GeoReference& reference) {
@@ -119,8 +136,17 @@ void ContextNodes::reach(const Point3& point) {
   high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
 }
 
-void ContextNodes::add_node(const std::string& id, Json&& node) {
-  commands_.push_back(command<AddNode>({id, JsonValue::of(std::move(node))}));
+EarlierImports::Fate ContextNodes::add_node(const std::string& kind, const std::string& id, const std::string& element,
+                                            const Json& node) {
+  auto change = earlier_.put(kind, id, element, node);
+  // What cannot be read as a node is refused where the commands are applied, with its place.
+  if (!change) {
+    commands_.push_back(command<AddNode>({id, JsonValue::of(node)}));
+    return EarlierImports::Fate::made;
+  }
+  commands_.insert(commands_.end(), change->commands.begin(), change->commands.end());
+  if (change->fate == EarlierImports::Fate::made) ++made_[kind];
+  return change->fate;
 }
 
 void ContextNodes::set_port(const std::string& node, const std::string& path, const Value& value) {
@@ -136,6 +162,11 @@ void ContextNodes::add(const importing::Context& context, const NodeMaking& maki
   add_buildings(context, making, sites, report, unused);
   std::size_t ground = 0;
   for (const importing::ContextArea& area : context.areas) {
+    if (const std::string site = sites.site_without(area); !site.empty() && area.row != importing::kNoRow) {
+      report.made(area.row, site);
+      report.remark(area.row, "the site `" + site + "` leaves its ground out");
+      continue;
+    }
     if (!area.is_plot) {
       ++ground;
       if (area.row != importing::kNoRow) unused[area.row] = "there is no typification for it";
@@ -165,9 +196,9 @@ void ContextNodes::add_buildings(const importing::Context& context, const NodeMa
       cleared.insert(building.whole);
       continue;
     }
-    const std::string id = add_building(building, making);
+    const auto [id, fate] = add_building(building, making);
     if (building.row != importing::kNoRow) report.made(building.row, id);
-    sites.keep(b, building, id, report);
+    sites.keep(b, building, id, fate != EarlierImports::Fate::as_before, report);
     // An outline of several has the number of the outline behind the id of its element.
     if (!building.whole.empty()) of_parts[building.whole].push_back(id);
     if (const std::size_t slash = building.whole.rfind('/'); slash != std::string::npos)
@@ -183,7 +214,8 @@ void ContextNodes::add_buildings(const importing::Context& context, const NodeMa
   }
 }
 
-std::string ContextNodes::add_building(const importing::ContextBuilding& building, const NodeMaking& making) {
+std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(const importing::ContextBuilding& building,
+                                                                        const NodeMaking& making) {
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
@@ -202,17 +234,16 @@ std::string ContextNodes::add_building(const importing::ContextBuilding& buildin
   }
   Point3 position = middle(building.outer);
   position.z = building.base;
-  const std::string id = fresh_id("building_" + building.id);
-  Json node = {{"name", building.name.empty() ? building.id : building.name},
-               {"position", position_json(position)},
-               {"types", {{"existing_building", ports}}}};
-  add_node(id, std::move(node));
+  const std::string id = id_of("existing_building", "building_" + building.id, building.id, position);
+  const Json node = {{"name", building.name.empty() ? building.id : building.name},
+                     {"position", position_json(position)},
+                     {"types", {{"existing_building", ports}}}};
+  const EarlierImports::Fate fate = add_node("existing_building", id, building.id, node);
   for (const Point3& corner : building.outer) {
     reach({corner.x, corner.y, building.base});
     reach({corner.x, corner.y, building.base + building.height});
   }
-  ++made_["existing_building"];
-  return id;
+  return {id, fate};
 }
 
 std::string ContextNodes::add_plot(const importing::ContextArea& area) {
@@ -220,10 +251,9 @@ std::string ContextNodes::add_plot(const importing::ContextArea& area) {
   Json node = {{"name", area.name.empty() ? area.id : area.name},
                {"position", position_json(middle(area.outer))},
                {"types", {{"plot", ports}}}};
-  const std::string id = fresh_id("plot_" + area.id);
-  add_node(id, std::move(node));
+  const std::string id = id_of("plot", "plot_" + area.id, area.id, middle(area.outer));
+  add_node("plot", id, area.id, node);
   for (const Point3& corner : area.outer) reach(corner);
-  ++made_["plot"];
   if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
   return id;
 }
@@ -250,7 +280,7 @@ void ContextNodes::add_streets(const importing::Context& context, const NodeMaki
     } else if (piece.start == piece.end && !(length_of(piece.line) > 0)) {
       leave(loops, "it leads nowhere");
     } else {
-      street_ids[s] = fresh_id("street_" + piece.id);
+      street_ids[s] = id_of("street", "street_" + piece.id, piece.id, piece.line[piece.line.size() / 2]);
       if (!piece.for_feet) ++without_walkers;
     }
   }
@@ -278,9 +308,6 @@ void ContextNodes::add_streets(const importing::Context& context, const NodeMaki
   if (without_walkers > 0)
     notes_.push_back(how_many(without_walkers, "piece") + " of street " + by_number(without_walkers, "is", "are") +
                      " closed to people on foot, which a street cannot say.");
-  if (!making.licence.empty() && made_.contains("street"))
-    notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
-                     ": name it beside what you publish.");
   if (without_cars > 0)
     notes_.push_back(how_many(without_cars, "piece") + " of street without cars became " +
                      by_number(without_cars, "no node", "no nodes") + ": such streets are taken where all are asked for.");
@@ -290,12 +317,11 @@ void ContextNodes::add_streets(const importing::Context& context, const NodeMaki
 }
 
 std::string ContextNodes::add_junction(const importing::ContextJunction& junction, const Json& turns) {
-  const std::string id = fresh_id("junction_" + junction.id);
+  const std::string id = id_of("junction", "junction_" + junction.id, junction.id, junction.position);
   Json types = {{"junction", Json::object()}};
   if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
   Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
-  add_node(id, std::move(node));
-  ++made_["junction"];
+  add_node("junction", id, junction.id, node);
   return id;
 }
 
@@ -321,9 +347,8 @@ void ContextNodes::add_street(const std::string& id, const importing::ContextStr
   Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
                {"position", position_json(piece.line[piece.line.size() / 2])},
                {"types", {{"street", fit.values}}}};
-  add_node(id, std::move(node));
+  add_node("street", id, piece.id, node);
   for (const Point3& point : piece.line) reach(point);
-  ++made_["street"];
 }
 
 // Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
@@ -373,12 +398,11 @@ void ContextNodes::add(const importing::LocalTerrain& terrain, const NodeMaking&
   const double east = terrain.west + terrain.cell * static_cast<double>(terrain.columns) / 2;
   const double south = terrain.north - terrain.cell * static_cast<double>(terrain.rows) / 2;
   Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
-  const std::string id = fresh_id("terrain");
-  add_node(id, std::move(node));
+  const std::string id = id_of("terrain", "terrain", "terrain", {east, south, lowest});
+  add_node("terrain", id, "terrain", node);
   name_all(report, id);
   reach({terrain.west, terrain.north, lowest});
   reach({2 * east - terrain.west, 2 * south - terrain.north, std::isfinite(highest) ? highest : lowest});
-  ++made_["terrain"];
 }
 
 void ContextNodes::add(const importing::DataLayer& layer, const NodeMaking& making, importing::ImportReport& report) {
@@ -394,11 +418,10 @@ void ContextNodes::add(const importing::DataLayer& layer, const NodeMaking& maki
                       {"source", making.source},
                       {"licence", making.licence}};
   Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
-  const std::string id = fresh_id("layer_" + layer.value_name);
-  add_node(id, std::move(node));
+  const std::string id = id_of("data_layer", "layer_" + layer.value_name, layer.value_name, middle(places));
+  add_node("data_layer", id, layer.value_name, node);
   name_all(report, id);
   for (const Point3& place : places) reach(place);
-  ++made_["data_layer"];
 }
 
 }  // namespace bl::making

@@ -49,14 +49,33 @@ double plan_area(const SceneParts& parts) {
   return area;
 }
 
-int storeys_for(const SceneParts& parts, double storey_height) {
+int storeys_for(const SceneParts& parts, const importing::ProgrammeRow& row) {
+  if (row.storeys > 0) return row.storeys;
+  const double storey_height = row.storey_height;
   const double needed = std::ceil(parts.programme.floor_area / (kCoverage * plan_area(parts)));
   return static_cast<int>(std::clamp(needed, 1.0, std::max(1.0, std::floor(parts.height / storey_height + 1e-9))));
 }
 
+// The direction of the longest side of the plan, which blocks stand along [degree], from -45 to 45: a block has sides across it
+// as well.
+double block_angle(const geometry::Ring& plan) {
+  constexpr double kHalfTurn = 3.14159265358979323846;
+  double longest = 0, angle = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const Vector3 side = plan[(i + 1) % plan.size()] - plan[i];
+    const double length = norm(Vector3{side.x, side.y, 0});
+    // Of equal sides the first, whatever their last digits are.
+    if (length < longest * (1 + 1e-6) + 1e-9) continue;
+    longest = length;
+    angle = mathematics::arc_tangent(side.y, side.x) * 180 / kHalfTurn;
+  }
+  angle -= 90 * std::round(angle / 90);
+  return std::round(angle * 1000) / 1000 + 0.0;
+}
+
 class Builder {
  public:
-  explicit Builder(const SceneParts& parts) : parts_(parts) {}
+  explicit Builder(const SceneParts& parts) : parts_(parts), angle_(block_angle(parts.plan)) {}
 
   void setting(const std::string& id, const Json& value) { add(command<SetSetting>({id, JsonValue::of(value)})); }
   void node(const std::string& id, const Json& content) { add(command<AddNode>({id, JsonValue::of(content)})); }
@@ -126,7 +145,8 @@ class Builder {
       if (tag != row.use) tags.push_back(tag);
     Json types = {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}};
     if (use_rates(row.use) != nullptr) types["use_figures"] = Json::object();
-    if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row.storey_height)}};
+    if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row)}};
+    if (parts_.is_standing && angle_ != 0) types["footprint"]["angle"] = angle_;
     node(volume.id, {{"name", volume.name},
                      {"position", {volume.position.x, volume.position.y, volume.position.z}},
                      {"tags", tags},
@@ -170,6 +190,7 @@ class Builder {
   void add(Command command) { commands_.push_back(std::move(command)); }
 
   const SceneParts& parts_;
+  double angle_ = 0;  // of blocks [degree]
   std::vector<Command> commands_;
   std::set<std::string> link_ids_{"demands", kInsideLink, "room", "standing"};
 };
@@ -232,8 +253,8 @@ Result<Command> new_scene_command(const SceneParts& parts) {
   // What stands is spread in plan: as volumes of one metre with the area of their footprint.
   if (parts.is_standing)
     for (std::size_t v = 0; v < volumes.size(); ++v) {
-      const double storey_height = parts.programme.rows[volumes[v].row].storey_height;
-      demands[v] = volumes[v].demand / (storey_height * storeys_for(parts, storey_height));
+      const importing::ProgrammeRow& row = parts.programme.rows[volumes[v].row];
+      demands[v] = volumes[v].demand / (row.storey_height * storeys_for(parts, row));
       on_ground[v] = 1;
     }
   const double height = parts.is_standing ? 1 : parts.height;

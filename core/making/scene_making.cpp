@@ -6,6 +6,7 @@
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/making/use_rates.h"
 #include "core/session/ledger.h"
 #include "core/session/session.h"
 
@@ -44,6 +45,7 @@ class Maker {
     if (auto done = ledger.submit(*command, "new", 0); !done) return fail(o_.out, done.error());
     if (const auto room = room_inside(ledger.scene(), registry); !room) return fail("", room.error());
     made_.scene = ledger.scene();
+    if (const std::string note = tell_uses_without_figures(*made_.scene, registry); !note.empty()) made_.notes.push_back(note);
   }
 
  private:

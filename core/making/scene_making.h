@@ -21,9 +21,9 @@ inline constexpr VolumeForm kVolumeForms[] = {{"standing", "whole storeys on foo
 struct NewOptions {
   std::string boundary, programme, out, feature, crs, title;
   std::string form = kVolumeForms[0].id;  ///< of the volumes
-  double height = 0;           ///< [m]
-  double storey_height = 3.2;  ///< [m]
-  double margin = 1;           ///< [m]
+  double height = 0;                      ///< [m]
+  double storey_height = 3.2;             ///< [m]
+  double margin = 1;                      ///< [m]
   std::uint64_t seed = 1;
   bool use_hull = false, is_forced = false;
   std::vector<std::string> columns;

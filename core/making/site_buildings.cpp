@@ -9,6 +9,7 @@
 #include "core/geometry/domain_table.h"
 #include "core/import/box_grid.h"
 #include "core/import/plan_cover.h"
+#include "core/making/site_grounds.h"
 
 namespace bl::making {
 
@@ -19,6 +20,8 @@ constexpr double kInexactArea = 1;      // [m²]
 constexpr double kInexactShare = 0.01;  // [ratio] of the footprint
 // Of a building of which less lies inside, the site is not the place.
 constexpr double kOwnShare = 0.5;  // [ratio]
+// An area of the map that covers more of a site is what the site lies in, not something in it.
+constexpr double kMostLeftOut = 0.9;  // [ratio]
 
 const Value& port_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type, const char* port) {
   static const Value nothing;
@@ -74,6 +77,7 @@ SiteBuildings::SiteBuildings(const Scene& scene, const Registry& registry, Insid
     site.rows = *std::get<Shared<Table>>(value("exclusions"));
     site.rows.columns.clear();
     for (const ColumnDefinition& column : table->columns) site.rows.columns.push_back(column.id);
+    site.rows_before = site.rows;
     std::vector<Point3> corners = points_in(value(form == "plan" ? "plan" : form == "hull" ? "points" : "vertices"));
     if (corners.size() < 3) continue;
     if (form == "plan") {
@@ -162,11 +166,78 @@ bool SiteBuildings::is_cleared(std::size_t building) const {
          std::any_of(stays->second.begin(), stays->second.end(), [](const Stay& stay) { return stay.is_cleared; });
 }
 
+// The parts of the ground that lie in the site replace those of the same name that were left out before.
+bool SiteBuildings::leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings) {
+  std::vector<const geometry::Ring*> inside;
+  double area = 0, whole = 0;
+  for (const std::vector<geometry::Ring>& ground : site.grounds) {
+    whole += std::abs(geometry::signed_area(ground.front()));
+    for (const geometry::Ring& ring : rings) {
+      const importing::PlanBox box = importing::plan_box(ring), other = importing::plan_box(ground.front());
+      if (box.west >= other.east || box.east <= other.west || box.south >= other.north || box.north <= other.south) continue;
+      const double common = importing::common_area({&ring}, shape_of(ground));
+      area += common;
+      if (common > kInexactArea && std::find(inside.begin(), inside.end(), &ring) == inside.end()) inside.push_back(&ring);
+    }
+  }
+  if (inside.empty()) return false;
+  if (area > kMostLeftOut * whole) {
+    ground_notes_.push_back("`" + name + "` covers " + share_text(area / whole) + " of the site `" + site.id +
+                            "`, and the site keeps that ground: nothing would be left to build on.");
+    return false;
+  }
+  const std::size_t column = site.rows.column("name");
+  std::erase_if(site.rows.rows, [&](const TableRow& row) {
+    const std::string& other = std::get<std::string>(row[column]);
+    return other == name || other.starts_with(name + " part ");
+  });
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const std::string part = inside.size() == 1 ? name : name + " part " + std::to_string(i + 1);
+    for (const Point3& corner : *inside[i]) {
+      TableRow& row = site.rows.rows.emplace_back();
+      for (const std::string& id : site.rows.columns)
+        if (id == "name") row.emplace_back(part);
+        else
+          row.emplace_back(id == "x"     ? tidy_length(corner.x)
+                           : id == "y"   ? tidy_length(corner.y)
+                           : id == "top" ? tidy_length(site.top)
+                                         : tidy_length(site.bottom));
+    }
+  }
+  return true;
+}
+
+void SiteBuildings::clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets) {
+  left_out_.clear();
+  if (kinds.empty()) return;
+  if (sites_.empty()) {
+    ground_notes_.push_back("The scene has no site, so that nothing is kept clear: add one, and import again.");
+    return;
+  }
+  for (Site& site : sites_) {
+    if (kinds.contains("streets"))
+      for (const importing::ContextStreet& street : context.streets)
+        if ((street.for_cars || takes_all_streets) && leave_out(site, "street " + street.id, street_ground(street)))
+          ++site.grounds_left_out["streets"];
+    for (const importing::ContextArea& area : context.areas) {
+      const std::string kind(ground_kind(area.use));
+      if (area.is_plot || !kinds.contains(kind) || !leave_out(site, kind + " " + area.id, {area.outer})) continue;
+      ++site.grounds_left_out[kind];
+      left_out_[area.id] = site.id;
+    }
+  }
+}
+
+std::string SiteBuildings::site_without(const importing::ContextArea& area) const {
+  const auto site = left_out_.find(area.id);
+  return site == left_out_.end() ? "" : site->second;
+}
+
 bool SiteBuildings::has_cleared() const {
   return std::any_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.cleared > 0; });
 }
 
-void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
                          importing::ImportReport& report) {
   const auto stays = stays_.find(building);
   if (stays == stays_.end()) return;
@@ -174,6 +245,14 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
     Site& site = sites_[stay.site];
     if (made.row != importing::kNoRow)
       report.remark(made.row, share_text(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
+    // Only now: another site may have cleared what this one would keep.
+    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
+    const std::size_t before = site.rows.row_of("name", node);
+    if (!is_changed && before < site.rows.rows.size()) continue;
+    if (before < site.rows.rows.size()) {
+      const std::size_t name = site.rows.column("name");
+      std::erase_if(site.rows.rows, [&](const TableRow& row) { return std::get<std::string>(row[name]) == node; });
+    }
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
     for (const Point3& corner : made.outer) {
@@ -186,22 +265,26 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
                            : column == "top" ? top
                                              : bottom);
     }
-    ++site.barred;
-    // Only now: another site may have cleared what this one would keep.
-    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
   }
 }
 
 std::vector<std::pair<std::string, Table>> SiteBuildings::exclusions() const {
   std::vector<std::pair<std::string, Table>> changed;
   for (const Site& site : sites_)
-    if (site.barred > 0) changed.emplace_back(site.id, site.rows);
+    if (site.rows != site.rows_before) changed.emplace_back(site.id, site.rows);
   return changed;
 }
 
 std::vector<std::string> SiteBuildings::notes() const {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = ground_notes_;
   for (const Site& site : sites_) {
+    std::string grounds;
+    for (const auto& [kind, number] : site.grounds_left_out)
+      grounds += (grounds.empty() ? "" : ", ") +
+                 (kind == "streets" ? how_many(number, "piece") + " of street" : how_many(number, "area") + " of " + kind);
+    if (!grounds.empty())
+      notes.push_back("The site `" + site.id + "` leaves out the ground of " + grounds +
+                      " (streets: in the width that the file gives, else by their lanes with a path on each side).");
     const std::string where = " inside the site `" + site.id + "`";
     if (site.cleared > 0)
       notes.push_back(how_many(site.cleared, "building") + by_number(site.cleared, " that stands", " that stand") + where +

@@ -32,10 +32,16 @@ class SiteBuildings {
   void judge(const importing::Context& context);
   /// Is that building of the file left out?
   bool is_cleared(std::size_t building) const;
-  /// Adds a detail to the row of a building that stays, and makes its site leave out its ground.
-  void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+  /// Adds a detail to the row of a building that stays, and makes its site leave out its ground. `is_changed`: the node is new,
+  /// or another than before.
+  void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
             importing::ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
+
+  /// Makes sites leave out the streets and areas of these kinds (`kClearGrounds`) that reach into them, up to their whole height.
+  void clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets);
+  /// The site that leaves out an area of the file; empty: none.
+  std::string site_without(const importing::ContextArea& area) const;
 
   /// Was any building left out?
   bool has_cleared() const;
@@ -49,9 +55,10 @@ class SiteBuildings {
     std::string id;
     std::vector<std::vector<geometry::Ring>> grounds;  // each an outline with its holes
     double bottom = 0, top = 0;
-    Table rows;                            // its exclusions
-    std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
-    std::size_t cleared = 0, barred = 0;
+    Table rows, rows_before;                              // its exclusions
+    std::map<std::string, std::size_t> grounds_left_out;  // by kind
+    std::set<std::size_t> kept, reaching;                 // whole buildings that stay, by their number in `judged_`
+    std::size_t cleared = 0;
   };
   struct Stay {
     std::size_t site = 0;
@@ -62,6 +69,7 @@ class SiteBuildings {
   };
 
   double inside(const Site& site, const importing::ContextBuilding& building) const;
+  bool leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings);
   bool clears(std::size_t buildings, const std::string& site);
 
   std::vector<Site> sites_;
@@ -70,6 +78,8 @@ class SiteBuildings {
   bool is_assumed_ = false;
   AskToClear ask_;
   std::map<std::size_t, std::vector<Stay>> stays_;  // by building of the file
+  std::map<std::string, std::string> left_out_;     // areas of the file, and the site without them
+  std::vector<std::string> ground_notes_;
 };
 
 }  // namespace bl::making

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace bl::making {
 
@@ -37,6 +38,26 @@ const UseRates* use_rates(std::string_view use) {
   };
   const auto found = std::find_if(kUses.begin(), kUses.end(), is_same);
   return found == kUses.end() ? nullptr : &*found;
+}
+
+std::string tell_uses_without_figures(const Scene& scene, const Registry& registry) {
+  const TypificationDefinition *use = registry.typification("use"), *volume = registry.typification("smart_volume");
+  if (use == nullptr || volume == nullptr) return "";
+  std::set<std::string> known, wanted;
+  bool is_looked_for = false;
+  for (const auto& [id, node] : scene.nodes) {
+    is_looked_for = is_looked_for || node.types.contains("use") || node.types.contains("programme");
+    if (node.types.contains("use")) known.insert(std::get<std::string>(set_value(scene, node, *use, *use->find_port("use"))));
+    if (node.types.contains("smart_volume"))
+      wanted.insert(std::get<std::string>(set_value(scene, node, *volume, *volume->find_port("use"))));
+  }
+  std::string list;
+  for (const std::string& one : wanted)
+    if (!one.empty() && !known.contains(one)) list += (list.empty() ? "`" : ", `") + one + "`";
+  if (!is_looked_for || list.empty()) return "";
+  const bool is_one = list.find(',') == std::string::npos;
+  return std::string("No figures are known of the use") + (is_one ? " " : "s ") + list + ": " + (is_one ? "its" : "their") +
+         " people, parking places and trips do not count until " + (is_one ? "it" : "each") + " has a node of the type `use`.";
 }
 
 }  // namespace bl::making

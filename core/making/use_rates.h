@@ -1,7 +1,10 @@
 // Figures of common uses for a new scene: people, parking places, trips, sun and noise, each with its source.
 #pragma once
 
+#include <string>
 #include <string_view>
+
+#include "core/graph/scene.h"
 
 namespace bl::making {
 
@@ -14,6 +17,10 @@ struct UseRates {
   double most_noise = 0;                      ///< [dB(A)] outside, by day
   std::string_view source;
 };
+
+/// A sentence about the uses of volumes that no node of the scene is the use of; empty where there are none, and in scenes
+/// without any use and programme, where nobody looks for figures.
+std::string tell_uses_without_figures(const Scene& scene, const Registry& registry);
 
 /// The figures of a use by its name, in small letters; nothing where there are none.
 const UseRates* use_rates(std::string_view use);

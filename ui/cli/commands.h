@@ -9,6 +9,7 @@
 
 #include "core/making/context_import.h"
 #include "core/making/media_making.h"
+#include "core/making/scene_additions.h"
 #include "core/making/scene_making.h"
 
 namespace bl::cli {
@@ -101,6 +102,15 @@ int compare_command(const CompareOptions& options);
 int new_command(const making::NewOptions& options);
 
 int import_command(const making::ImportOptions& options);
+
+struct AddOptions {
+  std::string scene, what, out;  ///< `what`: one of `kAdditions`; `out`: empty for the scene itself
+  bool is_forced = false;
+  making::RuleAddition rules;
+  making::SunAddition sun;
+  making::GardenAddition garden;
+};
+int add_command(const AddOptions& options);
 struct PlaceOptions {
   std::vector<std::string> files;
   std::string into, out;

@@ -12,6 +12,7 @@ void add_threads(CLI::App& command, int& threads);
 
 void declare_new(CLI::App& app, making::NewOptions& o);
 void declare_import(CLI::App& app, making::ImportOptions& o);
+void declare_add(CLI::App& app, AddOptions& o);
 void declare_place(CLI::App& app, PlaceOptions& o);
 void declare_script(CLI::App& app, ScriptOptions& o);
 

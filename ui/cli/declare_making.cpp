@@ -1,5 +1,6 @@
 // Declares the commands that make scenes: new, import, place and script.
 #include "core/base/text.h"
+#include "core/making/site_grounds.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 
@@ -134,12 +135,71 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
              "without a terminal, keeps them.");
   c.add_flag("--clear", o.clears,
              "Leaves out buildings inside a site of the scene. A building with less than half of its ground inside is kept.");
+  const std::vector<std::string> grounds(making::kClearGrounds.begin(), making::kClearGrounds.end());
+  c.add_option("--keep-clear", o.keep_clear,
+               "Makes a site of the scene leave out the ground of: " + in_one_line(grounds) + ". Several, separated by commas.")
+      ->type_name("KINDS")
+      ->delimiter(',')
+      ->check(CLI::IsMember(grounds));
   c.add_option("--report", o.report, "Writes the result for every element as CSV.")->type_name("FILE");
   files_of(c).reads({"files", "--into"}).writes("--out", FileKind::scene, "--into").writes("--report", FileKind::table);
   c.footer(
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
       "--report import.csv\n\nHeights that the file lacks are assumed, and marked as assumed. Exit codes: 0 imported; 2 bad "
       "input, nothing written.");
+}
+
+namespace {
+
+// An option of one addition, which the others do not know.
+void of_addition(CLI::Option* option, const AddOptions& o, const char* what, const char* also = "") {
+  option->check(CLI::Validator(
+      [&o, what, also](std::string&) {
+        if (o.what.empty() || o.what == what || o.what == also) return std::string();
+        return "belongs to `" + std::string(what) + "`, not to `" + o.what + "`";
+      },
+      ""));
+}
+
+}  // namespace
+
+void declare_add(CLI::App& app, AddOptions& o) {
+  CLI::App& c = *app.add_subcommand("add", "Adds building rules, a sun or a garden to a scene.");
+  const std::vector<std::string> kinds(std::begin(making::kAdditions), std::end(making::kAdditions));
+  c.add_option("scene", o.scene, "The scene.")->type_name("SCENE")->required();
+  c.add_option("what", o.what, "What is added: " + in_one_line(kinds) + ".")
+      ->type_name("WHAT")
+      ->required()
+      ->check(CLI::IsMember(kinds));
+  c.add_option("--out", o.out, "File for the changed scene. Default: the same file.")->type_name("SCENE");
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
+  files_of(c).reads({"scene"}).writes("--out", FileKind::scene, "scene");
+  const auto option = [&c, &o](const char* name, auto& value, const std::string& doc, const char* type, const char* what,
+                               const char* also = "") {
+    CLI::Option* made = c.add_option(name, value, doc)->type_name(type);
+    of_addition(made, o, what, also);
+    return made;
+  };
+  option("--plot", o.rules.plot, "rules: the plot, or the boundary that becomes one. Default: the only one.", "ID", "rules");
+  option("--fsi", o.rules.fsi, "rules: the largest floor area over land.", "RATIO", "rules");
+  option("--gsi", o.rules.gsi, "rules: the largest built ground over land.", "RATIO", "rules");
+  option("--height", o.rules.height, "rules: the largest height above the ground, in m.", "METRES", "rules");
+  option("--setback", o.rules.setback, "rules: the distance from the sides of the plot that is measured, in m.", "METRES",
+         "rules");
+  option("--latitude", o.sun.latitude, "sun, garden: where the sun stands, in degrees. Default: where the scene lies.", "DEGREES",
+         "sun", "garden");
+  option("--longitude", o.sun.longitude, "sun, garden: the same to the east.", "DEGREES", "sun", "garden");
+  option("--date", o.sun.date, "sun, garden: the day that is studied. Default: 2026-03-21.", "YYYY-MM-DD", "sun", "garden");
+  option("--utc-offset", o.sun.utc_offset,
+         "sun, garden: hours that clocks are ahead of universal time. Default: by the longitude.", "HOURS", "sun", "garden");
+  option("--corners", o.garden.corners, "garden: its corners in order, in m of the scene.", "X,Y", "garden")->expected(1, 1000);
+  option("--id", o.garden.id, "garden: a plot or a garden of the scene; with --corners the id of the new one.", "ID", "garden");
+  option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
+  c.footer(
+      "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExamples:\n"
+      "  behaviourlinks add scene.json rules --fsi 2.5 --gsi 0.5 --height 24\n"
+      "  behaviourlinks add scene.json sun --date 2026-03-21\n"
+      "  behaviourlinks add scene.json garden --corners 10,60 34,60 34,72 10,72 --hours 3");
 }
 
 void declare_place(CLI::App& app, PlaceOptions& o) {

@@ -156,7 +156,8 @@ void declare_minutes(CLI::App& app, MinutesOptions& o) {
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
-  CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds, commands and export formats, from their declarations.");
+  CLI::App& d =
+      *app.add_subcommand("docs", "Explains typifications, link kinds, commands and export formats, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
   d.add_option("--from", docs.from, "Includes the link kinds of this scene's scripts, or of this link script (.lua).")
@@ -186,6 +187,7 @@ struct Options {
   making::NewOptions fresh;
   making::ImportOptions import;
   PlaceOptions place;
+  AddOptions add;
   ExportOptions export_of;
   CheckOptions check;
   ReplayOptions replay;
@@ -208,6 +210,7 @@ void declare_all(CLI::App& app, Options& o) {
   declare_new(app, o.fresh);
   declare_import(app, o.import);
   declare_place(app, o.place);
+  declare_add(app, o.add);
   declare_export(app, o.export_of);
   declare_check(app, o.check);
   declare_papers(app, o.docs, o.schema);
@@ -228,6 +231,7 @@ int run_chosen(const CLI::App& app, const Options& o) {
   if (app.got_subcommand("new")) return new_command(o.fresh);
   if (app.got_subcommand("import")) return import_command(o.import);
   if (app.got_subcommand("place")) return place_command(o.place);
+  if (app.got_subcommand("add")) return add_command(o.add);
   if (app.got_subcommand("export")) return export_command(o.export_of);
   if (app.got_subcommand("check")) return check_command(o.check);
   if (app.got_subcommand("docs")) return docs_command(o.docs);

@@ -11,6 +11,7 @@
 #include "core/file/log_writer.h"
 #include "core/graph/sums_of_now.h"
 #include "core/making/script_file.h"
+#include "core/making/use_rates.h"
 #include "core/reading/report_model.h"
 #include "core/reading/survey.h"
 #include "core/report/report.h"
@@ -204,6 +205,8 @@ class Run {
       is_saved &=
           write(options_.report, report::write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, seen);
+    if (const std::string note = making::tell_uses_without_figures(session_->scene(), full_registry()); !note.empty())
+      print_line("note: " + note);
     live_.sum_up(*state);
     const bool is_whole =
         std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });

@@ -8,7 +8,7 @@ namespace bl::test {
 namespace {
 
 const std::vector<std::string> kCommands = {"run",     "open",  "new", "check",  "docs",   "schema", "replay",  "erase",
-                                            "minutes", "cells", "fit", "assign", "import", "script", "compare", "place", "export", "serve", "rehearse"};
+                                            "minutes", "cells", "fit", "assign", "import", "script", "compare", "place", "add", "export", "serve", "rehearse"};
 
 TEST(Help, AloneIsAnOverview) {
   const Workplace place;

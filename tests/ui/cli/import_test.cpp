@@ -78,7 +78,11 @@ TEST_F(Import, SeveralFilesShareOneFrame) {
   EXPECT_EQ(layer["licence"], "CC0");
   const Outcome run = place.run({"run", "c.json"});
   EXPECT_EQ(run.code, 0) << run.out << run.err;
-  const Outcome again = place.run({"import", "houses.geojson", "--into", "c.json", "--out", "d.json"});
+  // Another file has other houses under the same ids.
+  std::string others = kHouses;
+  for (std::size_t at = 0; (at = others.find("447", at)) != std::string::npos; at += 3) others.replace(at, 3, "448");
+  place.write("others.geojson", others);
+  const Outcome again = place.run({"import", "others.geojson", "--into", "c.json", "--out", "d.json"});
   EXPECT_EQ(again.code, 0);
   EXPECT_FALSE(node(place.json("d.json"), "building_1_2").is_null()) << "an id that is taken gets a number";
 }

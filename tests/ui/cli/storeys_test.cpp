@@ -7,11 +7,11 @@ namespace bl::test {
 
 namespace {
 
-const std::string kScene = std::string(BL_SOURCE_DIR) + "/scenes/studies/tower_and_garden.json";
+const std::string kTowerScene = std::string(BL_SOURCE_DIR) + "/scenes/studies/tower_and_garden.json";
 
 // The same without the link of the sun.
 void write_without(const Workplace& place) {
-  nlohmann::json scene = nlohmann::json::parse(read_text(kScene));
+  nlohmann::json scene = nlohmann::json::parse(read_text(kTowerScene));
   for (auto& link : scene["links"])
     if (link["id"] == "sun") link["enabled"] = false;
   place.write("without.json", scene.dump());
@@ -26,7 +26,7 @@ const nlohmann::json& tower_in(const nlohmann::json& run) {
 
 TEST(Storeys, RunNamesTheConflictAndTheReason) {
   const Workplace place;
-  const Outcome outcome = place.run({"run", kScene, "--json", "run.json"});
+  const Outcome outcome = place.run({"run", kTowerScene, "--json", "run.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("tower has 8 of 10 storeys: link `sun` (Solar right) leaves "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("footprint.height_limit"), std::string::npos) << outcome.out;
@@ -61,7 +61,7 @@ TEST(Storeys, WithoutTheLinkThereIsNeitherConflictNorReason) {
 TEST(Storeys, CompareTellsWhatTheGardenTakes) {
   const Workplace place;
   write_without(place);
-  const Outcome outcome = place.run({"compare", "without.json", kScene, "--report", "difference.html"});
+  const Outcome outcome = place.run({"compare", "without.json", kTowerScene, "--report", "difference.html"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("links/sun/enabled: no -> yes"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("the second: Tower has 8 of 10 storeys: link `sun` (Solar right) leaves "), std::string::npos)

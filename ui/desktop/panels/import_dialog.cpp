@@ -241,7 +241,11 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
     file = name_of_file(file);  // the folders of one person say nothing to another
     names += (names.empty() ? "" : ", ") + file;
   }
-  if (auto done = document.submit({imported.command}, editor_->new_gesture(), "Import \xc2\xb7 " + names); !done) {
+  // What was imported before and has not changed leaves nothing to do.
+  const bool has_changes = !imported.command.id.empty();
+  if (auto done =
+          has_changes ? document.submit({imported.command}, editor_->new_gesture(), "Import \xc2\xb7 " + names) : Result<void>();
+      !done) {
     told_ = {done.error().text(), "Nothing was added to the scene: it has changed since the import began. Import again."};
     return false;
   }

@@ -1,0 +1,359 @@
+// Nodes, roles, ports and links of an addition, as one batch; what is there already is set, not doubled.
+#include "core/making/scene_additions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/mathematics.h"
+#include "core/base/plural.h"
+#include "core/base/text.h"
+#include "core/define/codec.h"
+#include "core/geometry/domain_table.h"
+#include "core/geometry/plan_ring.h"
+#include "core/session/commands.h"
+
+namespace bl::making {
+
+namespace {
+
+constexpr double kHighestRule = 10000;  // [m]
+constexpr double kHalfTurn = 3.14159265358979323846;
+// A garden whose corners leave out less of its rectangle is said to be one.
+constexpr double kRectangle = 0.02;  // [ratio]
+
+Error refused(const std::string& place, const std::string& sentence) { return {ErrorCode::out_of_range, place, sentence}; }
+
+std::vector<std::string> nodes_with(const Scene& scene, const char* type) {
+  std::vector<std::string> ids;
+  for (const auto& [id, node] : scene.nodes)
+    if (node.types.contains(type)) ids.push_back(id);
+  return ids;
+}
+
+std::string list_of(const std::vector<std::string>& ids) {
+  std::string list;
+  for (std::size_t i = 0; i < ids.size() && i < 8; ++i) list += (i == 0 ? "`" : ", `") + ids[i] + "`";
+  return ids.size() > 8 ? list + ", ..." : list;
+}
+
+template <class Map>
+std::string fresh_id(const Map& taken, const std::string& wanted) {
+  std::string id = wanted;
+  for (int number = 2; taken.contains(id); ++number) id = wanted + "_" + std::to_string(number);
+  return id;
+}
+
+// A value that is in its range, or a sentence.
+Result<void> within(const char* option, const std::optional<double>& value, double low, double high, const char* unit) {
+  if (!value || (*value >= low && *value <= high)) return {};
+  return refused(option,
+                 "must be between " + written_out(low) + " and " + written_out(high) + unit + ", found " + written_out(*value));
+}
+
+// A day of the calendar such as 2026-03-21, in the years that a sun knows.
+bool is_date(const std::string& text) {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
+  const auto number = [&text](std::size_t from, std::size_t length) {
+    int value = 0;
+    for (std::size_t i = from; i < from + length; ++i) {
+      if (text[i] < '0' || text[i] > '9') return -1;
+      value = 10 * value + (text[i] - '0');
+    }
+    return value;
+  };
+  const int year = number(0, 4), month = number(5, 2), day = number(8, 2);
+  if (year < 1900 || year > 2100 || month < 1 || month > 12 || day < 1) return false;
+  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool is_leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  return day <= kDays[month - 1] + (month == 2 && is_leap ? 1 : 0);
+}
+
+class Adding {
+ public:
+  Adding(const Scene& scene, const Registry& registry) : scene_(scene), registry_(registry) {}
+
+  void node(const std::string& id, const Json& content) { add(command<AddNode>({id, JsonValue::of(content)})); }
+  void link(const std::string& id, const Json& content) { add(command<AddLink>({id, JsonValue::of(content)})); }
+  void set(const std::string& node, const std::string& port, const Json& value) {
+    add(command<SetPort>({node, {port}, JsonValue::of(value)}));
+  }
+  void role(const std::string& node, const char* type, const Json& values = Json::object()) {
+    add(command<Typify>({node, type, JsonValue::of(values)}));
+  }
+  void say(const std::string& sentence) { result_.said.push_back(sentence); }
+  std::string new_node(const std::string& wanted) const { return fresh_id(scene_.nodes, wanted); }
+  std::string new_link(const std::string& wanted) const { return fresh_id(scene_.links, wanted); }
+
+  /// Is there a link of the kind from that node?
+  bool has_link(const char* kind, const std::string& from) const {
+    return std::any_of(scene_.links.begin(), scene_.links.end(), [&](const auto& entry) {
+      const LinkRecord& link = entry.second;
+      return link.kind == kind && selects_one(link.from, from);
+    });
+  }
+
+  Result<void> sun(const SunAddition& o);
+  Addition take() {
+    result_.command = command<Batch>({commands_});
+    return std::move(result_);
+  }
+
+ private:
+  void add(Command command) { commands_.push_back(std::move(command)); }
+  bool selects_one(const Selection& selection, const std::string& id) const {
+    const auto node = scene_.nodes.find(id);
+    return node != scene_.nodes.end() && selects(registry_, selection, id, node->second);
+  }
+  Json sun_ports(const SunAddition& o, bool is_new);
+  void casters();
+
+  const Scene& scene_;
+  const Registry& registry_;
+  std::vector<Command> commands_;
+  Addition result_;
+};
+
+Json Adding::sun_ports(const SunAddition& o, bool is_new) {
+  Json ports = Json::object();
+  if (o.latitude) ports["latitude"] = *o.latitude;
+  if (o.longitude) ports["longitude"] = *o.longitude;
+  if (!o.date.empty()) ports["date"] = o.date;
+  if (o.utc_offset) {
+    ports["utc_offset"] = *o.utc_offset * 3600;
+  } else if (is_new) {
+    const double hours = std::round((o.longitude ? *o.longitude : settings_of(scene_).longitude) / 15);
+    ports["utc_offset"] = hours * 3600;
+    say("Clocks are " + std::string(hours < 0 ? "" : "+") + shortest(hours) +
+        " h from universal time, by the longitude and without summer time: another zone is a port of the sun.");
+  }
+  return ports;
+}
+
+void Adding::casters() {
+  std::size_t given = 0;
+  for (const auto& [id, node] : scene_.nodes)
+    if ((node.types.contains("smart_volume") || node.types.contains("existing_building")) &&
+        !node.types.contains("shadow_caster")) {
+      role(id, "shadow_caster");
+      ++given;
+    }
+  if (given > 0)
+    say(how_many(given, "volume or building", "volumes and buildings") + by_number(given, " casts", " cast") + " shadow now.");
+}
+
+Result<void> Adding::sun(const SunAddition& o) {
+  if (auto sound = within("--latitude", o.latitude, -90, 90, "°"); !sound) return sound;
+  if (auto sound = within("--longitude", o.longitude, -180, 180, "°"); !sound) return sound;
+  if (auto sound = within("--utc-offset", o.utc_offset, -14, 14, " h"); !sound) return sound;
+  if (!o.date.empty() && !is_date(o.date))
+    return Error{ErrorCode::parse, "--date", "expects a day such as 2026-03-21, found `" + o.date + "`"};
+  if (o.latitude.has_value() != o.longitude.has_value())
+    return Error{ErrorCode::missing, o.latitude ? "--longitude" : "--latitude", "a place has both a latitude and a longitude"};
+  const std::vector<std::string> suns = nodes_with(scene_, "sun_and_sky");
+  if (suns.size() > 1)
+    return Error{ErrorCode::conflict, "",
+                 "the scene has several suns, " + list_of(suns) + ": leave one, so that it is clear whose day counts"};
+  const Settings settings = settings_of(scene_);
+  if (suns.empty() && !o.latitude && settings.latitude == 0 && settings.longitude == 0)
+    return Error{ErrorCode::missing, "--latitude",
+                 "the scene has no place on Earth: say where its sun stands by --latitude and --longitude"};
+  const Json ports = sun_ports(o, suns.empty());
+  const std::string sun = suns.empty() ? new_node("sun") : suns.front();
+  if (suns.empty()) node(sun, {{"name", "Sun"}, {"types", {{"sun_and_sky", ports}}}});
+  else
+    for (const auto& [port, value] : ports.items()) set(sun, "sun_and_sky." + port, value);
+  say(std::string(suns.empty() ? "New: the sun `" : "The sun is `") + sun + "`" + (o.date.empty() ? "" : " on " + o.date) + ".");
+  if (nodes_with(scene_, "sun_study").empty()) {
+    const std::string study = new_node("sun_study");
+    node(study, {{"name", "Sun study"}, {"types", {{"sun_study", Json::object()}}}});
+    say("New: the study `" + study + "` of all volumes, buildings and gardens.");
+  }
+  casters();
+  return {};
+}
+
+Result<std::vector<Point3>> read_corners(const std::vector<std::string>& texts) {
+  std::vector<Point3> corners;
+  for (const std::string& text : texts) {
+    const std::size_t comma = text.find(',');
+    const auto x = parse_number(text.substr(0, comma)),
+               y = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
+    if (!x || !y || std::abs(*x) > 1e8 || std::abs(*y) > 1e8)
+      return Error{ErrorCode::parse, "--corners", "expects corners such as 10,20 in metres of the scene, found `" + text + "`"};
+    corners.push_back({*x, *y, 0});
+  }
+  if (corners.size() < 3)
+    return Error{ErrorCode::missing, "--corners", "a garden needs 3 corners or more, found " + std::to_string(corners.size())};
+  if (const auto crossing = geometry::find_self_crossing(corners))
+    return Error{ErrorCode::geometry, "--corners",
+                 "the outline meets itself at (" + fixed(crossing->where.x, 2) + ", " + fixed(crossing->where.y, 2) +
+                     "): name the corners in order around it"};
+  return corners;
+}
+
+// The rectangle along the longest side that holds all corners.
+struct Rectangle {
+  Point3 middle;
+  double width = 0, depth = 0;  // [m]
+  double rotation = 0;          // [degree]
+  double beyond = 0;            // [ratio] of it that lies outside of the corners
+};
+Rectangle around(const std::vector<Point3>& corners) {
+  Vector3 axis{1, 0, 0};
+  double longest = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3 side = corners[(i + 1) % corners.size()] - corners[i];
+    if (norm(side) > longest + 1e-9) longest = norm(side), axis = side / norm(side);
+  }
+  // To the east, so that equal gardens have equal angles.
+  if (axis.x < 0 || (axis.x == 0 && axis.y < 0)) axis = -1 * axis;
+  const Vector3 across{-axis.y, axis.x, 0};
+  double low_u = INFINITY, high_u = -INFINITY, low_v = INFINITY, high_v = -INFINITY;
+  for (const Point3& p : corners) {
+    low_u = std::min(low_u, dot(p, axis)), high_u = std::max(high_u, dot(p, axis));
+    low_v = std::min(low_v, dot(p, across)), high_v = std::max(high_v, dot(p, across));
+  }
+  Rectangle box{axis * ((low_u + high_u) / 2) + across * ((low_v + high_v) / 2), high_u - low_u, high_v - low_v, 0, 0};
+  box.rotation = mathematics::arc_tangent(axis.y, axis.x) * 180 / kHalfTurn;
+  box.beyond = 1 - std::abs(geometry::signed_area(corners)) / (box.width * box.depth);
+  return box;
+}
+
+double to_millimetres(double value) { return std::round(value * 1000) / 1000 + 0.0; }
+
+// The outline of a boundary with the form of a plan; empty for all others.
+std::vector<Point3> plan_of(const Scene& scene, const Registry& registry, const NodeRecord& node) {
+  const TypificationDefinition* type = registry.typification("boundary");
+  if (type == nullptr || !node.types.contains("boundary")) return {};
+  const Value& form = set_value(scene, node, *type, *type->find_port("form"));
+  if (std::get<std::string>(form) != "plan") return {};
+  return *std::get<Shared<std::vector<Point3>>>(set_value(scene, node, *type, *type->find_port("plan")));
+}
+
+}  // namespace
+
+Result<Addition> add_sun(const Scene& scene, const Registry& registry, const SunAddition& sun) {
+  Adding adding(scene, registry);
+  if (auto added = adding.sun(sun); !added) return added.error();
+  return adding.take();
+}
+
+Result<Addition> add_rules(const Scene& scene, const Registry& registry, const RuleAddition& rules) {
+  if (!rules.fsi && !rules.gsi && !rules.height && !rules.setback)
+    return Error{ErrorCode::missing, "", "say which rules: --fsi, --gsi, --height or --setback"};
+  if (auto sound = within("--fsi", rules.fsi, 0, 100, ""); !sound) return sound.error();
+  if (auto sound = within("--gsi", rules.gsi, 0, 1, ""); !sound) return sound.error();
+  if (auto sound = within("--height", rules.height, 0, kHighestRule, " m"); !sound) return sound.error();
+  if (auto sound = within("--setback", rules.setback, 0, 1000, " m"); !sound) return sound.error();
+  std::string id = rules.plot;
+  if (id.empty()) {
+    std::vector<std::string> plots = nodes_with(scene, "plot");
+    if (plots.empty()) plots = nodes_with(scene, "boundary");
+    if (plots.empty()) return Error{ErrorCode::not_found, "--plot", "the scene has neither a plot nor a boundary"};
+    if (plots.size() > 1)
+      return Error{ErrorCode::missing, "--plot", "the scene has several plots: say which by --plot, such as " + list_of(plots)};
+    id = plots.front();
+  }
+  const auto node = scene.nodes.find(id);
+  if (node == scene.nodes.end()) {
+    std::vector<std::string> ids = nodes_with(scene, "plot");
+    for (const std::string& boundary : nodes_with(scene, "boundary")) ids.push_back(boundary);
+    return Error{ErrorCode::not_found, "--plot", "there is no node `" + id + "`" + did_you_mean(id, ids)};
+  }
+  Adding adding(scene, registry);
+  Json ports = Json::object();
+  std::string list;
+  const auto take = [&](const char* port, const std::optional<double>& value, const char* label, const char* unit) {
+    if (!value) return;
+    ports[port] = *value;
+    list += (list.empty() ? "" : ", ") + std::string(label) + " " + shortest(*value) + unit;
+  };
+  take("fsi_max", rules.fsi, "FSI", "");
+  take("gsi_max", rules.gsi, "GSI", "");
+  take("height_max", rules.height, "height", " m");
+  take("setback", rules.setback, "setback", " m");
+  if (node->second.types.contains("plot")) {
+    for (const auto& [port, value] : ports.items()) adding.set(id, "plot." + port, value);
+  } else {
+    const std::vector<Point3> plan = plan_of(scene, registry, node->second);
+    if (plan.empty())
+      return Error{ErrorCode::wrong_kind, "--plot",
+                   "`" + id + "` is neither a plot nor a boundary with a plan, which would become one"};
+    ports["polygon"] = Json::array();
+    for (const Point3& corner : plan) ports["polygon"].push_back({corner.x, corner.y, 0.0});
+    adding.role(id, "plot", ports);
+    adding.say("The boundary `" + id + "` is a plot as well now.");
+  }
+  adding.say("The rules of `" + id + "`: " + list + ".");
+  if (rules.setback)
+    adding.say("The setback is measured; what keeps volumes away from the sides is the margin of the link `inside`.");
+  if (!adding.has_link("plot_rules", id)) {
+    const std::string link = adding.new_link("plot_rules");
+    adding.link(link, {{"kind", "plot_rules"}, {"from", id}, {"to", {{"typification", "smart_volume"}}}});
+    adding.say("New: the link `" + link + "`, which holds all volumes on it to these rules.");
+  }
+  return adding.take();
+}
+
+Result<Addition> add_garden(const Scene& scene, const Registry& registry, const GardenAddition& garden) {
+  if (auto sound = within("--hours", garden.hours, 0, 24, " h"); !sound) return sound.error();
+  if (garden.id.empty() && garden.corners.empty())
+    return Error{ErrorCode::missing, "--corners", "say where the garden is: by --corners X,Y X,Y X,Y ..., or by --id of a node"};
+  const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
+  if (!garden.id.empty() && garden.corners.empty() && node == scene.nodes.end())
+    return Error{ErrorCode::not_found, "--id",
+                 "there is no node `" + garden.id + "`" + did_you_mean(garden.id, nodes_with(scene, "plot")) +
+                     "; a new garden has --corners"};
+  if (node != scene.nodes.end() && !garden.corners.empty())
+    return Error{ErrorCode::duplicate, "--id",
+                 "the node `" + garden.id + "` is there already: leave --corners out, or choose another id"};
+  if (garden.corners.empty() && !node->second.types.contains("shadow_receiver") && !node->second.types.contains("plot"))
+    return Error{ErrorCode::wrong_kind, "--id",
+                 "`" + garden.id + "` is neither a plot nor a shadow receiver: give the garden --corners"};
+  Adding adding(scene, registry);
+  if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.latitude ||
+      !garden.sun.date.empty())
+    if (auto added = adding.sun(garden.sun); !added) return added.error();
+  const double hours = garden.hours.value_or(2);
+  std::string id = garden.id;
+  if (garden.corners.empty() && node->second.types.contains("shadow_receiver")) {
+    if (garden.hours) adding.set(id, "shadow_receiver.required_sun", hours * 3600);
+  } else {
+    std::vector<Point3> corners;
+    if (garden.corners.empty()) {
+      const TypificationDefinition& plot = *registry.typification("plot");
+      corners = *std::get<Shared<std::vector<Point3>>>(set_value(scene, node->second, plot, *plot.find_port("polygon")));
+      for (Point3& corner : corners) corner.z = 0;
+      id = adding.new_node(garden.id + "_garden");
+    } else {
+      auto read = read_corners(garden.corners);
+      if (!read) return read.error();
+      corners = std::move(*read);
+      if (id.empty()) id = adding.new_node("garden");
+    }
+    const Rectangle box = around(corners);
+    if (!(box.depth > 0.01)) return Error{ErrorCode::geometry, "--corners", "the garden has no area"};
+    adding.node(id, {{"name", "Garden"},
+                     {"position", {to_millimetres(box.middle.x), to_millimetres(box.middle.y), 0.0}},
+                     {"types",
+                      {{"shadow_receiver",
+                        {{"width", to_millimetres(box.width)},
+                         {"depth", to_millimetres(box.depth)},
+                         {"rotation", to_millimetres(box.rotation)},
+                         {"required_sun", hours * 3600}}}}}});
+    adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
+               shortest(hours) + " h of sun a day.");
+    if (box.beyond > kRectangle)
+      adding.say("A garden is a rectangle: " + fixed(100 * box.beyond, 0) + " % of this one lies outside of the corners.");
+  }
+  if (!adding.has_link("solar_right", id)) {
+    const std::string link = adding.new_link("sun_of_" + id);
+    adding.link(link, {{"kind", "solar_right"}, {"from", id}, {"to", {{"typification", "smart_volume"}}}});
+    adding.say("New: the link `" + link + "`: volumes that take its sun give way.");
+  }
+  return adding.take();
+}
+
+}  // namespace bl::making
