@@ -102,7 +102,7 @@ struct SolarEnvelope {
     l.reads(&Ends::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::id, End::to, "node.id");
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
-    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);

@@ -100,7 +100,7 @@ struct SolarRight {
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
-    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
         .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);

@@ -42,8 +42,8 @@ struct StandingSolver {
     std::vector<Plot> plots;
   };
   struct Reply {
-    double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
-    double spherical_area = 0, height = 0, bottom = 0, error = 0;
+    double wanted = 0, fitted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0;
+    double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0;
     std::string state, reason, stands_on;
     Shared<Table> neighbours, plates;
     Point3 centroid;
@@ -115,7 +115,8 @@ struct StandingSolver {
     set.reads(&Member::bases, "footprint.bases").reads(&Member::ground, "footprint.ground", Unit::metre);
     set.reads(&Member::built, "footprint.storeys_built").writes(&Reply::storeys_built, "footprint.storeys_built");
     set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
-    set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::radius, "smart_volume.radius");
+    set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::fitted, "smart_volume.fitted");
+    set.writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
     set.writes(&Reply::floor_area, "smart_volume.floor_area").writes(&Reply::footprint, "smart_volume.footprint");
     set.writes(&Reply::surface_area, "smart_volume.surface_area").writes(&Reply::spherical_area, "smart_volume.spherical_area");
@@ -178,6 +179,7 @@ struct StandingSolver {
     if (result.body) geometry::write_body(*result.body, plates);
     const double around = result.facade_area + result.roof_area + result.footprint;
     return {.wanted = wish.volume,
+            .fitted = result.volume,
             .weight = result.weight,
             .radius = std::sqrt(std::max(0.0, result.weight)),
             .volume = result.volume,

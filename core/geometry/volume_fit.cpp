@@ -18,7 +18,7 @@ namespace bl::geometry {
 
 namespace {
 
-// Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
+// Floor areas are met by correcting the volumes asked for, which mostly takes three or four rounds; where it does not, it ends.
 constexpr int kMostCorrections = 25;
 // No nearer for so many evaluations, and the fit is going nowhere; or for so many, where there is another way to start.
 constexpr int kStalled = 40, kStalledEarly = 15;
@@ -33,7 +33,7 @@ constexpr double kWideDemands = 1e4;
 constexpr double kStageFactor = 1e2;
 // A stage need only come near, and has so many evaluations for it.
 constexpr double kStageTolerance = 0.2;
-constexpr int kStageSteps = 25, kMostHalvings = 4;
+constexpr int kStageSteps = 25, kMostStages = 4;
 
 // What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer
 // together.
@@ -178,7 +178,7 @@ class Attempt {
   bool ease(FitOptions step) {
     const std::vector<VolumeDemand> wanted = problem_.demands;
     int halvings = 0;
-    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostHalvings; reach *= reach) ++halvings;
+    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostStages; reach *= reach) ++halvings;
     const unsigned stages = 1u << static_cast<unsigned>(halvings);
     step.with_rays = false;
     step.tolerance = kStageTolerance;

@@ -16,7 +16,7 @@ LinkCase feedback(double load, double demand, double limit) {
   link.to("traffic_zone.access", Shared(std::vector<std::string>{"gate", "unknown"}));
   link.to("traffic_zone.trips_served", 10.0).to("traffic_zone.trips_lost", 0.0);
   link.to("smart_volume.demand", demand).to("smart_volume.demand_limit", limit);
-  link.to("smart_volume.wanted", std::min(demand, limit)).to("smart_volume.volume", std::min(demand, limit));
+  link.to("smart_volume.wanted", std::min(demand, limit)).to("smart_volume.fitted", std::min(demand, limit));
   return link;
 }
 

@@ -17,7 +17,7 @@ LinkCase right(const std::string& mode, const std::string& caster, double defici
             Shared<Table>(Table{{"node", "lost", "shared"}, {{"house", 600.0, 600.0}, {"tower", 2400.0, 2400.0}}}));
   link.to("node.id", caster).to("node.position", Vector3{0, -30, 12}).to("smart_volume.demand", 8000.0);
   link.to("smart_volume.demand_limit", 1e9).to("smart_volume.radius", 10.0).to("smart_volume.bottom", 0.0);
-  link.to("smart_volume.wanted", 8000.0).to("smart_volume.volume", 8000.0);
+  link.to("smart_volume.wanted", 8000.0).to("smart_volume.fitted", 8000.0);
   return link;
 }
 
@@ -88,7 +88,7 @@ TEST(SolarRight, RestsWithinItsPlay) {
 
 TEST(SolarRight, LeavesTheLeastShareAndSaysSo) {
   auto link = right("shave", "tower");
-  link.to("smart_volume.demand_limit", 1600.0).to("smart_volume.wanted", 1600.0).to("smart_volume.volume", 1600.0);
+  link.to("smart_volume.demand_limit", 1600.0).to("smart_volume.wanted", 1600.0).to("smart_volume.fitted", 1600.0);
   ASSERT_EQ(link.run(), "");
   EXPECT_NEAR(limit(link), 1600, 1e-9) << "a fifth of the demand is not taken";
   EXPECT_EQ(
@@ -105,7 +105,7 @@ TEST(SolarRight, IsAtWorkWhileOneCanGiveWay) {
   const std::vector<Value> demands = {8000.0, 8000.0};
   both.read(End::to, "smart_volume.demand", demands).read(End::to, "smart_volume.radius", {10.0, 10.0});
   both.read(End::to, "smart_volume.bottom", {0.0, 0.0}).read(End::to, "smart_volume.demand_limit", {8000.0, 1600.0});
-  both.read(End::to, "smart_volume.wanted", {8000.0, 1600.0}).read(End::to, "smart_volume.volume", {8000.0, 1600.0});
+  both.read(End::to, "smart_volume.wanted", {8000.0, 1600.0}).read(End::to, "smart_volume.fitted", {8000.0, 1600.0});
   ASSERT_EQ(both.run(), "");
   EXPECT_NE(both.remarked(LinkRemark::at_work), "");
   both.lock(End::to, "smart_volume.demand_limit", 0);
