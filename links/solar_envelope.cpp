@@ -106,7 +106,7 @@ struct SolarEnvelope {
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
         .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);

@@ -7,8 +7,10 @@
 #include <map>
 
 #include "core/base/hash.h"
+#include "core/geometry/cellar.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/surroundings.h"
@@ -69,7 +71,19 @@ void cut(const reading::VolumeRow& volume, Building& building) {
   building.outline = seen_from_above(volume);
 }
 
-void add_building(const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
+void add_cellars(const State& state, const reading::VolumeRow& volume, Building& building) {
+  const auto figures = reading::row_of<reading::CellarFigures>(state, volume.node);
+  if (!figures || figures->storeys <= 0) return;
+  const geometry::PlateStack cellar =
+      geometry::cellar_of(volume.body, static_cast<int>(figures->storeys), figures->storey_height);
+  const std::vector<PlateFace> faces = geometry::faces_of(cellar, volume.body.centre, kChordTolerance);
+  for (int k = 1; k <= cellar.storeys; ++k) {
+    const double bottom = building.bottom - k * cellar.storey_height;
+    building.cellars.push_back({-k, -k, bottom, bottom + cellar.storey_height, cellar.area, faces, cellar.outlines, {}});
+  }
+}
+
+void add_building(const State& state, const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
   Building building;
   building.id = volume.id;
   building.label = volume.name;
@@ -84,7 +98,7 @@ void add_building(const reading::VolumeRow& volume, const drawing::Palette& pale
   building.storey_height = std::max(0.1, volume.figures.storey_height);
   building.bottom = volume.figures.bottom;
   building.top = volume.figures.bottom + volume.figures.height;
-  if (!volume.body.stacks.empty()) stand(volume.body, building);
+  if (!volume.body.stacks.empty()) stand(volume.body, building), add_cellars(state, volume, building);
   else if (volume.mesh) cut(volume, building);
   if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
     return all.buildings.push_back(std::move(building));
@@ -269,7 +283,7 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
   const Settings& settings = state.plan->settings;
   all.reference = {settings.coordinate_system, settings.origin_x,  settings.origin_y,
                    settings.latitude,          settings.longitude, settings.true_north};
-  for (const reading::VolumeRow& volume : model.volumes) add_building(volume, palette, all);
+  for (const reading::VolumeRow& volume : model.volumes) add_building(state, volume, palette, all);
   if (all.buildings.empty())
     return Error{ErrorCode::missing, "",
                  model.volumes.empty() ? "the scene has no volumes, so that there is no proposal to hand on"

@@ -173,7 +173,7 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   LinkCase high = rules(1, 0.1, 40);
   high.read(End::to, "smart_volume.storey_height", {4.0, 4.0});
   high.read(End::to, "footprint.storeys", {std::int64_t{10}, std::int64_t{10}});
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{10}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{10}, std::int64_t{10}});
   high.read(End::to, "footprint.storeys_min", {std::int64_t{1}, std::int64_t{1}});
   high.read(End::to, "footprint.height_limit", {1e6, 1e6});
   ASSERT_EQ(high.run(), "");
@@ -182,13 +182,13 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   EXPECT_FALSE(high.proposed(End::to, "smart_volume.demand_limit", 0).has_value());
   EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 40.0 m of 20.0 m at `here`");
   // Five of ten, and the ground is lower than the origin.
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{5}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{5}, std::int64_t{10}});
   high.read(End::to, "smart_volume.height", {20.0, 40.0}).read(End::to, "footprint.height_limit", {20.0, 1e6});
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::short_of),
             "from: `here` has 5 of 10 storeys, because it may be no higher than 20.00 m by the rules of the plot");
   high.read(End::to, "footprint.storeys_min", {std::int64_t{7}, std::int64_t{1}});
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{7}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{7}, std::int64_t{10}});
   high.read(End::to, "smart_volume.height", {28.0, 40.0});
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::unmet),
@@ -207,7 +207,7 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
                                                        "footprint": {"storeys": 8}}}],
     "links": [{"id": "rules", "kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}}]})");
   ASSERT_TRUE(world.settle(300));
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   EXPECT_NEAR(world.number("block", "smart_volume.floor_area"), 3000, 0.01);
   EXPECT_NEAR(world.number("block", "smart_volume.footprint"), 750, 0.01);
   EXPECT_NE(world.link_error("rules").find("`block` has 4 of 8 storeys"), std::string::npos) << world.link_error("rules");
@@ -222,14 +222,14 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
   ASSERT_EQ(world.submit(command<SetPort>({.node = "block", .port = {"footprint.storeys"}, .value = {"8"}})), "");
   world.tick(20);
   ASSERT_TRUE(world.settle(300));
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   // The FSI takes floor area from both, storeys from none.
   ASSERT_EQ(world.submit(command<SetPort>({.node = "site", .port = {"plot.fsi_max"}, .value = {"0.6"}})), "");
   world.tick(20);
   ASSERT_TRUE(world.settle(600));
   EXPECT_LE(world.number("site", "plot.fsi"), 0.6);
   EXPECT_GT(world.number("site", "plot.fsi"), 0.57);
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   EXPECT_LT(world.number("block", "smart_volume.footprint"), 700);
 }
 

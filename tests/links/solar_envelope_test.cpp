@@ -139,7 +139,7 @@ LinkCase standing(std::int64_t built, const std::string& mode = "shave") {
   link.to("smart_volume.storey_height", 4.0)
       .to("footprint.storeys", std::int64_t{6})
       .to("footprint.storeys_min", std::int64_t{1});
-  link.to("footprint.storeys_built", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
+  link.to("footprint.storeys_held", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
   return link;
 }
 

@@ -187,7 +187,7 @@ LinkCase standing(double built, double height_limit, double deficit = 1800, cons
   link.to("smart_volume.storey_height", 3.0)
       .to("footprint.storeys", std::int64_t{8})
       .to("footprint.storeys_min", std::int64_t{1});
-  link.to("footprint.storeys_built", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
+  link.to("footprint.storeys_held", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
   return link;
 }
 
@@ -255,7 +255,7 @@ TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
   const auto both = [&](const char* node, const char* port) {
     return std::pair(without.number(node, port), with.number(node, port));
   };
-  EXPECT_EQ(both("tower", "footprint.storeys_built"), std::pair(10.0, 8.0));
+  EXPECT_EQ(both("tower", "footprint.storeys_held"), std::pair(10.0, 8.0));
   const auto [small, large] = both("tower", "smart_volume.footprint");
   EXPECT_NEAR(small, 240, 0.01);
   EXPECT_NEAR(large, 300, 0.01);
@@ -278,12 +278,12 @@ TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
   // No storey comes and goes, and all of them come back when there is room.
   for (int tick = 0; tick < 60; ++tick) {
     with.tick();
-    ASSERT_EQ(with.number("tower", "footprint.storeys_built"), 8) << tick;
+    ASSERT_EQ(with.number("tower", "footprint.storeys_held"), 8) << tick;
   }
   ASSERT_EQ(with.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"3600"}})), "");
   with.tick(60);
   ASSERT_TRUE(with.settle(200));
-  EXPECT_EQ(with.number("tower", "footprint.storeys_built"), 10);
+  EXPECT_EQ(with.number("tower", "footprint.storeys_held"), 10);
   EXPECT_NEAR(with.number("tower", "smart_volume.footprint"), 240, 0.01);
   EXPECT_EQ(with.link_error("sun"), "");
 }
