@@ -52,7 +52,7 @@ struct BudgetLimit {
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
-    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }

@@ -24,14 +24,15 @@ struct Demand {
     All<std::string> ids, uses;
   };
   struct Out {
-    All<std::optional<double>> demand, demand_min, demand_limit, storey_height;
+    All<std::optional<double>> demand, demand_min, demand_limit, by_floor_area, storey_height;
   };
 
   static void declare(LinkBuilder<Demand>& l) {
     l.family(LinkFamily::brief);
     l.id("demand").label("Demand").doc(
         "Divides a programme among volumes. The floor area of a row, times its count and its storey height, is divided equally "
-        "among the volumes of that use as their demand. Smallest and largest floor areas become limits in the same way. Rows of "
+        "among the volumes of that use as their demand, to be met in floor area. Smallest and largest floor areas become limits "
+        "in the same way. Rows of "
         "one use are added up.");
     l.param(&In::use, "use")
         .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
@@ -44,6 +45,7 @@ struct Demand {
     l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.proposes(&Out::demand_min, End::to, "smart_volume.demand_min", Unit::cubic_metre);
     l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes(&Out::by_floor_area, End::to, "smart_volume.by_floor_area", Unit::ratio);
     l.proposes(&Out::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
   }
 
@@ -94,7 +96,8 @@ struct Demand {
     for (const std::string& use : ends.uses.values) {
       const auto found = shares.find(in.use.empty() ? use : in.use);
       if (found == shares.end()) {
-        for (auto* silent : {&out.demand, &out.demand_min, &out.demand_limit, &out.storey_height}) silent->values.emplace_back();
+        for (auto* silent : {&out.demand, &out.demand_min, &out.demand_limit, &out.by_floor_area, &out.storey_height})
+          silent->values.emplace_back();
         continue;
       }
       const Share& share = found->second;
@@ -102,6 +105,7 @@ struct Demand {
       out.demand.values.emplace_back(share.demand * part);
       out.demand_min.values.push_back(wanted(share.minimum * part, share.minimum > 0));
       out.demand_limit.values.push_back(wanted(share.maximum * part, !share.is_open));
+      out.by_floor_area.values.emplace_back(1);
       // Rows of one use with different storeys: the height at which their areas make up their volume.
       const double height = share.floor_area > 0 ? share.demand / share.floor_area : share.storey_height;
       out.storey_height.values.push_back(wanted(height, height > 0));

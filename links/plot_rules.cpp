@@ -94,12 +94,12 @@ struct PlotRules {
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
-    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre)
         .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
     l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
         .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);

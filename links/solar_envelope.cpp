@@ -102,11 +102,11 @@ struct SolarEnvelope {
     l.reads(&Ends::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::id, End::to, "node.id");
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
-    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_built")
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
         .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);

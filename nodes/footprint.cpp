@@ -17,15 +17,16 @@ struct Footprint {
     int storeys = 4, storeys_min = 1;
     double height_limit = 1e6, setback = 0, depth = 1000, ground = kAsLowAsPossible;
     double courtyard_setback = 0, wing_depth = 1000, border_distance = 0, street_distance = 0;
-    int full_storeys = 0;
+    int full_storeys = 0, order = 0, cellar_storeys = 0;
+    double cellar_height = 3;
     bool has_party_walls = true, has_border_walls = false;
-    std::vector<std::string> bases;
+    std::vector<std::string> bases, shares;
   };
 
   struct Out {
-    int storeys_built = 0;
+    int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0;
+    double facade_area = 0, roof_area = 0, cellar_area = 0;
     Table plates;
   };
 
@@ -39,7 +40,40 @@ struct Footprint {
     declare_form(t);
     declare_sides(t);
     declare_storeys(t);
+    declare_sharing(t);
+    declare_cellar(t);
     declare_results(t);
+  }
+
+  static void declare_sharing(TypificationBuilder<Footprint>& t) {
+    t.in(&In::shares, "shares")
+        .collect()
+        .doc(
+            "Id of the volume whose footprint it shares; empty where it has its own. The footprint, its form, storeys, set-backs "
+            "and height limits are those of that volume, the host. It is fitted to what all want together, and each gets floors "
+            "from the ground up in the order of `order`. A storey that two have is cut straight across, and as high as the "
+            "higher of both asks. Links of the kind `share_footprint` add to it; of several the first counts.");
+    t.in(&In::order, "order")
+        .range(-100, 100)
+        .soft(-5, 5)
+        .doc(
+            "Place among the volumes that share a footprint, from the ground up. Of equal ones the host is the lowest, and then "
+            "the ids decide.");
+  }
+
+  static void declare_cellar(TypificationBuilder<Footprint>& t) {
+    t.in(&In::cellar_storeys, "cellar_storeys")
+        .unit(Unit::count)
+        .range(0, 20)
+        .soft(0, 4)
+        .doc(
+            "Number of storeys below the ground, under the whole lowest plate and its courtyard. They are no part of the floor "
+            "area that is asked for, nor of the floor space index. What stands on a roof has none.");
+    t.in(&In::cellar_height, "cellar_height")
+        .unit(Unit::metre)
+        .range(1, 50)
+        .soft(2.2, 5)
+        .doc("Height from floor to floor of the storeys below the ground.");
   }
 
   static void declare_form(TypificationBuilder<Footprint>& t) {
@@ -154,11 +188,21 @@ struct Footprint {
 
   static void declare_results(TypificationBuilder<Footprint>& t) {
     t.out(&Out::storeys_built, "storeys_built").shown_first().unit(Unit::count).doc("Number of storeys that the volume has.");
+    t.out(&Out::storeys_held, "storeys_held")
+        .means()
+        .unit(Unit::count)
+        .doc(
+            "Number of storeys that height limits hold: its own, or those of the whole building where others share its "
+            "footprint.");
     t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
     t.out(&Out::facade_area, "facade_area")
         .unit(Unit::square_metre)
         .doc("Area of all walls, towards courtyards and neighbours too.");
     t.out(&Out::roof_area, "roof_area").unit(Unit::square_metre).doc("Area of all roofs, terraces included.");
+    t.out(&Out::cellars_built, "cellars_built").means().unit(Unit::count).doc("Number of storeys below the ground.");
+    t.out(&Out::cellar_area, "cellar_area")
+        .unit(Unit::square_metre)
+        .doc("Sum of the plates below the ground. It counts neither as floor area nor in the floor space index.");
     t.out(&Out::plates, "plates")
         .column({.id = "stack", .doc = "Number of the stack of equal storeys, from the ground up."})
         .column({.id = "storeys", .unit = Unit::count, .doc = "Number of storeys in the stack."})

@@ -11,7 +11,7 @@ struct SmartVolume {
 
   struct In {
     std::string use;
-    double demand = 1000, demand_limit = 1e9, demand_min = 0;
+    double demand = 1000, demand_limit = 1e9, demand_min = 0, by_floor_area = 0;
     double storey_height = 3.2;
     Standing standing = Standing::stack;
   };
@@ -19,7 +19,7 @@ struct SmartVolume {
   struct Out {
     double wanted = 0;
     double weight = 0, radius = 0;
-    double volume = 0, cell_volume = 0;
+    double volume = 0, cell_volume = 0, fitted = 0;
     double floor_area = 0, surface_area = 0, footprint = 0, spherical_area = 0;
     double height = 0, bottom = 0;
     double error = 1;
@@ -63,6 +63,14 @@ struct SmartVolume {
         .soft(0, 20000)
         .combine(CombineRule::max)
         .doc("The least volume that the brief insists on. No limit brings the wanted volume below it.");
+    t.in(&In::by_floor_area, "by_floor_area")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .combine(CombineRule::max)
+        .doc(
+            "1: the demand is one of floor area. It is given as floor area times storey height, and the solver adapts the shape "
+            "until its floor area is right, whatever volume that takes. 0: the volume itself is asked for. In between, both "
+            "count in proportion. Links of the kind `demand` propose 1, because a programme asks for floor area.");
     t.in(&In::storey_height, "storey_height")
         .unit(Unit::metre)
         .range(1, 50)
@@ -81,7 +89,9 @@ struct SmartVolume {
   static void declare_shape(TypificationBuilder<SmartVolume>& t) {
     t.out(&Out::wanted, "wanted")
         .unit(Unit::cubic_metre)
-        .doc("The volume that the solver aims at: the demand, at most its limit and at least its minimum.");
+        .doc(
+            "The volume that the solver aims at, or floor area times storey height where floor area is asked for: the demand, at "
+            "most its limit and at least its minimum.");
     t.out(&Out::weight, "weight")
         .means()
         .unit(Unit::square_metre)
@@ -91,6 +101,12 @@ struct SmartVolume {
         .traced()
         .unit(Unit::cubic_metre)
         .doc("Volume of the shape: the part of the cell inside the ball.");
+    t.out(&Out::fitted, "fitted")
+        .means()
+        .unit(Unit::cubic_metre)
+        .doc(
+            "What the solver compares with `wanted`: the volume, or floor area times storey height where floor area is asked "
+            "for.");
     t.out(&Out::cell_volume, "cell_volume")
         .means()
         .unit(Unit::cubic_metre)
@@ -98,7 +114,9 @@ struct SmartVolume {
     t.out(&Out::floor_area, "floor_area")
         .shown_first()
         .unit(Unit::square_metre)
-        .doc("Sum of the horizontal sections of the shape at the middle of each storey.");
+        .doc(
+            "Sum of the horizontal sections of the shape at the middle of each storey, from its lowest point up. What is left "
+            "above the last whole storey counts by its share of a storey; a shape lower than a storey has one floor.");
     t.out(&Out::surface_area, "surface_area").unit(Unit::square_metre).doc("Area of the whole surface of the shape.");
     t.out(&Out::footprint, "footprint").unit(Unit::square_metre).doc("Area that the shape covers in plan, seen from above.");
     t.out(&Out::spherical_area, "spherical_area")
@@ -123,7 +141,7 @@ struct SmartVolume {
     t.out(&Out::error, "error")
         .unit(Unit::ratio)
         .residual()
-        .doc("Difference between the volume and the wanted one, as a share of the wanted one.");
+        .doc("Difference between `fitted` and `wanted`, as a share of `wanted`.");
     t.out(&Out::state, "state")
         .doc(
             "State of the site: `alive`, `hidden`, `outside`, `coincident` or `starved`; `idle` before a solver has evaluated "

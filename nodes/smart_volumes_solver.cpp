@@ -37,6 +37,7 @@ struct SmartVolumesSolver {
     std::string id;
     Point3 position;
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0, last_direction = 0;
+    double by_floor_area = 0, volume = 0, floor_area = 0;  // the last two as they came out of the last tick
     std::string standing;
   };
   struct Plot {
@@ -48,8 +49,8 @@ struct SmartVolumesSolver {
     std::vector<Plot> plots;
   };
   struct Reply {
-    double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
-    double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
+    double wanted = 0, fitted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0;
+    double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
     std::string state, reason;
     Shared<Table> neighbours;
     Point3 centroid;
@@ -146,6 +147,8 @@ struct SmartVolumesSolver {
         .reads(&Member::position, "node.position", Unit::metre)
         .reads(&Member::demand, "smart_volume.demand");
     set.reads(&Member::limit, "smart_volume.demand_limit").reads(&Member::least, "smart_volume.demand_min");
+    set.reads(&Member::by_floor_area, "smart_volume.by_floor_area").writes(&Reply::fitted, "smart_volume.fitted");
+    set.reads(&Member::volume, "smart_volume.volume").reads(&Member::floor_area, "smart_volume.floor_area");
     set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::weight, "smart_volume.weight");
     set.reads(&Member::last_step, "smart_volume.last_step").writes(&Reply::last_step, "smart_volume.last_step");
     set.reads(&Member::last_direction, "smart_volume.last_direction")
@@ -185,7 +188,7 @@ struct SmartVolumesSolver {
   // The members as the geometry has them.
   struct Volumes {
     std::vector<geometry::PowerSite> sites;
-    std::vector<double> wanted, storey_heights;
+    std::vector<double> wanted, aims, storey_heights;  // [m³], [m³] of shape, [m]
     std::vector<geometry::Standing> standing;
     geometry::FitState last;
   };
@@ -205,9 +208,20 @@ struct SmartVolumesSolver {
                                   : geometry::Standing::stack;
   }
 
+  // The shape whose floor area is right has the wanted volume times this: volume / (floor area x storey height), which hardly
+  // changes with the size of a shape. It is taken from the shape of the last tick, so that a shape that has what it wants
+  // keeps it, and with it its weight.
+  static double volume_by_floors(const Member& member) {
+    constexpr double kMost = 4;
+    const double floors = member.floor_area * member.storey_height;
+    if (!(member.by_floor_area > 0) || !(floors > 0) || !(member.volume > 0)) return 1;
+    return 1 + member.by_floor_area * (std::clamp(member.volume / floors, 1 / kMost, kMost) - 1);
+  }
+
   static void take_member(const Member& member, std::size_t i, Volumes& volumes) {
     volumes.sites[i] = {member.position, member.weight};
     volumes.wanted[i] = std::max(std::min(member.demand, member.limit), member.least);
+    volumes.aims[i] = volumes.wanted[i] * volume_by_floors(member);
     volumes.storey_heights[i] = member.storey_height;
     volumes.standing[i] = rule_of(member.standing);
     volumes.last.previous_move[i] = member.last_step;
@@ -228,7 +242,8 @@ struct SmartVolumesSolver {
     const std::size_t count = members.all.size();
     volumes.sites.resize(count);
     volumes.standing.resize(count);
-    for (auto* numbers : {&volumes.wanted, &volumes.storey_heights, &volumes.last.previous_move, &volumes.last.direction})
+    for (auto* numbers :
+         {&volumes.wanted, &volumes.aims, &volumes.storey_heights, &volumes.last.previous_move, &volumes.last.direction})
       numbers->resize(count);
     for (std::size_t i = 0; i < count; ++i) take_member(members.all[i], i, volumes);
   }
@@ -239,8 +254,14 @@ struct SmartVolumesSolver {
   // Limits that leave a volume nothing must not look as if it had what it wants.
   static bool is_denied(const Member& member, double wanted) { return member.demand > 0 && wanted <= kNothing * member.demand; }
 
-  static double error_of(const Member& member, double wanted, double volume) {
-    return is_denied(member, wanted) ? 1.0 : wanted > 0 ? std::abs(volume - wanted) / wanted : 0.0;
+  // What is compared with what is wanted [m³].
+  static double fitted_of(const Member& member, const geometry::CellMeasure& cell) {
+    if (!(member.by_floor_area > 0)) return cell.volume;
+    return cell.volume + member.by_floor_area * (cell.floor_area * member.storey_height - cell.volume);
+  }
+
+  static double error_of(const Member& member, double wanted, double fitted) {
+    return is_denied(member, wanted) ? 1.0 : wanted > 0 ? std::abs(fitted - wanted) / wanted : 0.0;
   }
 
   // Of what the fit and the cell of one member come to.
@@ -257,8 +278,10 @@ struct SmartVolumesSolver {
       row->emplace_back(names[facet.index]);
       row++->emplace_back(facet.area);
     }
+    const double fitted = fitted_of(members[i], cell);
     Reply reply{
         .wanted = wanted,
+        .fitted = fitted,
         .weight = weight,
         .radius = std::sqrt(std::max(0.0, weight)),
         .volume = cell.volume,
@@ -269,7 +292,7 @@ struct SmartVolumesSolver {
         .spherical_area = cell.spherical_area,
         .height = cell.height,
         .bottom = cell.bottom,
-        .error = error_of(members[i], wanted, cell.volume),
+        .error = error_of(members[i], wanted, fitted),
         .last_step = done.state.previous_move.empty() ? 0 : done.state.previous_move[i],
         .last_direction = done.state.direction.empty() ? 0 : done.state.direction[i],
         .state = std::string(name_of(cell.state)),
@@ -295,7 +318,7 @@ struct SmartVolumesSolver {
     const auto take = [&](std::size_t i) {
       kept.volume[i] = done.cells[i].volume;
       kept.floor_area[i] = done.cells[i].floor_area;
-      kept.error[i] = error_of(members[i], kept.volumes.wanted[i], done.cells[i].volume);
+      kept.error[i] = error_of(members[i], kept.volumes.wanted[i], fitted_of(members[i], done.cells[i]));
     };
     for (auto* numbers : {&kept.volume, &kept.floor_area, &kept.error}) numbers->resize(members.size());
     if (is_anew)
@@ -354,7 +377,7 @@ struct SmartVolumesSolver {
                                    .storey_heights = volumes.storey_heights,
                                    .standing = volumes.standing,
                                    .pool = tick.pool};
-    const auto done = now.run(**found, sites, volumes.wanted, volumes.last, kept.cache);
+    const auto done = now.run(**found, sites, volumes.aims, volumes.last, kept.cache);
     if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, names)};
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),

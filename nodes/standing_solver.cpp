@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/geometry/cellar.h"
 #include "core/geometry/domain.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/standing_tick.h"
@@ -32,9 +33,10 @@ struct StandingSolver {
     std::string form;
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
     double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
-    int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0;
+    int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0, order = 0, cellar_storeys = 0;
+    double cellar_height = 3, bottom = 0, floor_area = 0;  // the last two as they came out of the last tick
     bool has_party_walls = true, has_border_walls = false, was_limited = false;
-    std::vector<std::string> bases;
+    std::vector<std::string> bases, shares;
   };
   struct Plot {
     std::string id;
@@ -55,15 +57,15 @@ struct StandingSolver {
     std::vector<Junction> junctions;
   };
   struct Reply {
-    double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
-    double spherical_area = 0, height = 0, bottom = 0, error = 0;
+    double wanted = 0, fitted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0;
+    double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0;
     std::string state, reason, stands_on;
     Shared<Table> neighbours, plates;
     Point3 centroid;
     MeshPointer mesh;
-    int storeys_built = 0;
+    int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, hang = 0, drop = 0;
+    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0;
   };
   struct Out {
     std::int64_t count = 0;
@@ -75,6 +77,7 @@ struct StandingSolver {
     geometry::StandingTick::Cache cache;
     std::vector<std::string> names;
     std::vector<geometry::StandingWish> wishes;
+    std::vector<std::pair<int, double>> cellars;  // of each member: storeys and their height [m]
   };
 
   static void declare(TypificationBuilder<StandingSolver>& t) {
@@ -144,9 +147,15 @@ struct StandingSolver {
     set.reads(&Member::storeys, "footprint.storeys").reads(&Member::storeys_min, "footprint.storeys_min");
     set.reads(&Member::full_storeys, "footprint.full_storeys").reads(&Member::has_party_walls, "footprint.party_walls");
     set.reads(&Member::bases, "footprint.bases").reads(&Member::ground, "footprint.ground", Unit::metre);
-    set.reads(&Member::built, "footprint.storeys_built").writes(&Reply::storeys_built, "footprint.storeys_built");
+    set.writes(&Reply::storeys_built, "footprint.storeys_built");
+    set.reads(&Member::built, "footprint.storeys_held").writes(&Reply::storeys_held, "footprint.storeys_held");
+    set.reads(&Member::shares, "footprint.shares").reads(&Member::order, "footprint.order");
+    set.reads(&Member::bottom, "smart_volume.bottom").reads(&Member::floor_area, "smart_volume.floor_area");
+    set.reads(&Member::cellar_storeys, "footprint.cellar_storeys").reads(&Member::cellar_height, "footprint.cellar_height");
+    set.writes(&Reply::cellars_built, "footprint.cellars_built").writes(&Reply::cellar_area, "footprint.cellar_area");
     set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
-    set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::radius, "smart_volume.radius");
+    set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::fitted, "smart_volume.fitted");
+    set.writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
     set.writes(&Reply::floor_area, "smart_volume.floor_area").writes(&Reply::footprint, "smart_volume.footprint");
     set.writes(&Reply::surface_area, "smart_volume.surface_area").writes(&Reply::spherical_area, "smart_volume.spherical_area");
@@ -189,11 +198,24 @@ struct StandingSolver {
     wish.courtyard_setback = m.courtyard_setback;
     wish.full_storeys = m.full_storeys;
     wish.ground = m.ground;
+    wish.order = m.order;
     return wish;
   }
 
-  static double error_of(const geometry::StandingWish& wish, double volume) {
-    return wish.volume > 0 ? std::abs(volume - wish.volume) / wish.volume : 0;
+  // What is compared with what is wanted: floor area by the volume's own storey height. In a storey that it shares, the volume
+  // may be more than that [m³].
+  static double fitted_of(const geometry::StandingWish& wish, const geometry::StandingResult& result) {
+    return result.is_shared ? result.floor_area * wish.site.storey_height : result.volume;
+  }
+
+  static double error_of(const geometry::StandingWish& wish, const geometry::StandingResult& result) {
+    return wish.volume > 0 ? std::abs(fitted_of(wish, result) - wish.volume) / wish.volume : 0;
+  }
+
+  // What is below the ground; nothing under a volume that stands on another.
+  static geometry::PlateStack cellar_of(const std::pair<int, double>& wish, const geometry::StandingResult& result) {
+    if (result.stands_on >= 0 || !result.body) return geometry::cellar_of({}, 0, wish.second);
+    return geometry::cellar_of(*result.body, wish.first, wish.second);
   }
 
   static std::string reason_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
@@ -208,12 +230,13 @@ struct StandingSolver {
   }
 
   static Reply reply_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
-                        std::span<const std::string> names) {
+                        const geometry::PlateStack& cellar, std::span<const std::string> names) {
     Table neighbours{{"node", "area"}, {}}, plates;
     for (const auto& [site, area] : result.walls) neighbours.rows.push_back({names[site], area});
     if (result.body) geometry::write_body(*result.body, plates);
     const double around = result.facade_area + result.roof_area + result.footprint;
     return {.wanted = wish.volume,
+            .fitted = fitted_of(wish, result),
             .weight = result.weight,
             .radius = std::sqrt(std::max(0.0, result.weight)),
             .volume = result.volume,
@@ -224,20 +247,23 @@ struct StandingSolver {
             .spherical_area = result.free_facade_area,
             .height = result.height,
             .bottom = result.bottom,
-            .error = error_of(wish, result.volume),
+            .error = error_of(wish, result),
             .state = std::string(name_of(result.state)),
             .reason = reason_of(wish, result, names),
             .stands_on = !(result.floor_area > 0) ? ""
-                         : wish.base < 0          ? "the ground"
-                                                  : names[static_cast<std::size_t>(wish.base)],
+                         : result.stands_on < 0   ? "the ground"
+                                                  : names[static_cast<std::size_t>(result.stands_on)],
             .neighbours = std::move(neighbours),
             .plates = std::move(plates),
             .centroid = result.centroid,
             .mesh = result.mesh,
             .storeys_built = result.storeys.count,
+            .storeys_held = result.storeys_held,
+            .cellars_built = cellar.storeys,
             .is_limited = result.storeys.is_limited,
             .facade_area = result.facade_area,
-            .roof_area = result.roof_area};
+            .roof_area = result.roof_area,
+            .cellar_area = cellar.storeys * cellar.area};
   }
 
   // On whom each volume stands. Returns what is wrong with that, sentences after semicolons.
@@ -257,6 +283,53 @@ struct StandingSolver {
     return words;
   }
 
+  // Whose footprint each volume shares. Returns what is wrong with that, sentences after semicolons. A limit of height on one of
+  // them is one on the building, above the ground of its host.
+  static std::string find_hosts(std::span<const Member> members, Kept& kept) {
+    std::string words;
+    std::vector<std::int32_t> hosts(members.size(), geometry::StandingWish::kGround);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i].shares.empty()) continue;
+      const std::string& host = members[i].shares.front();
+      const auto found = std::lower_bound(kept.names.begin(), kept.names.end(), host);
+      const auto n = static_cast<std::size_t>(found - kept.names.begin());
+      const bool is_there = n < kept.names.size() && *found == host;
+      const std::string why = !is_there                    ? "is no volume of this solver"
+                              : n == i                     ? "is itself"
+                              : !members[n].shares.empty() ? "shares the footprint of another itself"
+                                                           : "";
+      if (why.empty()) hosts[i] = static_cast<std::int32_t>(n);
+      else
+        words += "; `" + kept.names[i] + "` has a footprint of its own, because `" + host + "`, whose footprint it shares, " +
+                 why + ": change its `shares`";
+      if (members[i].shares.size() > 1)
+        words += "; `" + kept.names[i] + "` shares the footprint of `" + host + "` alone of the " +
+                 std::to_string(members[i].shares.size()) + " that its `shares` name";
+      if (why.empty() && !members[i].bases.empty())
+        words += "; the `bases` of `" + kept.names[i] + "` have no effect, because it shares the footprint of `" + host + "`";
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (hosts[i] < 0) continue;
+      const auto host = static_cast<std::size_t>(hosts[i]);
+      kept.wishes[i].host = hosts[i];
+      kept.wishes[i].base = geometry::StandingWish::kGround;
+      const double below =
+          members[i].floor_area > 0 && members[host].floor_area > 0 ? members[i].bottom - members[host].bottom : 0;
+      kept.wishes[host].height_limit = std::min(kept.wishes[host].height_limit, members[i].height_limit + std::max(0.0, below));
+    }
+    return words;
+  }
+
+  // Cellars that are asked for where none can be. Sentences after semicolons.
+  static std::string find_lost_cellars(const Kept& kept, std::span<const geometry::StandingResult> results) {
+    std::string words;
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (kept.cellars[i].first > 0 && results[i].stands_on >= 0)
+        words += "; `" + kept.names[i] + "` has no cellar, because it stands on `" +
+                 kept.names[static_cast<std::size_t>(results[i].stands_on)] + "`: set its `cellar_storeys` to 0";
+    return words;
+  }
+
   // What is built otherwise than people have set it. Sentences after semicolons.
   static std::string find_other_storeys(const Kept& kept, std::span<const geometry::StandingResult> results, double top,
                                         double tolerance) {
@@ -264,23 +337,26 @@ struct StandingSolver {
     for (std::size_t i = 0; i < results.size(); ++i) {
       const geometry::StandingWish& wish = kept.wishes[i];
       if (!(wish.volume > 0)) continue;
+      if (wish.host >= 0) continue;
+      // Of a building that several share, all of it.
+      const geometry::StandingResult& whole = results[i].is_shared ? kept.cache.results[i] : results[i];
       if (wish.storeys < wish.least)
         words += "; `" + kept.names[i] + "` has " + how_many(static_cast<std::size_t>(wish.least), "storey") +
                  ", the least that it may have, and not " + std::to_string(wish.storeys) +
                  ": lower `storeys_min`, or raise `storeys`";
-      if (wish.base < 0 && results[i].bottom < wish.ground && results[i].body)
-        words += "; `" + kept.names[i] + "` stands at " + fixed(results[i].bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
+      if (wish.base < 0 && whole.bottom < wish.ground && whole.body)
+        words += "; `" + kept.names[i] + "` stands at " + fixed(whole.bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
                  " m, because the boundary leaves no storey above that";
-      if (results[i].body && results[i].bottom + results[i].height > top + 1e-6)
-        words += "; `" + kept.names[i] + "` reaches " + fixed(results[i].bottom + results[i].height, 1) +
-                 " m, and the boundary " + fixed(top, 1) + " m: the least of its storeys need more height than there is";
+      if (whole.body && whole.bottom + whole.height > top + 1e-6)
+        words += "; `" + kept.names[i] + "` reaches " + fixed(whole.bottom + whole.height, 1) + " m, and the boundary " +
+                 fixed(top, 1) + " m: the least of its storeys need more height than there is";
       // On their way to what they want, volumes are smaller.
-      if (!results[i].body || error_of(wish, results[i].volume) > tolerance) continue;
+      if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
       int with_area = 0;
-      for (const geometry::PlateStack& stack : results[i].body->stacks) with_area += stack.storeys;
-      if (with_area < results[i].storeys.count)
+      for (const geometry::PlateStack& stack : whole.body->stacks) with_area += stack.storeys;
+      if (with_area < whole.storeys.count)
         words += "; the set-back of `" + kept.names[i] + "` leaves nothing of its upper " +
-                 how_many(static_cast<std::size_t>(results[i].storeys.count - with_area), "storey") +
+                 how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
                  ": lower it, or the number of storeys";
     }
     return words;
@@ -290,8 +366,8 @@ struct StandingSolver {
     for (std::size_t i = 0; i < results.size(); ++i) {
       out.count += results[i].volume > 0 ? 1 : 0;
       out.total_floor_area += results[i].floor_area;
-      out.covered += kept.wishes[i].base < 0 ? results[i].footprint : 0;
-      const double error = error_of(kept.wishes[i], results[i].volume);
+      out.covered += results[i].stands_on < 0 ? results[i].footprint : 0;
+      const double error = error_of(kept.wishes[i], results[i]);
       if (error <= out.largest_error) continue;
       out.largest_error = error;
       out.worst = kept.names[i];
@@ -340,11 +416,13 @@ struct StandingSolver {
     Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own.emplace();
     kept.names.clear();
     kept.wishes.clear();
+    kept.cellars.clear();
     for (const Member& member : sets.members.all) {
       kept.names.push_back(member.id);
       kept.wishes.push_back(wish_of(member));
+      kept.cellars.emplace_back(member.cellar_storeys, member.cellar_height);
     }
-    std::string words = find_bases(sets.members.all, kept);
+    std::string words = find_bases(sets.members.all, kept) + find_hosts(sets.members.all, kept);
     const std::vector<geometry::StreetAxis> streets = streets_of(in, sets);
     const geometry::StandingTick now{
         .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
@@ -364,9 +442,11 @@ struct StandingSolver {
                "` stands on the ground, because it would stand upon itself: take away what makes it do so, its `bases` or a link "
                "of the kind `stack`";
     }
-    words += find_other_storeys(kept, done->results, (*domain)->maximum.z, in.tolerance);
+    words += find_other_storeys(kept, done->results, (*domain)->maximum.z, in.tolerance) + find_lost_cellars(kept, done->results);
     add_up(kept, done->results, out);
-    for (const std::uint32_t i : answered) out.replies.replies.push_back(reply_of(kept.wishes[i], done->results[i], kept.names));
+    for (const std::uint32_t i : answered)
+      out.replies.replies.push_back(
+          reply_of(kept.wishes[i], done->results[i], cellar_of(kept.cellars[i], done->results[i]), kept.names));
     out.message = done->message;
     for (const auto& [base, text] : done->on_roofs) {
       const std::string& name = kept.names[static_cast<std::size_t>(base)];

@@ -16,10 +16,10 @@ namespace bl::exporting {
 
 /// One storey of a building.
 struct Storey {
-  int number = 0;              ///< from 0, the lowest of its building
-  int level = 0;               ///< of the plan that shows it, from 0; each storey of a building has a level of its own
-  double bottom = 0, top = 0;  ///< height above the origin [m]
-  double floor_area = 0;       ///< the storey's part of the building's figure [m²]
+  int number = 0;  ///< from 0, the lowest of its building above the ground; below it -1, -2, ...
+  int level = 0;   ///< of the plan that shows it, from 0; each storey of a building has a level of its own; of a cellar `number`
+  double bottom = 0, top = 0;              ///< height above the origin [m]
+  double floor_area = 0;                   ///< the storey's part of the building's figure [m²]
   std::vector<geometry::PlateFace> faces;  ///< its outline, arcs as chords
   /// The same with arcs, of standing volumes only: outlines, and what is not built of them; all as `geometry::PlateStack` has
   /// them.
@@ -33,12 +33,14 @@ struct Building {
   Point3 position;           ///< [m]
   Point3 arc_centre;         ///< of all arcs of a standing volume [m]
   bool is_standing = false;  ///< whole storeys on a footprint; else a rounded volume, cut at the middle of each storey
-  double asked_area = 0, floor_area = 0;     ///< [m²]
-  double asked_volume = 0, volume = 0;       ///< [m³]
-  double footprint = 0;                      ///< [m²]
-  double storey_height = 0;                  ///< [m]
-  double bottom = 0, top = 0;                ///< height above the origin [m]
-  std::vector<Storey> storeys;               ///< from the ground up; the sum of their floor areas is `floor_area`
+  double asked_area = 0, floor_area = 0;  ///< [m²]
+  double asked_volume = 0, volume = 0;    ///< [m³]
+  double footprint = 0;                   ///< [m²]
+  double storey_height = 0;               ///< [m]
+  double bottom = 0, top = 0;             ///< height above the origin [m]
+  std::vector<Storey> storeys;            ///< from the ground up; the sum of their floor areas is `floor_area`
+  /// Below the ground, from the top down. They are neither part of `floor_area` nor of `volume` and `mesh`.
+  std::vector<Storey> cellars;
   std::vector<geometry::PlateFace> outline;  ///< of its lowest storey where it stands, else as seen from above
   std::shared_ptr<const Mesh> mesh;          ///< closed; never empty
   std::shared_ptr<const Mesh> light_mesh;    ///< of a standing volume: the same with fewer triangles, for pages

@@ -7,8 +7,10 @@
 #include <map>
 
 #include "core/base/hash.h"
+#include "core/geometry/cellar.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/surroundings.h"
@@ -39,30 +41,49 @@ std::vector<PlateFace> seen_from_above(const reading::VolumeRow& volume) {
   return faces;
 }
 
-// The solver measures a rounded volume at the middle of each storey above its lowest point, at least once.
+// A rounded volume at one height.
+std::vector<PlateFace> section_at(const reading::VolumeRow& volume, double z) {
+  if (volume.exact.radius > 0) return faces_of_rings({reading::section_of(volume.exact, z)});
+  return faces_of_rings(rings_of(geometry::section(*volume.mesh, z, [](std::size_t) { return true; })));
+}
+
+// The solver measures a rounded volume at the middle of each storey above its lowest point, at least once. What is left above
+// the last whole storey counts by its share of a storey. Half a storey or more is a storey of the drawing; less belongs to the
+// one below.
 void cut(const reading::VolumeRow& volume, Building& building) {
   const double height = volume.figures.height, storey = building.storey_height;
   const auto cuts = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(height / storey - 0.5)));
-  for (std::int64_t k = 0; k < cuts; ++k) {
-    const double bottom = building.bottom + static_cast<double>(k) * storey;
-    const double z = height < storey ? building.bottom + height / 2 : bottom + storey / 2;
-    std::vector<Ring> rings;
-    if (volume.exact.radius > 0) rings = {reading::section_of(volume.exact, z)};
-    else rings = rings_of(geometry::section(*volume.mesh, z, [](std::size_t) { return true; }));
-    Storey made{
-        static_cast<int>(k), 0, bottom, std::min(bottom + storey, building.top), 0, faces_of_rings(std::move(rings)), {}, {}};
-    if (!made.faces.empty()) building.storeys.push_back(std::move(made));
-  }
   double drawn = 0;
-  for (const Storey& made : building.storeys) drawn += area_of(made.faces);
+  for (std::int64_t k = 0; k < cuts; ++k) {
+    const double bottom = building.bottom + static_cast<double>(k) * storey, top = std::min(bottom + storey, building.top);
+    Storey made{static_cast<int>(k), 0, bottom, top, 0, section_at(volume, 0.5 * (bottom + top)), {}, {}};
+    if (made.faces.empty()) continue;
+    made.floor_area = area_of(made.faces) * (cuts > 1 ? (top - bottom) / storey : 1);
+    if (const double rest = building.top - top; k + 1 == cuts && rest > 0)
+      made.floor_area += rest / storey * area_of(section_at(volume, top + 0.5 * rest));
+    drawn += made.floor_area;
+    building.storeys.push_back(std::move(made));
+  }
   // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
-  for (Storey& made : building.storeys) made.floor_area = building.floor_area * area_of(made.faces) / drawn;
+  for (Storey& made : building.storeys) made.floor_area *= building.floor_area / drawn;
   building.mesh = std::make_shared<const Mesh>(*volume.mesh);
   building.shape = volume.mesh;
   building.outline = seen_from_above(volume);
 }
 
-void add_building(const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
+void add_cellars(const State& state, const reading::VolumeRow& volume, Building& building) {
+  const auto figures = reading::row_of<reading::CellarFigures>(state, volume.node);
+  if (!figures || figures->storeys <= 0) return;
+  const geometry::PlateStack cellar =
+      geometry::cellar_of(volume.body, static_cast<int>(figures->storeys), figures->storey_height);
+  const std::vector<PlateFace> faces = geometry::faces_of(cellar, volume.body.centre, kChordTolerance);
+  for (int k = 1; k <= cellar.storeys; ++k) {
+    const double bottom = building.bottom - k * cellar.storey_height;
+    building.cellars.push_back({-k, -k, bottom, bottom + cellar.storey_height, cellar.area, faces, cellar.outlines, {}});
+  }
+}
+
+void add_building(const State& state, const reading::VolumeRow& volume, const drawing::Palette& palette, Proposal& all) {
   Building building;
   building.id = volume.id;
   building.label = volume.name;
@@ -77,7 +98,7 @@ void add_building(const reading::VolumeRow& volume, const drawing::Palette& pale
   building.storey_height = std::max(0.1, volume.figures.storey_height);
   building.bottom = volume.figures.bottom;
   building.top = volume.figures.bottom + volume.figures.height;
-  if (!volume.body.stacks.empty()) stand(volume.body, building);
+  if (!volume.body.stacks.empty()) stand(volume.body, building), add_cellars(state, volume, building);
   else if (volume.mesh) cut(volume, building);
   if (building.mesh != nullptr && !building.mesh->triangles.empty() && !building.storeys.empty())
     return all.buildings.push_back(std::move(building));
@@ -263,7 +284,7 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
   const Settings& settings = state.plan->settings;
   all.reference = {settings.coordinate_system, settings.origin_x,  settings.origin_y,
                    settings.latitude,          settings.longitude, settings.true_north};
-  for (const reading::VolumeRow& volume : model.volumes) add_building(volume, palette, all);
+  for (const reading::VolumeRow& volume : model.volumes) add_building(state, volume, palette, all);
   if (all.buildings.empty())
     return Error{ErrorCode::missing, "",
                  model.volumes.empty() ? "the scene has no volumes, so that there is no proposal to hand on"

@@ -73,7 +73,28 @@ void measure_body(StandingResult& result) {
                        moment.z / moment_area};
 }
 
-StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& site, std::uint32_t i) {
+// Sides towards other sites, which a diagram counts by itself, get the numbers of their wishes.
+void name_sites(StandingBody& body, std::span<const std::uint32_t> members) {
+  for (PlateStack& stack : body.stacks)
+    for (std::vector<PlateRing>* rings : {&stack.outlines, &stack.courtyards})
+      for (PlateRing& ring : *rings)
+        for (PlateRing::Corner& corner : ring.corners)
+          if (corner.beyond >= 0) corner.beyond = static_cast<std::int32_t>(members[static_cast<std::size_t>(corner.beyond)]);
+}
+
+// Height, mesh, walls and middle of a body that is not empty.
+void take_body(StandingBody body, StandingResult& result) {
+  if (!body.stacks.empty()) {
+    result.height = body.stacks.back().top() - result.bottom;
+    result.mesh = std::make_shared<const Mesh>(mesh_of(body, kChordTolerance));
+  }
+  result.body = std::make_shared<const StandingBody>(std::move(body));
+  measure_body(result);
+}
+
+StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& site, std::uint32_t i,
+                         std::span<const std::uint32_t> members, std::span<const BuildingShare> shares,
+                         SharedBuilding& building) {
   const FootprintMeasure& measure = diagram.footprints()[i];
   StandingResult result;
   result.state = measure.state;
@@ -83,19 +104,22 @@ StandingResult result_of(const FootprintDiagram& diagram, const StandingSite& si
   result.footprint = measure.footprint;
   result.bottom = site.site.position.z;
   result.centroid = site.site.position;
-  auto body = std::make_shared<StandingBody>(body_of(diagram, i));
-  if (!body->stacks.empty()) {
-    result.height = body->stacks.back().top() - result.bottom;
-    result.mesh = std::make_shared<const Mesh>(mesh_of(*body, kChordTolerance));
+  StandingBody body = body_of(diagram, i);
+  name_sites(body, members);
+  if (!shares.empty()) {
+    building = share_out(body, shares, site.angle);
+    body = building.whole;
+    result.volume = 0;
+    for (const PlateStack& stack : body.stacks) result.volume += stack.storeys * stack.storey_height * stack.area;
   }
-  result.body = std::move(body);
-  measure_body(result);
+  take_body(std::move(body), result);
   return result;
 }
 
-// The sites of a level, with the storeys that they may have below `highest`. `bottom`: of the ground, or the roof.
-std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const StandingTick::Level& level, double bottom,
-                                   double highest) {
+// The sites of a level, and the storeys that they may have below `highest`. `bottom`: of the ground, or the roof.
+std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const StandingTick::Level& level,
+                                   const StandingTick::Cache& kept, double bottom, double highest,
+                                   std::vector<Storeys>& storeys) {
   std::vector<StandingSite> sites;
   for (const std::uint32_t i : level.members) {
     StandingSite& site = sites.emplace_back(wishes[i].site);
@@ -105,32 +129,92 @@ std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const S
       site.has_border_walls = false;
     }
     site.site.position.z = level.base < 0 ? floor_of(wishes[i], bottom, highest) : bottom;
-    site.runs = runs_of(wishes[i], storeys_of(wishes[i], highest - site.site.position.z).count);
+    const double room = highest - site.site.position.z;
+    storeys.push_back(kept.shares[i].empty() ? storeys_of(wishes[i], room)
+                                             : storeys_of(wishes[i], kept.shares[i], room, site.storey_height));
+    site.runs = runs_of(wishes[i], storeys.back().count);
   }
   return sites;
+}
+
+bool is_member(std::span<const StandingWish> wishes, std::size_t i) {
+  const std::int32_t host = wishes[i].host;
+  // Who shares the footprint of somebody who shares one has a footprint of its own.
+  return host >= 0 && host != static_cast<std::int32_t>(i) && wishes[static_cast<std::size_t>(host)].host < 0;
+}
+
+// Who shares the footprint of each wish, itself among them, from the ground up; none where nobody does.
+std::vector<std::vector<BuildingShare>> shares_of(std::span<const StandingWish> wishes) {
+  std::vector<std::vector<BuildingShare>> shares(wishes.size());
+  const auto share_of = [&](std::uint32_t i) {
+    return BuildingShare{i, wishes[i].volume / wishes[i].site.storey_height, wishes[i].site.storey_height};
+  };
+  for (std::uint32_t i = 0; i < wishes.size(); ++i) {
+    if (!is_member(wishes, i)) continue;
+    const auto host = static_cast<std::uint32_t>(wishes[i].host);
+    if (shares[host].empty()) shares[host].push_back(share_of(host));
+    shares[host].push_back(share_of(i));
+  }
+  for (std::vector<BuildingShare>& of_one : shares)
+    std::stable_sort(of_one.begin(), of_one.end(),
+                     [&](const BuildingShare& a, const BuildingShare& b) { return wishes[a.site].order < wishes[b.site].order; });
+  return shares;
+}
+
+// What one volume has of a building.
+StandingResult part_of(const StandingResult& whole, const SharedBuilding& building, std::size_t share, bool is_host,
+                       const StandingWish& wish) {
+  StandingResult part;
+  part.state = whole.state;
+  part.weight = is_host ? whole.weight : wish.site.site.weight;
+  part.bottom = whole.bottom;
+  part.centroid = whole.centroid;
+  part.is_shared = true;
+  part.storeys = {0, whole.storeys.is_limited};
+  const StandingBody& body = building.parts[share];
+  if (!body.stacks.empty()) part.bottom = body.stacks.front().bottom;
+  else if (part.state == SiteState::alive) part.state = SiteState::starved;
+  for (const PlateStack& stack : body.stacks) {
+    part.storeys.count += stack.storeys;
+    part.floor_area += stack.storeys * stack.area;
+    part.volume += stack.storeys * stack.storey_height * stack.area;
+  }
+  part.footprint = body.stacks.empty() ? 0 : body.stacks.front().area;
+  part.storeys_held = is_host ? whole.storeys.count : part.storeys.count;
+  take_body(body, part);
+  part.roof_area = building.roofs[share];
+  return part;
 }
 
 // Corners of a boundary are where its planes meet, and off by rounding: a ground at -4e-15 m is one at 0.
 double ground_of(const Domain& domain) { return 1e-9 * std::round(1e9 * domain.minimum.z); }
 
-// On whom each wish stands, without circles: each member of one stands on the ground.
+// On whom each wish stands, without circles: each member of one stands on the ground. Who stands on one volume of a building
+// stands on the roof of the building.
 std::vector<std::int32_t> bases_of(std::span<const StandingWish> wishes, std::vector<std::uint32_t>& in_circles) {
+  const auto base_of = [&](std::size_t i) {
+    if (is_member(wishes, i)) return StandingWish::kGround;
+    const std::int32_t base = wishes[i].base;
+    return base >= 0 && is_member(wishes, static_cast<std::size_t>(base)) ? wishes[static_cast<std::size_t>(base)].host : base;
+  };
   std::vector<std::int32_t> bases;
   for (std::uint32_t i = 0; i < wishes.size(); ++i) {
-    std::int32_t below = wishes[i].base;
+    std::int32_t below = base_of(i);
     for (std::size_t step = 0; step < wishes.size() && below >= 0 && below != static_cast<std::int32_t>(i); ++step)
-      below = wishes[static_cast<std::size_t>(below)].base;
+      below = base_of(static_cast<std::size_t>(below));
     const bool is_in_circle = below == static_cast<std::int32_t>(i);
     if (is_in_circle) in_circles.push_back(i);
-    bases.push_back(is_in_circle ? StandingWish::kGround : wishes[i].base);
+    bases.push_back(is_in_circle ? StandingWish::kGround : base_of(i));
   }
   return bases;
 }
 
 // The levels, each after that of its base. What is known of a level is kept where it has the same members.
-std::vector<StandingTick::Level> levels_of(std::span<const std::int32_t> bases, std::vector<StandingTick::Level> kept) {
+std::vector<StandingTick::Level> levels_of(std::span<const StandingWish> wishes, std::span<const std::int32_t> bases,
+                                           std::vector<StandingTick::Level> kept) {
   std::map<std::int32_t, std::vector<std::uint32_t>> members;
-  for (std::uint32_t i = 0; i < bases.size(); ++i) members[bases[i]].push_back(i);
+  for (std::uint32_t i = 0; i < bases.size(); ++i)
+    if (!is_member(wishes, i)) members[bases[i]].push_back(i);
   std::vector<StandingTick::Level> levels;
   const auto add = [&](std::int32_t base) {
     const auto found = members.find(base);
@@ -190,16 +274,33 @@ double floor_of(const StandingWish& wish, double underside, double top) {
   return std::max(underside, std::min(wish.ground, top - wish.site.storey_height));
 }
 
+Storeys storeys_of(StandingWish wish, std::span<const BuildingShare> shares, double highest, double& storey_height) {
+  const auto at = [&] {
+    storey_height = wish.site.storey_height = mean_storey_height(shares, wish.storeys);
+    return storeys_of(wish, highest);
+  };
+  Storeys storeys = at();
+  const bool is_limited = storeys.is_limited;
+  while (storeys.count < wish.storeys) {
+    wish.storeys = storeys.count;
+    storeys = at();
+  }
+  return {storeys.count, is_limited};
+}
+
 Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level,
                                      Cache& kept, Outcome& outcome) const {
   const bool is_roof = level.base >= 0;
   const auto set = is_roof ? level.diagram.set_domain(level.domain) : level.diagram.set_domain(ground, streets);
   if (!set) return set.error();
-  std::vector<StandingSite> sites = sites_of(wishes, level, bottom, ground.maximum.z);
+  std::vector<Storeys> storeys;
+  std::vector<StandingSite> sites = sites_of(wishes, level, kept, bottom, ground.maximum.z, storeys);
   std::vector<FloorDemand> demands;
   for (std::uint32_t k = 0; k < sites.size(); ++k) {
     const StandingWish& wish = wishes[level.members[k]];
-    const double area = wish.volume / wish.site.storey_height;
+    const std::vector<BuildingShare>& shares = kept.shares[level.members[k]];
+    double area = shares.empty() ? wish.volume / wish.site.storey_height : 0;
+    for (const BuildingShare& share : shares) area += share.area;
     demands.push_back({{k}, area, area});
   }
   if (steps > 0) {
@@ -214,22 +315,27 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
   } else if (auto made = level.diagram.update(sites, pool); !made) {
     return made.error();
   }
-  const std::vector<std::uint32_t> touched = level.diagram.take_touched();
+  std::vector<std::uint32_t> touched = level.diagram.take_touched();
+  for (std::uint32_t k = 0; k < sites.size(); ++k)
+    if (const std::uint32_t i = level.members[k]; !(kept.shares[i] == kept.shares_before[i])) touched.push_back(k);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   for (const std::uint32_t k : touched) {
-    StandingResult& result = kept.results[level.members[k]];
-    result = result_of(level.diagram, sites[k], k);
-    for (auto& [site, area] : result.walls) site = level.members[site];
-    if (is_roof) free_edges(result);
+    const std::uint32_t i = level.members[k];
+    kept.results[i] = result_of(level.diagram, sites[k], k, level.members, kept.shares[i], kept.buildings[i]);
+    if (is_roof) free_edges(kept.results[i]);
   }
   for (std::uint32_t k = 0; k < sites.size(); ++k) {
     const std::uint32_t i = level.members[k];
-    const Storeys storeys = storeys_of(wishes[i], ground.maximum.z - sites[k].site.position.z);
     const bool is_touched = std::binary_search(touched.begin(), touched.end(), k);
     // A site that has nothing may get another weight and still have nothing: no footprint is touched then.
     const double weight = sites[k].site.weight;
-    if (is_touched || !(storeys == kept.results[i].storeys) || weight != kept.results[i].weight) outcome.differing.push_back(i);
-    kept.results[i].storeys = storeys;
+    if (is_touched || !(storeys[k] == kept.results[i].storeys) || weight != kept.results[i].weight)
+      outcome.differing.push_back(i);
+    kept.results[i].storeys = storeys[k];
+    kept.results[i].storeys_held = storeys[k].count;
     kept.results[i].weight = weight;
+    kept.results[i].stands_on = level.base;
   }
   return {};
 }
@@ -258,6 +364,9 @@ Result<void> StandingTick::run_roof(const Domain& ground, std::span<const Standi
     none.state = SiteState::starved;
     none.weight = wishes[i].site.site.weight;
     none.storeys = storeys_of(wishes[i], ground.maximum.z - bottom);
+    none.storeys_held = none.storeys.count;
+    none.stands_on = level.base;
+    kept.buildings[i] = {{}, std::vector<StandingBody>(kept.shares[i].size()), std::vector<double>(kept.shares[i].size(), 0)};
     none.bottom = bottom;
     none.centroid = wishes[i].site.site.position;
     none.body = std::make_shared<const StandingBody>();
@@ -267,11 +376,67 @@ Result<void> StandingTick::run_roof(const Domain& ground, std::span<const Standi
   return {};
 }
 
+// Gives what buildings have to those who share them.
+void StandingTick::share_buildings(std::span<const StandingWish> wishes, Cache& kept, Outcome& outcome) const {
+  const auto has_shares = [](const std::vector<BuildingShare>& shares) { return !shares.empty(); };
+  const std::vector<std::uint32_t> differing = outcome.differing;
+  std::vector<std::uint8_t> is_anew(wishes.size(), 0);
+  for (const std::uint32_t i : differing) is_anew[i] = 1;
+  // Who has come to share a footprint, or no longer does.
+  for (std::uint32_t i = 0; i < wishes.size(); ++i)
+    if (!(kept.shares[i] == kept.shares_before[i]))
+      for (const std::vector<BuildingShare>* shares : {&kept.shares[i], &kept.shares_before[i]})
+        for (const BuildingShare& share : *shares)
+          if (share.site < wishes.size()) outcome.differing.push_back(share.site);
+  if (std::any_of(kept.shares.begin(), kept.shares.end(), has_shares)) {
+    const bool is_first = kept.parts.size() != wishes.size();
+    kept.parts.resize(wishes.size());
+    for (std::uint32_t i = 0; i < wishes.size(); ++i) {
+      const std::vector<BuildingShare>& shares = kept.shares[i];
+      if (shares.empty()) {
+        if (!is_member(wishes, i)) kept.parts[i] = kept.results[i];
+        continue;
+      }
+      if (!is_first && is_anew[i] == 0 && shares == kept.shares_before[i]) continue;
+      std::int32_t below = kept.results[i].stands_on;
+      for (std::size_t m = 0; m < shares.size(); ++m) {
+        StandingResult& part = kept.parts[shares[m].site];
+        part = part_of(kept.results[i], kept.buildings[i], m, shares[m].site == i, wishes[shares[m].site]);
+        const bool is_lowest = part.bottom <= kept.results[i].bottom;
+        part.stands_on = is_lowest ? kept.results[i].stands_on : below;
+        if (kept.results[i].stands_on >= 0) free_edges(part);
+        if (part.floor_area > 0) below = static_cast<std::int32_t>(shares[m].site);
+        outcome.differing.push_back(shares[m].site);
+      }
+    }
+    outcome.results = kept.parts;
+    split_losses(wishes, kept, outcome);
+  } else {
+    kept.parts.clear();
+    outcome.results = kept.results;
+  }
+  kept.shares_before = kept.shares;
+}
+
+// Of a building that is short, all are short in proportion.
+void StandingTick::split_losses(std::span<const StandingWish> wishes, const Cache& kept, Outcome& outcome) {
+  std::vector<FloorLoss> losses;
+  for (const FloorLoss& loss : outcome.losses) {
+    if (kept.shares[loss.demand].empty()) losses.push_back(loss);
+    for (const BuildingShare& share : kept.shares[loss.demand])
+      if (wishes[share.site].volume > 0) losses.push_back({share.site, share.area, kept.parts[share.site].floor_area});
+  }
+  outcome.losses = std::move(losses);
+}
+
 Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const {
   Outcome outcome;
   const std::vector<std::int32_t> bases = bases_of(wishes, outcome.in_circles);
-  kept.levels = levels_of(bases, std::move(kept.levels));
+  kept.levels = levels_of(wishes, bases, std::move(kept.levels));
   kept.results.resize(wishes.size());
+  kept.shares = shares_of(wishes);
+  kept.shares_before.resize(wishes.size());
+  kept.buildings.resize(wishes.size());
   for (Level& level : kept.levels) {
     const bool is_roof = level.base >= 0;
     auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
@@ -279,8 +444,9 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     if (!done) return done.error();
     if (!is_roof) kept.plot_area = level.diagram.plot_area();
   }
+  share_buildings(wishes, kept, outcome);
   std::sort(outcome.differing.begin(), outcome.differing.end());
-  outcome.results = kept.results;
+  outcome.differing.erase(std::unique(outcome.differing.begin(), outcome.differing.end()), outcome.differing.end());
   return outcome;
 }
 

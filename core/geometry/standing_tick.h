@@ -10,6 +10,7 @@
 
 #include "core/geometry/footprint_fit.h"
 #include "core/geometry/plates.h"
+#include "core/geometry/shared_building.h"
 
 namespace bl::geometry {
 
@@ -28,6 +29,8 @@ struct StandingWish {
   int full_storeys = 0;
   double ground = -1e4;         ///< height of the ground where it stands, unless that is a roof [m]
   std::int32_t base = kGround;  ///< the wish on whose roof it stands
+  std::int32_t host = kGround;  ///< the wish whose footprint it shares; none: it has its own
+  int order = 0;                ///< among those that share a footprint, from the ground up; of equal ones the host comes first
   bool operator==(const StandingWish&) const = default;
 };
 
@@ -47,11 +50,17 @@ Storeys storeys_of(const StandingWish& wish, double highest);
 /// `top` [m].
 double floor_of(const StandingWish& wish, double underside, double top);
 
+/// The same of a building that several volumes share, with the mean height of its storeys [m]: fewer storeys may be higher ones.
+Storeys storeys_of(StandingWish wish, std::span<const BuildingShare> shares, double highest, double& storey_height);
+
 /// What one volume has got.
 struct StandingResult {
   SiteState state = SiteState::alive;
-  Storeys storeys;
-  double weight = 0;  ///< [m²]
+  Storeys storeys;                                 ///< its own: those in which it has a part
+  int storeys_held = 1;                            ///< those that limits of height hold: of a host those of the whole building
+  bool is_shared = false;                          ///< it has a part of a building; the others have buildings of their own
+  std::int32_t stands_on = StandingWish::kGround;  ///< the wish that has the storey, or the roof, below
+  double weight = 0;                               ///< [m²]
   double volume = 0, floor_area = 0, footprint = 0, height = 0, bottom = 0;
   double facade_area = 0, free_facade_area = 0, roof_area = 0;  ///< [m²]; free: towards no neighbour
   Point3 centroid;
@@ -81,9 +90,13 @@ struct StandingTick {
     double top = 0;                             ///< [m]
   };
   struct Cache {
-    std::vector<Level> levels;  ///< those on the ground first; each after that of its base
-    std::vector<StandingResult> results;
-    double plot_area = 0;  ///< [m²]
+    std::vector<Level> levels;                              ///< those on the ground first; each after that of its base
+    std::vector<StandingResult> results;                    ///< of hosts: of the whole building; of who shares it: nothing
+    std::vector<std::vector<BuildingShare>> shares;         ///< per wish: of a host, who shares its footprint; else none
+    std::vector<std::vector<BuildingShare>> shares_before;  ///< of the last tick
+    std::vector<SharedBuilding> buildings;                  ///< per wish: of a host
+    std::vector<StandingResult> parts;                      ///< what each wish has, where somebody shares a footprint
+    double plot_area = 0;                                   ///< [m²]
   };
   /// What cannot be met on one level.
   struct LevelWord {
@@ -91,7 +104,7 @@ struct StandingTick {
     std::string text;
   };
   struct Outcome {
-    std::span<const StandingResult> results;  ///< in the cache, valid until its next use
+    std::span<const StandingResult> results;  ///< in the cache, valid until its next use: what each wish has
     std::vector<std::uint32_t> differing;     ///< ascending: those whose result may differ from the last one in the cache
     std::vector<FloorLoss> losses;            ///< by site
     std::string message;                      ///< a sentence where the demands on the ground cannot be met together
@@ -103,6 +116,8 @@ struct StandingTick {
  private:
   Result<void> run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                          Outcome& outcome) const;
+  void share_buildings(std::span<const StandingWish> wishes, Cache& kept, Outcome& outcome) const;
+  static void split_losses(std::span<const StandingWish> wishes, const Cache& kept, Outcome& outcome);
   Result<void> run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                         Outcome& outcome) const;
 };

@@ -18,7 +18,7 @@ namespace bl::geometry {
 
 namespace {
 
-// Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
+// Floor areas are met by correcting the volumes asked for, which mostly takes three or four rounds; where it does not, it ends.
 constexpr int kMostCorrections = 25;
 // No nearer for so many evaluations, and the fit is going nowhere; or for so many, where there is another way to start.
 constexpr int kStalled = 40, kStalledEarly = 15;

@@ -97,29 +97,27 @@ std::string causes_of(const Account& account, const std::vector<std::string>& li
   if (account.withheld() > tolerance * account.asked)
     add((limiters.empty() ? std::string("limits leave ") : listed(limiters) + (limiters.size() == 1 ? " leaves " : " leave ")) +
         quantity(account.limited, Unit::cubic_metre) + " of " + quantity(account.asked, Unit::cubic_metre));
-  if (share_missing(account.limited, account.volume) > tolerance)
-    add("there is room for " + quantity(account.volume, Unit::cubic_metre) + " of the " +
-        quantity(account.limited, Unit::cubic_metre) + " aimed at");
-  // Floor area can be missing where the volume is there: storeys of a rounded shape hold less than volume over height.
-  if (account.is_by_area &&
-      share_missing(account.asked_area, account.floor_area) > share_missing(account.asked, account.volume) + tolerance)
-    add("the storeys of the shape have less floor area than its volume would give: ask for more volume, or lower the storeys");
+  const double aimed = account.is_by_area ? account.limited_area : account.limited;
+  const double has = account.is_by_area ? account.floor_area : account.volume;
+  const Unit unit = account.is_by_area ? Unit::square_metre : Unit::cubic_metre;
+  if (share_missing(aimed, has) > tolerance)
+    add("there is room for " + quantity(has, unit) + " of the " + quantity(aimed, unit) + " aimed at");
   if (text.empty()) add("limits, room and shape each take a little");
   return text;
 }
 
 }  // namespace
 
-double Account::missing() const { return std::max(0.0, asked - volume); }
+double Account::missing() const { return is_by_area ? missing_area_share() * asked : std::max(0.0, asked - volume); }
 double Account::missing_area() const { return std::max(0.0, asked_area - floor_area); }
 double Account::withheld() const { return std::max(0.0, asked - limited); }
 
-double Account::missing_share() const { return share_missing(asked, volume); }
+double Account::missing_share() const { return is_by_area ? missing_area_share() : share_missing(asked, volume); }
 double Account::missing_area_share() const { return share_missing(asked_area, floor_area); }
 
-double Account::short_share() const { return std::max(missing_share(), is_by_area ? missing_area_share() : 0.0); }
+double Account::short_share() const { return missing_share(); }
 
-double Account::difference() const { return asked > kNothing ? (volume - asked) / asked : 0; }
+double Account::difference() const { return is_by_area ? area_difference() : asked > kNothing ? (volume - asked) / asked : 0; }
 double Account::standing() const { return short_share() > 0 ? -short_share() : difference(); }
 double Account::area_difference() const { return asked_area > kNothing ? (floor_area - asked_area) / asked_area : 0; }
 

@@ -24,7 +24,8 @@ struct Account {
   double limited_area = 0;  ///< the floor area of the volume aimed at [m²]
   double floor_area = 0;    ///< the present floor area [m²]
 
-  /// The volume and the floor area missing to the demand; never below 0.
+  /// The volume and the floor area missing to the demand; never below 0. Where floor area was asked for, the missing volume is
+  /// that of the missing floor area: the shape may take whatever volume its floors need.
   double missing() const;
   double missing_area() const;
   /// The same as shares of the demand, from 0 to 1.
@@ -32,9 +33,10 @@ struct Account {
   double missing_area_share() const;
   /// The part of the demanded volume that limits take away.
   double withheld() const;
-  /// The larger of both shares where floor area was asked for, else that of the volume.
+  /// Of what was asked for: floor area or volume.
   double short_share() const;
-  /// The present amount minus the demand, below 0 where it is less; 0 where nothing was asked for.
+  /// The present amount of what was asked for minus the demand, as a share of it, below 0 where it is less; 0 where nothing was
+  /// asked for.
   double difference() const;
   double area_difference() const;
   /// Below 0 the missing share, above 0 the excess share: one number for a colour or a bar.

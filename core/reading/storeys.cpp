@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/volume.h"
 
 namespace bl::reading {
@@ -31,10 +32,19 @@ std::string holders_of(const State& state, PortRef ref) {
   return who.empty() ? "its height limit" : who;
 }
 
+// The storeys that limits hold; a volume that shares the footprint of another has none of its own to ask for.
+std::optional<StoreyFigures> held_storeys(const State& state, std::uint32_t node) {
+  auto figures = reading::row_of<StoreyFigures>(state, node);
+  const auto sharing = reading::row_of<SharingFigures>(state, node);
+  if (!figures || !sharing || !sharing->shares.empty()) return std::nullopt;
+  figures->storeys_built = sharing->storeys_held;
+  return figures;
+}
+
 }  // namespace
 
 std::optional<WithheldHeight> withheld_height(const State& state, std::uint32_t node) {
-  const auto figures = reading::row_of<StoreyFigures>(state, node);
+  const auto figures = held_storeys(state, node);
   if (!figures || !figures->is_limited || figures->storeys_built >= figures->storeys) return std::nullopt;
   const auto limit = reading::port_of<&StoreyFigures::height_limit>(*state.plan, node);
   const double storey = reading::read<&VolumeFigures::storey_height>(state, node);
@@ -53,7 +63,7 @@ bool has_effect(const State& state, PortRef ref) {
 }
 
 std::string why_lower(const State& state, std::uint32_t node) {
-  const auto figures = reading::row_of<StoreyFigures>(state, node);
+  const auto figures = held_storeys(state, node);
   if (!figures || figures->storeys_built == 0 || figures->storeys_built >= figures->storeys) return "";
   const std::string had = std::to_string(figures->storeys_built) + " of " + std::to_string(figures->storeys) + " storeys: ";
   if (!figures->is_limited) return had + "the boundary is no higher";

@@ -39,7 +39,7 @@ void met_cell(drawing::Markup& page, const reading::Account& account) {
   page.text(words).close();
 }
 
-// What is missing by the measure in which more of it is missing.
+// What is missing by the measure that was asked for.
 std::string short_text(const reading::Account& account, double tolerance) {
   return account.is_short(tolerance) ? reading::percent(account.short_share()) : "\xE2\x80\x93";
 }

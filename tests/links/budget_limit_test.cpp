@@ -8,7 +8,7 @@ LinkCase budget(double spent, std::vector<Value> demands, std::vector<Value> lim
   LinkCase link("budget_limit");
   link.set("gain", 0.5).set("tolerance", 0.0001).from("stakeholder_group.budget", 8000.0).from("stakeholder_group.spent", spent);
   link.read(End::to, "node.id", std::vector<Value>(demands.size(), std::string("house")));
-  link.read(End::to, "smart_volume.wanted", limits).read(End::to, "smart_volume.volume", limits);
+  link.read(End::to, "smart_volume.wanted", limits).read(End::to, "smart_volume.fitted", limits);
   link.read(End::to, "smart_volume.demand", std::move(demands)).read(End::to, "smart_volume.demand_limit", std::move(limits));
   return link;
 }
@@ -32,7 +32,7 @@ TEST(BudgetLimit, SaysNothingWhereNothingIsSpentAndAsksForABudget) {
 TEST(BudgetLimit, SaysWhoKeepsTheBudgetFromBeingKept) {
   auto link = budget(9000, {4000.0, 6000.0}, {1000.0, 1500.0});
   link.read(End::to, "node.id", {std::string("hotel"), std::string("cafe")});
-  link.read(End::to, "smart_volume.wanted", {3900.0, 1500.0}).read(End::to, "smart_volume.volume", {3900.0, 1500.0});
+  link.read(End::to, "smart_volume.wanted", {3900.0, 1500.0}).read(End::to, "smart_volume.fitted", {3900.0, 1500.0});
   ASSERT_EQ(link.set("least", 0.25).run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::unmet),
             "from: the budget cannot be kept: costs of 9000 € of 8000 €, held by `hotel` (3900 m³ are insisted on); raise the "

@@ -16,7 +16,7 @@ LinkCase feedback(double load, double demand, double limit) {
   link.to("traffic_zone.access", Shared(std::vector<std::string>{"gate", "unknown"}));
   link.to("traffic_zone.trips_served", 10.0).to("traffic_zone.trips_lost", 0.0);
   link.to("smart_volume.demand", demand).to("smart_volume.demand_limit", limit);
-  link.to("smart_volume.wanted", std::min(demand, limit)).to("smart_volume.volume", std::min(demand, limit));
+  link.to("smart_volume.wanted", std::min(demand, limit)).to("smart_volume.fitted", std::min(demand, limit));
   return link;
 }
 
@@ -118,7 +118,7 @@ TEST(CongestionFeedback, WhatStandsGivesUpWholeStoreysWithItsDemand) {
     link.to("smart_volume.storey_height", 3.0)
         .to("footprint.storeys", std::int64_t{10})
         .to("footprint.storeys_min", std::int64_t{1});
-    link.to("footprint.storeys_built", built).to("footprint.height_limit", 1e6);
+    link.to("footprint.storeys_held", built).to("footprint.height_limit", 1e6);
     return link;
   };
   auto first = standing(1e9, 10), next = standing(900, 9);  // shares of 0.9 and 0.81: nine storeys, then eight

@@ -16,7 +16,7 @@ LinkCase rules(double fsi, double gsi, double height) {
   link.read(End::to, "smart_volume.demand", {1000.0, 1000.0}).read(End::to, "smart_volume.demand_limit", {1e9, 1e9});
   link.read(End::to, "smart_volume.bottom", {0.0, 0.0}).read(End::to, "smart_volume.height", {height, height});
   link.read(End::to, "node.id", {std::string("here"), std::string("beside")});
-  link.read(End::to, "smart_volume.wanted", {1000.0, 1000.0}).read(End::to, "smart_volume.volume", {1000.0, 1000.0});
+  link.read(End::to, "smart_volume.wanted", {1000.0, 1000.0}).read(End::to, "smart_volume.fitted", {1000.0, 1000.0});
   link.set("gain", 0.5).set("tolerance", 0.0).set("least", 0.001);
   return link;
 }
@@ -55,13 +55,13 @@ TEST(PlotRules, JustBelowWhatIsAllowedTheLimitsRest) {
 TEST(PlotRules, LeaveTheLeastShareAndSayWhoHoldsTheRule) {
   LinkCase link = rules(1, 0.62, 5);
   link.from("plot.gsi_max", 0.4).read(End::to, "smart_volume.demand_limit", {200.0, 1e9});
-  link.read(End::to, "smart_volume.wanted", {900.0, 1000.0}).read(End::to, "smart_volume.volume", {899.0, 1000.0});
+  link.read(End::to, "smart_volume.wanted", {900.0, 1000.0}).read(End::to, "smart_volume.fitted", {899.0, 1000.0});
   ASSERT_EQ(link.set("least", 0.2).run(), "");
   EXPECT_DOUBLE_EQ(link.number(End::to, "smart_volume.demand_limit", 0), 200);
   EXPECT_EQ(link.remarked(LinkRemark::unmet),
             "from: cannot be met: GSI 0.62 of 0.40, held by `here` (900 m³ are insisted on); loosen the rule, or lower what is "
             "insisted on or `least`");
-  link.read(End::to, "smart_volume.wanted", {200.0, 1000.0}).read(End::to, "smart_volume.volume", {200.0, 1000.0});
+  link.read(End::to, "smart_volume.wanted", {200.0, 1000.0}).read(End::to, "smart_volume.fitted", {200.0, 1000.0});
   ASSERT_EQ(link.run(), "");
   EXPECT_NE(link.remarked(LinkRemark::unmet).find("GSI 0.62 of 0.40, held by `here`, which is down to 20 % of its demand"),
             std::string::npos);
@@ -72,7 +72,7 @@ TEST(PlotRules, SayOnceWhatHoldsSeveralRules) {
   LinkCase link = rules(4.136, 0.62, 15);
   link.from("plot.height_max", 4.0).read(End::to, "smart_volume.centroid", std::vector<Value>(2, Vector3{5, 5, 5}));
   link.read(End::to, "smart_volume.demand_limit", {200.0, 200.0});
-  link.read(End::to, "smart_volume.wanted", {200.0, 200.0}).read(End::to, "smart_volume.volume", {200.0, 200.0});
+  link.read(End::to, "smart_volume.wanted", {200.0, 200.0}).read(End::to, "smart_volume.fitted", {200.0, 200.0});
   ASSERT_EQ(link.set("least", 0.2).run(), "");
   EXPECT_EQ(
       link.remarked(LinkRemark::unmet),
@@ -89,7 +89,7 @@ TEST(PlotRules, CountTheHeightsOfManyVolumes) {
   const auto all = [&](const char* path, const Value& value) { link.read(End::to, path, std::vector<Value>(count, value)); };
   link.from("plot.height_max", 4.0);
   all("smart_volume.centroid", Vector3{5, 5, 5});
-  for (const char* path : {"smart_volume.demand", "smart_volume.wanted", "smart_volume.volume"}) all(path, 1000.0);
+  for (const char* path : {"smart_volume.demand", "smart_volume.wanted", "smart_volume.fitted"}) all(path, 1000.0);
   all("smart_volume.demand_limit", 1e9);
   all("smart_volume.bottom", 0.0);
   all("smart_volume.height", 15.0);
@@ -120,7 +120,7 @@ TEST(PlotRules, ARuleThatCannotBeMetKeepsASceneFromSettling) {
   const std::string said = world.link_error("l1_rules");
   EXPECT_NE(said.find("cannot be met: FSI "), std::string::npos) << said;
   EXPECT_NE(said.find("held by `west` (6000 m³ are insisted on)"), std::string::npos) << said;
-  EXPECT_NEAR(world.number("east", "smart_volume.volume"), 0.2 * 6000, 0.02 * 1200) << "never wound to nothing";
+  EXPECT_NEAR(world.number("east", "smart_volume.fitted"), 0.2 * 6000, 0.02 * 1200) << "never wound to nothing";
 }
 
 TEST(PlotRules, SceneComesDownToWhatIsAllowed) {
@@ -173,7 +173,7 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   LinkCase high = rules(1, 0.1, 40);
   high.read(End::to, "smart_volume.storey_height", {4.0, 4.0});
   high.read(End::to, "footprint.storeys", {std::int64_t{10}, std::int64_t{10}});
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{10}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{10}, std::int64_t{10}});
   high.read(End::to, "footprint.storeys_min", {std::int64_t{1}, std::int64_t{1}});
   high.read(End::to, "footprint.height_limit", {1e6, 1e6});
   ASSERT_EQ(high.run(), "");
@@ -182,13 +182,13 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   EXPECT_FALSE(high.proposed(End::to, "smart_volume.demand_limit", 0).has_value());
   EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 40.0 m of 20.0 m at `here`");
   // Five of ten, and the ground is lower than the origin.
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{5}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{5}, std::int64_t{10}});
   high.read(End::to, "smart_volume.height", {20.0, 40.0}).read(End::to, "footprint.height_limit", {20.0, 1e6});
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::short_of),
             "from: `here` has 5 of 10 storeys, because it may be no higher than 20.00 m by the rules of the plot");
   high.read(End::to, "footprint.storeys_min", {std::int64_t{7}, std::int64_t{1}});
-  high.read(End::to, "footprint.storeys_built", {std::int64_t{7}, std::int64_t{10}});
+  high.read(End::to, "footprint.storeys_held", {std::int64_t{7}, std::int64_t{10}});
   high.read(End::to, "smart_volume.height", {28.0, 40.0});
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::unmet),
@@ -207,7 +207,7 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
                                                        "footprint": {"storeys": 8}}}],
     "links": [{"id": "rules", "kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}}]})");
   ASSERT_TRUE(world.settle(300));
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   EXPECT_NEAR(world.number("block", "smart_volume.floor_area"), 3000, 0.01);
   EXPECT_NEAR(world.number("block", "smart_volume.footprint"), 750, 0.01);
   EXPECT_NE(world.link_error("rules").find("`block` has 4 of 8 storeys"), std::string::npos) << world.link_error("rules");
@@ -222,14 +222,14 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
   ASSERT_EQ(world.submit(command<SetPort>({.node = "block", .port = {"footprint.storeys"}, .value = {"8"}})), "");
   world.tick(20);
   ASSERT_TRUE(world.settle(300));
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   // The FSI takes floor area from both, storeys from none.
   ASSERT_EQ(world.submit(command<SetPort>({.node = "site", .port = {"plot.fsi_max"}, .value = {"0.6"}})), "");
   world.tick(20);
   ASSERT_TRUE(world.settle(600));
   EXPECT_LE(world.number("site", "plot.fsi"), 0.6);
   EXPECT_GT(world.number("site", "plot.fsi"), 0.57);
-  EXPECT_EQ(world.number("block", "footprint.storeys_built"), 4);
+  EXPECT_EQ(world.number("block", "footprint.storeys_held"), 4);
   EXPECT_LT(world.number("block", "smart_volume.footprint"), 700);
 }
 

@@ -9,7 +9,7 @@ LinkCase cap(double total, std::vector<Value> demands, std::vector<Value> limits
   link.set("cap", 8000.0).set("gain", 0.5).set("tolerance", 0.0).set("least", 0.001).from("statistics.sum", total);
   const Value house = std::string("house");
   link.read(End::to, "node.id", std::vector<Value>(demands.size(), house));
-  link.read(End::to, "smart_volume.wanted", limits).read(End::to, "smart_volume.volume", limits);
+  link.read(End::to, "smart_volume.wanted", limits).read(End::to, "smart_volume.fitted", limits);
   link.read(End::to, "smart_volume.demand", std::move(demands)).read(End::to, "smart_volume.demand_limit", std::move(limits));
   return link;
 }
@@ -68,14 +68,14 @@ TEST(SetCap, JustBelowTheCapTheLimitRests) {
 TEST(SetCap, LeavesTheLeastShareAndSaysWhoHoldsTheCap) {
   auto link = cap(9000, {4000.0, 6000.0}, {1000.0, 1500.0});
   link.read(End::to, "node.id", {std::string("hotel"), std::string("cafe")});
-  link.read(End::to, "smart_volume.wanted", {3900.0, 1500.0}).read(End::to, "smart_volume.volume", {3900.0, 1500.0});
+  link.read(End::to, "smart_volume.wanted", {3900.0, 1500.0}).read(End::to, "smart_volume.fitted", {3900.0, 1500.0});
   ASSERT_EQ(link.set("least", 0.25).run(), "");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand_limit", 1), 1500, 1e-9);
   EXPECT_EQ(
       link.remarked(LinkRemark::unmet),
       "cap: the cap cannot be met: a sum of 9000 of 8000, held by `hotel` (3900 m³ are insisted on); raise the cap, or lower "
       "what is insisted on or `least`");
-  link.read(End::to, "smart_volume.volume", {3900.0, 2500.0});  // has not followed yet
+  link.read(End::to, "smart_volume.fitted", {3900.0, 2500.0});  // has not followed yet
   ASSERT_EQ(link.run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::unmet), "");
   EXPECT_NE(link.remarked(LinkRemark::at_work), "");
@@ -84,7 +84,7 @@ TEST(SetCap, LeavesTheLeastShareAndSaysWhoHoldsTheCap) {
 // One that lies outside of the boundary has nothing, and can give nothing: the others alone decide whether the cap can be met.
 TEST(SetCap, WhoHasNothingDoesNotHideThatTheCapCannotBeMet) {
   auto link = cap(9000, {4000.0, 6000.0}, {1000.0, 1500.0});
-  link.read(End::to, "smart_volume.wanted", {1000.0, 1500.0}).read(End::to, "smart_volume.volume", {1000.0, 0.0});
+  link.read(End::to, "smart_volume.wanted", {1000.0, 1500.0}).read(End::to, "smart_volume.fitted", {1000.0, 0.0});
   ASSERT_EQ(link.set("least", 0.25).run(), "");
   EXPECT_NE(link.remarked(LinkRemark::unmet).find("all are down to 25 % of their demands"), std::string::npos)
       << link.remarked(LinkRemark::at_work);
@@ -108,12 +108,12 @@ TEST(SetCap, SaysNumbersThatDiffer) {
 TEST(SetCap, ALockedLimitDoesNotHoldUpTheOthersAndIsNamed) {
   auto link = cap(9000, {4000.0, 6000.0}, {1e9, 3000.0});
   link.read(End::to, "node.id", {std::string("hotel"), std::string("cafe")}).lock(End::to, "smart_volume.demand_limit", 0);
-  link.read(End::to, "smart_volume.wanted", {4000.0, 3000.0}).read(End::to, "smart_volume.volume", {4000.0, 3000.0});
+  link.read(End::to, "smart_volume.wanted", {4000.0, 3000.0}).read(End::to, "smart_volume.fitted", {4000.0, 3000.0});
   ASSERT_EQ(link.set("least", 0.25).run(), "");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand_limit", 1), 3000 * (1 + 0.5 * (8000.0 / 9000 - 1)), 1e-9);
   EXPECT_NE(link.remarked(LinkRemark::at_work), "");
   link.read(End::to, "smart_volume.demand_limit", {1e9, 1500.0});
-  link.read(End::to, "smart_volume.wanted", {4000.0, 1500.0}).read(End::to, "smart_volume.volume", {4000.0, 1500.0});
+  link.read(End::to, "smart_volume.wanted", {4000.0, 1500.0}).read(End::to, "smart_volume.fitted", {4000.0, 1500.0});
   ASSERT_EQ(link.run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::unmet),
             "cap: the cap cannot be met: a sum of 9000 of 8000, held by `hotel` (4000 m³, its limit is locked); raise the cap, "

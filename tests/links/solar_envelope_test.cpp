@@ -18,7 +18,7 @@ LinkCase envelope(const std::string& mode, const Point3& position, double bottom
   link.from("sun_and_sky.moments", Shared<Table>(Table{{"x", "y", "z", "seconds"}, {{0.0, -kHalf, kHalf, 600.0}}}));
   link.to("node.position", position).to("smart_volume.radius", 5.0).to("smart_volume.bottom", bottom);
   link.to("smart_volume.height", height).to("smart_volume.demand", 500.0).to("smart_volume.demand_limit", 1e9);
-  link.to("smart_volume.wanted", 500.0).to("smart_volume.volume", 500.0).to("node.id", std::string("tower"));
+  link.to("smart_volume.wanted", 500.0).to("smart_volume.fitted", 500.0).to("node.id", std::string("tower"));
   return link;
 }
 
@@ -68,7 +68,7 @@ TEST(SolarEnvelope, SaysWhatItIsBringingAboutAndWhatCannotBeMet) {
   ASSERT_EQ(work.run(), "");
   EXPECT_EQ(work.remarked(LinkRemark::at_work), "edge: `tower` reaches 2.17 m through the planes of the sun");
   auto used_up = envelope("shave", {0, -11, 7}, 2, 10);
-  used_up.to("smart_volume.demand_limit", 100.0).to("smart_volume.wanted", 100.0).to("smart_volume.volume", 100.0);
+  used_up.to("smart_volume.demand_limit", 100.0).to("smart_volume.wanted", 100.0).to("smart_volume.fitted", 100.0);
   ASSERT_EQ(used_up.run(), "");
   EXPECT_EQ(
       used_up.remarked(LinkRemark::unmet),
@@ -139,7 +139,7 @@ LinkCase standing(std::int64_t built, const std::string& mode = "shave") {
   link.to("smart_volume.storey_height", 4.0)
       .to("footprint.storeys", std::int64_t{6})
       .to("footprint.storeys_min", std::int64_t{1});
-  link.to("footprint.storeys_built", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
+  link.to("footprint.storeys_held", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
   return link;
 }
 

@@ -17,7 +17,7 @@ LinkCase right(const std::string& mode, const std::string& caster, double defici
             Shared<Table>(Table{{"node", "lost", "shared"}, {{"house", 600.0, 600.0}, {"tower", 2400.0, 2400.0}}}));
   link.to("node.id", caster).to("node.position", Vector3{0, -30, 12}).to("smart_volume.demand", 8000.0);
   link.to("smart_volume.demand_limit", 1e9).to("smart_volume.radius", 10.0).to("smart_volume.bottom", 0.0);
-  link.to("smart_volume.wanted", 8000.0).to("smart_volume.volume", 8000.0);
+  link.to("smart_volume.wanted", 8000.0).to("smart_volume.fitted", 8000.0);
   return link;
 }
 
@@ -88,7 +88,7 @@ TEST(SolarRight, RestsWithinItsPlay) {
 
 TEST(SolarRight, LeavesTheLeastShareAndSaysSo) {
   auto link = right("shave", "tower");
-  link.to("smart_volume.demand_limit", 1600.0).to("smart_volume.wanted", 1600.0).to("smart_volume.volume", 1600.0);
+  link.to("smart_volume.demand_limit", 1600.0).to("smart_volume.wanted", 1600.0).to("smart_volume.fitted", 1600.0);
   ASSERT_EQ(link.run(), "");
   EXPECT_NEAR(limit(link), 1600, 1e-9) << "a fifth of the demand is not taken";
   EXPECT_EQ(link.remarked(LinkRemark::unmet),
@@ -105,7 +105,7 @@ TEST(SolarRight, IsAtWorkWhileOneCanGiveWay) {
   const std::vector<Value> demands = {8000.0, 8000.0};
   both.read(End::to, "smart_volume.demand", demands).read(End::to, "smart_volume.radius", {10.0, 10.0});
   both.read(End::to, "smart_volume.bottom", {0.0, 0.0}).read(End::to, "smart_volume.demand_limit", {8000.0, 1600.0});
-  both.read(End::to, "smart_volume.wanted", {8000.0, 1600.0}).read(End::to, "smart_volume.volume", {8000.0, 1600.0});
+  both.read(End::to, "smart_volume.wanted", {8000.0, 1600.0}).read(End::to, "smart_volume.fitted", {8000.0, 1600.0});
   ASSERT_EQ(both.run(), "");
   EXPECT_NE(both.remarked(LinkRemark::at_work), "");
   both.lock(End::to, "smart_volume.demand_limit", 0);
@@ -193,7 +193,7 @@ LinkCase standing(double built, double height_limit, double deficit = 1800, cons
   link.to("smart_volume.storey_height", 3.0)
       .to("footprint.storeys", std::int64_t{8})
       .to("footprint.storeys_min", std::int64_t{1});
-  link.to("footprint.storeys_built", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
+  link.to("footprint.storeys_held", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
   return link;
 }
 
@@ -262,7 +262,7 @@ TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
   const auto both = [&](const char* node, const char* port) {
     return std::pair(without.number(node, port), with.number(node, port));
   };
-  EXPECT_EQ(both("tower", "footprint.storeys_built"), std::pair(10.0, 8.0));
+  EXPECT_EQ(both("tower", "footprint.storeys_held"), std::pair(10.0, 8.0));
   const auto [small, large] = both("tower", "smart_volume.footprint");
   EXPECT_NEAR(small, 240, 0.01);
   EXPECT_NEAR(large, 300, 0.01);
@@ -285,12 +285,12 @@ TEST(SolarRight, SceneAGardenTakesTwoStoreysFromATower) {
   // No storey comes and goes, and all of them come back when there is room.
   for (int tick = 0; tick < 60; ++tick) {
     with.tick();
-    ASSERT_EQ(with.number("tower", "footprint.storeys_built"), 8) << tick;
+    ASSERT_EQ(with.number("tower", "footprint.storeys_held"), 8) << tick;
   }
   ASSERT_EQ(with.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"3600"}})), "");
   with.tick(60);
   ASSERT_TRUE(with.settle(200));
-  EXPECT_EQ(with.number("tower", "footprint.storeys_built"), 10);
+  EXPECT_EQ(with.number("tower", "footprint.storeys_held"), 10);
   EXPECT_NEAR(with.number("tower", "smart_volume.footprint"), 240, 0.01);
   EXPECT_EQ(with.link_error("sun"), "");
 }

@@ -131,5 +131,28 @@ TEST(StandingSolver, WithoutABoundaryItSaysSo) {
             "nodes/solver/standing_solver/boundary: a boundary is needed and none was found: add one, or choose one here");
 }
 
+// Below the ground there is a figure of its own; what stands on a roof has none, and is told so.
+TEST(StandingSolver, CellarsCountForThemselves) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60}}},
+    {"id": "podium", "position": [30, 20, 0], "types": {"smart_volume": {"storey_height": 3, "demand": 3600},
+     "footprint": {"storeys": 2, "cellar_storeys": 3, "cellar_height": 2.5}}},
+    {"id": "tower", "position": [30, 20, 0], "types": {"smart_volume": {"storey_height": 3, "demand": 3600},
+     "footprint": {"storeys": 6, "bases": ["podium"], "cellar_storeys": 1}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})");
+  ASSERT_TRUE(world.settle());
+  const double plate = world.number("podium", "smart_volume.footprint");
+  EXPECT_NEAR(world.number("podium", "footprint.cellar_area"), 3 * plate, 1e-9 * plate);
+  EXPECT_EQ(world.number("podium", "footprint.cellars_built"), 3);
+  EXPECT_EQ(world.number("podium", "smart_volume.bottom"), 0);
+  EXPECT_NEAR(world.number("podium", "smart_volume.floor_area"), 1200, 6.1);
+  const double floors = world.number("podium", "smart_volume.floor_area") + world.number("tower", "smart_volume.floor_area");
+  EXPECT_NEAR(world.number("solver", "standing_solver.fsi"), floors / 2400, 1e-9);
+  EXPECT_EQ(world.number("tower", "footprint.cellars_built"), 0);
+  EXPECT_EQ(world.number("tower", "footprint.cellar_area"), 0);
+  EXPECT_EQ(world.text("solver", "standing_solver.message"),
+            "`tower` has no cellar, because it stands on `podium`: set its `cellar_storeys` to 0");
+}
+
 }  // namespace
 }  // namespace bl

@@ -9,6 +9,7 @@
 #include "core/define/codec.h"
 #include "core/geometry/plates_table.h"
 #include "core/reading/storeys.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/solver.h"
 #include "core/reading/views/volume.h"
 #include "core/report/figure_tables.h"
@@ -179,9 +180,20 @@ void add_footprint(const State& state, Json& volume) {
   volume["storeys_wished"] = found->storeys;
   volume["why_lower"] = reading::why_lower(state, node);
   Json plates = Json::array();
-  for (const geometry::PlateStack& stack : geometry::read_body(found->plates, {}).stacks)
+  const geometry::StandingBody body = geometry::read_body(found->plates, {});
+  // From the ground up; those below it first, from the lowest up, which are no part of the floor area.
+  const auto cellars = reading::row_of<reading::CellarFigures>(state, node);
+  for (std::int64_t storey = cellars->storeys; storey > 0 && !body.stacks.empty(); --storey)
+    plates.push_back({{"bottom", body.stacks.front().bottom - static_cast<double>(storey) * cellars->storey_height},
+                      {"area", cellars->area / static_cast<double>(cellars->storeys)},
+                      {"use", volume["use"]},
+                      {"is_cellar", true}});
+  volume["cellar_area"] = cellars->area;
+  for (const geometry::PlateStack& stack : body.stacks)
     for (int storey = 0; storey < stack.storeys; ++storey)
       plates.push_back({{"bottom", stack.bottom + storey * stack.storey_height}, {"area", stack.area}, {"use", volume["use"]}});
+  if (const auto sharing = reading::row_of<reading::SharingFigures>(state, node); !sharing->shares.empty())
+    volume["shares"] = sharing->shares.front();
   volume["plates"] = std::move(plates);
 }
 

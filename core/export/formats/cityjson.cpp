@@ -151,13 +151,32 @@ struct CityJsonFormat {
       objects[id] = {{"type", "Building"}, {"attributes", std::move(attributes)}, {"geometry", std::move(shapes)}};
     }
 
+    // Each storey below the ground is a part of its building.
+    void add_cellars(const Building& b) {
+      const std::string parent = "building/" + b.id;
+      for (const Storey& s : b.cellars) {
+        const std::string id = parent + "/" + std::to_string(s.number);
+        std::vector<Shell> prisms;
+        for (const geometry::PlateFace& face : s.faces) prisms.push_back(prism(face, s.bottom, s.top));
+        CityText shapes = CityText::array();
+        if (CityText made = geometry_of(std::move(prisms), "1.2", false); !made.is_null()) shapes.push_back(std::move(made));
+        objects[id] = {{"type", "BuildingPart"},
+                       {"attributes", {{"name", b.label}, {"function", b.use}, {"storey", s.number}, {"area_m2", s.floor_area}}},
+                       {"parents", CityText::array({parent})},
+                       {"geometry", std::move(shapes)}};
+        if (!objects[parent].contains("children")) objects[parent]["children"] = CityText::array();
+        objects[parent]["children"].push_back(id);
+      }
+    }
+
     void add_all(bool with_surroundings) {
-      for (const Building& b : proposal.buildings)
+      for (const Building& b : proposal.buildings) {
         add_building("building/" + b.id,
                      {{"name", b.label},
                       {"function", b.use},
                       {"form", b.is_standing ? "standing" : "rounded"},
                       {"storeysAboveGround", b.storeys.size()},
+                      {"storeysBelowGround", b.cellars.size()},
                       {"measuredHeight", b.top - b.bottom},
                       {"floor_area_m2", b.floor_area},
                       {"asked_floor_area_m2", b.asked_area},
@@ -165,6 +184,8 @@ struct CityJsonFormat {
                       {"asked_volume_m3", b.asked_volume},
                       {"is_proposed", true}},
                      b.outline, b.bottom, b.top, b.mesh.get());
+        add_cellars(b);
+      }
       if (with_surroundings)
         for (const Neighbour& n : proposal.neighbours)
           add_building("existing/" + n.id,

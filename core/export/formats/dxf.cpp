@@ -113,7 +113,7 @@ struct DxfFormat {
     }
 
     void storey(const Building& b, const Storey& s, int colour) {
-      const std::string level = "L" + std::string(s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
+      const std::string level = "L" + std::string(s.level >= 0 && s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
       const std::string layer = level + DxfDrawing::layer_name(use_name(b.use)), words = level + "TEXT";
       drawing.layer(layer, colour);
       drawing.layer(words, 7);
@@ -202,6 +202,7 @@ struct DxfFormat {
       for (const Building& b : proposal.buildings) {
         const std::size_t use = proposal.use_number(b.use);
         for (const Storey& s : b.storeys) storey(b, s, colour_of(use));
+        for (const Storey& s : b.cellars) storey(b, s, colour_of(use));
       }
       if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},

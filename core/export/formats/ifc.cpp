@@ -211,7 +211,7 @@ struct IfcFormat {
         const std::string slab = file.add(
             "IFCSLAB", {guid("slab/" + id), "$", name, "$", "$", placement(at, 0),
                         shape(s.faces, -options.slab_thickness, options.slab_thickness, style_of("slab", {0.75, 0.75, 0.75})),
-                        "$", s.number == 0 ? ".BASESLAB." : ".FLOOR."});
+                        "$", s.number == (b.cellars.empty() ? 0 : b.cellars.back().number) ? ".BASESLAB." : ".FLOOR."});
         contained.push_back(slab);
       }
       if (!contained.empty())
@@ -264,6 +264,9 @@ struct IfcFormat {
         const std::string made = file.add("IFCBUILDING", {guid("building/" + b.id), "$", step_text(b.label), "$",
                                                           step_text(b.use), at, "$", "$", ".ELEMENT.", "$", "$", "$"});
         Names storeys;
+        double cellars = 0;
+        for (auto s = b.cellars.rbegin(); s != b.cellars.rend(); ++s)
+          storeys.push_back(storey(b, *s, at)), cellars += s->floor_area;
         for (const Storey& s : b.storeys) storeys.push_back(storey(b, s, at));
         aggregate("building/" + b.id, made, storeys);
         quantities(
@@ -271,6 +274,9 @@ struct IfcFormat {
             {quantity("IFCQUANTITYAREA", "GrossFloorArea", b.floor_area), quantity("IFCQUANTITYVOLUME", "GrossVolume", b.volume),
              quantity("IFCQUANTITYAREA", "FootprintArea", b.footprint),
              quantity("IFCQUANTITYLENGTH", "Height", b.top - b.bottom)});
+        // Of cellars by itself: the floor area is that above the ground.
+        if (cellars > 0)
+          quantities("cellar/" + b.id, made, "BehaviourLinks_Cellar", {quantity("IFCQUANTITYAREA", "CellarArea", cellars)});
         all.push_back(made);
       }
       aggregate("site", site, all);

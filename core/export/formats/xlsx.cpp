@@ -158,6 +158,21 @@ struct XlsxFormat {
       return sheet;
     }
 
+    // Only where there are any: what lies below the ground is no floor area of the schedule.
+    XlsxSheet cellars() const {
+      XlsxSheet sheet{"Cellars", {18, 24, 18, 10, 12, 12, 16}, {}};
+      sheet.rows.push_back(header({"building", "label", "use", "storey", "bottom [m]", "top [m]", "area [m2]"}));
+      double total = 0;
+      for (const Building& building : proposal.buildings)
+        for (const Storey& s : building.cellars) {
+          sheet.rows.push_back({w(building.id), w(building.label), w(building.use), XlsxCell::value(s.number, XlsxStyle::plain),
+                                n(s.bottom), n(s.top), n(s.floor_area)});
+          total += s.floor_area;
+        }
+      sheet.rows.push_back({b("all"), {}, {}, {}, {}, {}, f(above('G', sheet.rows.size()), total)});
+      return sheet;
+    }
+
     XlsxSheet indicators() const {
       XlsxSheet sheet{"Indicators", {30, 14, 12, 14, 10, 14, 10, 10}, {}};
       sheet.rows.push_back(header({"indicator", "value", "goal", "target", "unit", "difference", "status", "score"}));
@@ -192,9 +207,15 @@ struct XlsxFormat {
     // Without their header and their sum: the row numbers of the last building and storey.
     const XlsxSheet storeys = tables.storeys();
     const XlsxSheet buildings = tables.buildings(storeys.rows.size() - 1);
-    auto book = xlsx_book({tables.programme(buildings.rows.size() - 1), buildings, storeys, tables.plots(), tables.indicators(),
-                           tables.problems(), tables.about()},
-                          proposal.name(), identity_line(proposal));
+    std::vector<XlsxSheet> sheets = {tables.programme(buildings.rows.size() - 1),
+                                     buildings,
+                                     storeys,
+                                     tables.plots(),
+                                     tables.indicators(),
+                                     tables.problems(),
+                                     tables.about()};
+    if (XlsxSheet cellars = tables.cellars(); cellars.rows.size() > 2) sheets.insert(sheets.begin() + 3, std::move(cellars));
+    auto book = xlsx_book(sheets, proposal.name(), identity_line(proposal));
     if (!book) return book.error();
     return ExportFiles{{{"schedule.xlsx", std::move(*book)}}, {}};
   }

@@ -15,14 +15,11 @@ constexpr std::size_t kMostReasons = 20;
 // Sites of a group that are named; more are counted.
 constexpr std::size_t kMostNamed = 6;
 
-std::string loss_text(const VolumeLoss& loss, const VolumeDemand& demand, const CellMeasure& first, FitStatus status) {
+std::string loss_text(const VolumeLoss& loss, const VolumeDemand& demand, const CellMeasure& first) {
   const bool is_floor = demand.kind == VolumeDemand::Kind::floor_area;
   std::string text = sites_text(demand) + " has " + shortest(loss.had) + (is_floor ? " m² of floor" : " m³") + " instead of " +
                      shortest(loss.wanted);
   if (!first.reason.empty() && demand.sites.size() == 1) text += ": " + first.reason;
-  if (is_floor && loss.had > 0 && status == FitStatus::step_limit) {
-    text += ": floor areas jump when a storey comes or goes, so this one cannot be met more closely";
-  }
   return text;
 }
 
@@ -58,9 +55,7 @@ bool correct_floors(const FitProblem& asked, std::span<const CellMeasure> cells,
     all_met = false;
     double volume = 0;
     for (const std::uint32_t i : demand.sites) volume += cells[i].volume;
-    // Less than in proportion: a smaller change is less likely to jump past a storey.
-    const double factor = std::clamp(bound / floors, 0.7, 1.4);
-    problem.demands[k].least = problem.demands[k].most = volume * (0.4 + 0.6 * factor);
+    problem.demands[k].least = problem.demands[k].most = volume * std::clamp(bound / floors, 0.7, 1.4);
   }
   return all_met;
 }
@@ -99,7 +94,7 @@ void explain_losses(const FitProblem& problem, std::span<const CellMeasure> cell
       continue;
     }
     const VolumeDemand& demand = problem.demands[loss.demand];
-    fit.reasons.push_back(loss_text(loss, demand, cells[demand.sites.front()], fit.status));
+    fit.reasons.push_back(loss_text(loss, demand, cells[demand.sites.front()]));
   }
   if (more > 0) fit.reasons.push_back("and " + std::to_string(more) + " more demands that are not met");
 }

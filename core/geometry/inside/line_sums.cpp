@@ -212,12 +212,13 @@ DiagramSums sum_all(const SampleFrame& frame, const std::array<SampleLines, 3>& 
   return all;
 }
 
-// Sections at (k + 1/2) storeys above the lowest point, below the highest, that lie in [from, to); heights are relative to the
-// lowest point. A shape lower than a storey has one, at its mid-height.
-std::uint64_t sections_in(double from, double to, double height, double storey) {
-  if (height < storey) return from <= 0.5 * height && 0.5 * height < to ? 1 : 0;
-  const double first = std::max(0.0, std::ceil(from / storey - 0.5)), beyond = std::ceil(std::min(to, height) / storey - 0.5);
-  return beyond > first ? static_cast<std::uint64_t>(beyond - first) : 0;
+// Counts the sections that lie in [from, to), heights above the lowest point of the shape: those of whole storeys, at
+// (k + 1/2), and that of what is left above them, at its middle. A shape lower than a storey has one, at its mid-height.
+void count_sections(double from, double to, double height, double storey, UprightSums& sums) {
+  const double whole = std::floor(height / storey), middle = 0.5 * (std::max(0.0, whole * storey) + height);
+  (whole < 1 ? sums.sections : sums.rest) += from <= middle && middle < to ? 1 : 0;
+  const double first = std::max(0.0, std::ceil(from / storey - 0.5)), beyond = std::min(whole, std::ceil(to / storey - 0.5));
+  if (beyond > first) sums.sections += static_cast<std::uint64_t>(beyond - first);
 }
 
 // Goes along all upright lines of a task and calls found(place of the site among the candidates, line, from, to) for the
@@ -259,7 +260,7 @@ std::vector<UprightSums> sum_upright_lines(const SampleFrame& frame, const Sampl
                                            std::span<const std::uint32_t> participants, std::span<const double> storeys,
                                            ThreadPool* pool) {
   const std::vector<LineTask> tasks = tasks_of<M>(frame, sites, participants, {true, true, false});
-  const UprightSums nothing{1e300, -1e300, 0, 0};
+  const UprightSums nothing{1e300, -1e300, 0, 0, 0};
   std::vector<UprightSums> all(sites.size(), nothing);
   std::vector<std::vector<UprightSums>> parts(tasks.size());
   // Twice: sections are counted from the lowest point, which is known after the first time.
@@ -287,11 +288,14 @@ std::vector<UprightSums> sum_upright_lines(const SampleFrame& frame, const Sampl
     walk_upright<M>(frame, lines, sites, tasks[k], [&](std::size_t c, std::size_t, double from, double to) {
       const std::uint32_t site = tasks[k].candidates[c];
       const double low = all[site].lowest;
-      parts[k][c].sections += sections_in(from - low, to - low, all[site].highest - low, storeys[site]);
+      count_sections(from - low, to - low, all[site].highest - low, storeys[site], parts[k][c]);
     });
   });
   for (std::size_t k = 0; k < tasks.size(); ++k) {
-    for (std::size_t c = 0; c < parts[k].size(); ++c) all[tasks[k].candidates[c]].sections += parts[k][c].sections;
+    for (std::size_t c = 0; c < parts[k].size(); ++c) {
+      all[tasks[k].candidates[c]].sections += parts[k][c].sections;
+      all[tasks[k].candidates[c]].rest += parts[k][c].rest;
+    }
   }
   return all;
 }

@@ -47,7 +47,8 @@ DiagramSums sum_lines(Metric metric, const SampleFrame& frame, const std::array<
 struct UprightSums {
   double lowest = 0, highest = 0;  ///< in the frame [m]
   std::uint64_t footprint = 0;     ///< lines that meet it
-  std::uint64_t sections = 0;      ///< crossings of lines and storeys' sections: at (k + 1/2) storeys above the lowest point
+  std::uint64_t sections = 0;      ///< crossings of lines and sections of whole storeys: at (k + 1/2) above the lowest point
+  std::uint64_t rest = 0;          ///< the same of the section in the middle of what is left above the whole storeys
 };
 
 /// Runs over the lines along axis 2 only, each as a whole. `storeys` are heights per site [m].

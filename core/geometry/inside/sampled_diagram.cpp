@@ -174,7 +174,8 @@ struct SampledDiagram::Ground {
       cell.height = sums[i].highest - sums[i].lowest;
       cell.bottom = upright.origin.z + sums[i].lowest;
       cell.footprint = column * static_cast<double>(sums[i].footprint);
-      cell.floor_area = column * static_cast<double>(sums[i].sections);
+      const double rest = cell.height / storeys[i] - std::floor(cell.height / storeys[i]);
+      cell.floor_area = column * (static_cast<double>(sums[i].sections) + rest * static_cast<double>(sums[i].rest));
     }
   }
 

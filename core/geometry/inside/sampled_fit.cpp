@@ -17,7 +17,7 @@ namespace bl::geometry {
 
 namespace {
 
-// Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
+// Floor areas are met by correcting the volumes asked for, which mostly takes three or four rounds; where it does not, it ends.
 constexpr int kMostSampledCorrections = 12;
 // No smaller error for so many evaluations, and the fit is going nowhere.
 constexpr int kSampledStalled = 25;

@@ -173,21 +173,20 @@ double floor_area(const Polyhedron& cell, double squared_radius, double storey_h
   const double height = shape.highest - shape.lowest;
   thread_local std::vector<double> heights, areas;
   heights.clear();
-  if (height < storey_height) {
-    heights.push_back(shape.lowest + 0.5 * height);
-  } else {
-    for (int storey = 0; storey < static_cast<int>(kMostStoreys) + 1; ++storey) {
-      const double above = (storey + 0.5) * storey_height;
-      if (!(above < height)) break;
-      heights.push_back(shape.lowest + above);
-    }
-  }
+  // A shape without a whole storey has one floor. Above the whole ones, what is left counts by its share of a storey.
+  const double whole = std::min(std::floor(height / storey_height), kMostStoreys);
+  const double rest = whole < 1 ? height : height - whole * storey_height;
+  const double share = whole < 1 ? 1 : rest / storey_height;
+  for (int storey = 0; storey < static_cast<int>(whole); ++storey)
+    heights.push_back(shape.lowest + (storey + 0.5) * storey_height);
+  heights.push_back(shape.highest - 0.5 * rest);
   // The footprint asks for one more, which comes with the same pass.
   const auto own = std::lower_bound(heights.begin(), heights.end(), 0.0) - heights.begin();
   heights.insert(heights.begin() + own, 0.0);
   section_areas(cell, squared_radius, heights, areas);
   shape.own_section = areas[static_cast<std::size_t>(own)];
   areas.erase(areas.begin() + own);
+  areas.back() *= share;
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 

@@ -38,8 +38,9 @@ void measure_shape(const Polyhedron& cell, double squared_radius, const WholeMea
 /// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
 void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape);
 
-/// Sum of sections at mid-storey heights, from `lowest` on; at least one, at mid-height, where there is less than a storey.
-/// Fills `own_section`. After measure_extent.
+/// Sum of sections at mid-storey heights, from `lowest` on. What is left above the last whole storey counts with the section at
+/// its own middle and by its share of a storey; a shape lower than a storey has one section, at mid-height. So the sum is
+/// continuous in the shape. Fills `own_section`. After measure_extent.
 double floor_area(const Polyhedron& cell, double squared_radius, double storey_height, ShapeMeasure& shape);
 
 /// Exact area of the projection onto the plan: the section at the centre's height, plus the projections of upward facets

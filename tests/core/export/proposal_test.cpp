@@ -72,6 +72,47 @@ TEST(Proposal, EachStoreyOfABuildingHasALevelOfItsOwn) {
     for (std::size_t k = 1; k < building.storeys.size(); ++k) EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level);
 }
 
+// Storeys below the ground leave with negative numbers, and count in nothing but their own area.
+TEST(Formats, CellarsAreStoreysBelowTheGround) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"standing_solver": {}}},
+      {"id": "house", "types": {"footprint": {"form": "round", "cellar_storeys": 2, "cellar_height": 2.8, "depth": 7},
+                                "smart_volume": {"demand": 6000, "use": "housing", "storey_height": 3}}}]})");
+  ASSERT_TRUE(world.settle());
+  const Proposal proposal = proposal_of(world);
+  const Building& house = proposal.buildings.at(0);
+  ASSERT_EQ(house.cellars.size(), 2u);
+  EXPECT_EQ(house.cellars[1].number, -2);
+  EXPECT_NEAR(house.cellars[1].bottom, -5.6, 1e-12);
+  EXPECT_NEAR(house.cellars[0].top, 0, 1e-12);
+  const double cellar = world.number("house", "footprint.cellar_area");
+  EXPECT_NEAR(house.cellars[0].floor_area + house.cellars[1].floor_area, cellar, 1e-12 * cellar);
+  EXPECT_NEAR(area_of(house.cellars[0].faces), 0.5 * cellar, 1e-3 * cellar);
+  EXPECT_GT(house.cellars[0].floor_area, house.storeys[0].floor_area) << "under the courtyard too";
+  double floors = 0;
+  for (const Storey& storey : house.storeys) floors += storey.floor_area;
+  EXPECT_NEAR(floors, house.floor_area, 1e-9 * floors);
+  const auto written = [&](const char* id) {
+    const FormatDefinition* format = find_format(id);
+    auto files = format->write(proposal, *option_values(*format, {}), false);
+    EXPECT_TRUE(files) << id;
+    return files->files.front().content;
+  };
+  const std::string ifc = written("ifc");
+  EXPECT_NE(ifc.find("house, storey -2"), std::string::npos);
+  EXPECT_NE(ifc.find("'CellarArea'"), std::string::npos);
+  const auto city = nlohmann::json::parse(written("cityjson"));
+  EXPECT_EQ(city["CityObjects"]["building/house"]["attributes"]["storeysBelowGround"], 2);
+  const auto& part = city["CityObjects"]["building/house/-1"];
+  EXPECT_EQ(part["type"], "BuildingPart");
+  EXPECT_EQ(part["parents"][0], "building/house");
+  EXPECT_EQ(part["geometry"].size(), 1u);
+  EXPECT_NE(written("dxf").find("L-1-"), std::string::npos);
+  EXPECT_NE(written("csv").find("cellar,house"), std::string::npos);
+  EXPECT_FALSE(written("xlsx").empty());
+}
+
 TEST(Proposal, WhatHasNotRunIsNoProposal) {
   const World world = World::from_file("scenes/start/quarter.json");
   const auto proposal = read_proposal(world.state(), "quarter.json");

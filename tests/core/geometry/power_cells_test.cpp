@@ -56,7 +56,7 @@ TEST(PowerCells, BoxInsideAHugeBall) {
   EXPECT_EQ(cell.spherical_area, 0);
   EXPECT_DOUBLE_EQ(cell.footprint, 6);
   EXPECT_DOUBLE_EQ(cell.height, 7);
-  EXPECT_DOUBLE_EQ(cell.floor_area, 12);  // sections at 1.5 and 4.5 m; the third would lie at 7.5 m
+  EXPECT_DOUBLE_EQ(cell.floor_area, 14);  // two storeys of 3 m, and a third of one in the metre above them
   EXPECT_NEAR(distance(cell.centroid, {1, 1.5, 3.5}), 0, 1e-14);
   EXPECT_EQ(cell.facets.size(), 6u);
 }
@@ -78,6 +78,25 @@ TEST(PowerCells, AFacetThatIsLevelButForRoundingReachesNoHigherThanItIs) {
 TEST(PowerCells, LowShapesHaveOneFloorAtMidHeight) {
   const auto cells = cells_of(box({0, 0, 0}, {2, 3, 1}), std::vector<geometry::PowerSite>{{{1, 1, 0.5}, 1e6}});
   EXPECT_DOUBLE_EQ(cells[0].floor_area, 6);
+}
+
+// Under a flat roof, between two sites one above the other whose level border moves, and where a ball grows over a storey.
+TEST(PowerCells, FloorAreaIsContinuousInPlacesAndWeights) {
+  const geometry::Domain plot = box({0, 0, 0}, {20, 20, 14});
+  double before[3] = {0, 0, 0};
+  constexpr int kSteps = 4000;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double t = static_cast<double>(k) / kSteps;
+    const std::vector<geometry::PowerSite> sites = {{{10, 10, 2 + 6 * t}, 400}, {{10, 10, 11}, 400}};
+    const auto cells = power_cells(plot, sites).value();
+    const auto ball = power_cells(plot, std::vector<geometry::PowerSite>{{{10, 10, 7}, 0.5 + 45 * t}}).value();
+    const double now[3] = {cells[0].floor_area, cells[1].floor_area, ball[0].floor_area};
+    for (int i = 0; i < 3; ++i) {
+      if (k > 0) { EXPECT_NEAR(now[i], before[i], 1) << i << " at " << t; }
+      before[i] = now[i];
+    }
+    for (const auto& cell : cells) EXPECT_NEAR(cell.floor_area * 3, cell.volume, 0.03 * cell.volume) << t;
+  }
 }
 
 TEST(PowerCells, EveryStateSaysWhy) {

@@ -157,18 +157,14 @@ FitScene scene_of_floors() {
   return scene;
 }
 
-TEST(VolumeFit, FloorAreasComeWithinAStorey) {
+TEST(VolumeFit, FloorAreasAreMetAsExactlyAsVolumes) {
   geometry::VolumeFitOptions options;
-  options.tolerance = 0.01;
+  options.tolerance = 1e-6;
   const geometry::VolumeFit fit = fit_of(scene_of_floors(), options);
-  for (const double weight : fit.weights) EXPECT_TRUE(std::isfinite(weight));
-  // Floor areas jump with the storeys: met, or said so with what there is.
-  if (fit.status != geometry::FitStatus::met) {
-    EXPECT_FALSE(fit.reasons.empty());
-    EXPECT_LT(fit.max_relative_error, 0.15);
-  }
-  std::printf("floor areas: %s, error %.4f, %d evaluations\n", std::string(name_of(fit.status)).c_str(), fit.max_relative_error,
-              fit.evaluations);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met);
+  EXPECT_LE(fit.max_relative_error, 1e-6);
+  EXPECT_TRUE(fit.reasons.empty());
+  EXPECT_LE(fit.evaluations, 40);
 }
 
 TEST(VolumeFit, SitesOfNoDemandKeepTheirWeightBitForBit) {

@@ -29,10 +29,9 @@ std::string number_word(std::size_t count) {
   return count < std::size(kWords) ? kWords[count] : reading::grouped(static_cast<double>(count));
 }
 
-// What is missing, by the measure of which the larger share is.
+// What is missing, by the measure that was asked for.
 std::string missing_words(const reading::Account& account) {
-  const double by_volume = account.asked > 0 ? account.missing() / account.asked : 0;
-  const bool is_area = account.is_by_area && account.short_share() > by_volume;
+  const bool is_area = account.is_by_area;
   const Unit unit = is_area ? Unit::square_metre : Unit::cubic_metre;
   const double asked = is_area ? account.asked_area : account.asked, had = is_area ? account.floor_area : account.volume;
   return "asked for: " + reading::quantity(asked, unit) + (is_area ? " of floor area" : "") +

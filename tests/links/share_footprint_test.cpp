@@ -1,0 +1,76 @@
+// Share footprint: a name by hand, a building of three uses, and everything that its parts must not be.
+#include "tests/links/link_case.h"
+
+namespace bl {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(ShareFootprint, ProposesTheHost) {
+  LinkCase link("share_footprint");
+  link.from("node.id", std::string("shops")).from("footprint.storeys_built", 3.0);
+  ASSERT_EQ(link.run(), "");
+  EXPECT_EQ(*std::get<Shared<Names>>(link.proposed(End::to, "footprint.shares").value()), Names{"shops"});
+}
+
+TEST(ShareFootprint, ThreeUsesMakeOneBuilding) {
+  World world = World::from_file("scenes/links/share_footprint.json");
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.text("solver", "standing_solver.message"), "");
+  double floors = 0;
+  for (const char* id : {"shops", "offices", "flats", "library"}) {
+    const double asked = world.number(id, "smart_volume.demand") / world.number(id, "smart_volume.storey_height");
+    EXPECT_NEAR(world.number(id, "smart_volume.floor_area"), asked, 0.006 * asked) << id;
+    EXPECT_LE(world.number(id, "smart_volume.error"), 0.006) << id;
+    floors += world.number(id, "smart_volume.floor_area");
+  }
+  EXPECT_NEAR(world.number("solver", "standing_solver.total_floor_area"), floors, 1e-12 * floors);
+  EXPECT_EQ(world.number("shops", "smart_volume.bottom"), 0);
+  EXPECT_GT(world.number("flats", "smart_volume.bottom"), world.number("offices", "smart_volume.bottom"));
+  EXPECT_EQ(world.text("flats", "smart_volume.stands_on"), "offices");
+  EXPECT_EQ(world.number("shops", "footprint.storeys_held"), 6);
+  // Covered once, by whoever has the ground.
+  const double covered = world.number("solver", "standing_solver.covered");
+  EXPECT_LT(covered, 1200);
+  // A limit on the flats is one on the building: it loses storeys, and its footprint grows.
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "flats", .port = {"footprint.height_limit"}, .value = {"4"}})), "");
+  world.tick(8);
+  ASSERT_TRUE(world.settle());
+  EXPECT_LT(world.number("shops", "footprint.storeys_held"), 6);
+  EXPECT_GT(world.number("solver", "standing_solver.covered"), covered);
+  EXPECT_NEAR(world.number("flats", "smart_volume.floor_area"), 2200, 14);
+  ASSERT_EQ(world.submit(command<RemoveLink>({.id = "l2_flats"})), "");
+  world.tick(8);
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.text("flats", "smart_volume.stands_on"), "the ground");
+}
+
+TEST(ShareFootprint, BadHostsAreNamedAndNobodyIsLost) {
+  const auto said = [](const std::string& flats, const std::string& offices) {
+    World world = World::from_file("scenes/links/share_footprint.json");
+    for (const char* link : {"l1_offices", "l2_flats"}) EXPECT_EQ(world.submit(command<RemoveLink>({.id = link})), "");
+    EXPECT_EQ(world.submit(command<SetPort>({.node = "flats", .port = {"footprint.shares"}, .value = {flats}})), "");
+    EXPECT_EQ(world.submit(command<SetPort>({.node = "offices", .port = {"footprint.shares"}, .value = {offices}})), "");
+    EXPECT_TRUE(world.settle());
+    for (const char* id : {"shops", "offices", "flats"}) EXPECT_GT(world.number(id, "smart_volume.floor_area"), 500) << id;
+    return world.text("solver", "standing_solver.message");
+  };
+  EXPECT_NE(said(R"(["nobody"])", "[]")
+                .find("`flats` has a footprint of its own, because `nobody`, whose footprint it shares, is no "
+                      "volume of this solver"),
+            std::string::npos);
+  EXPECT_NE(said(R"(["plot"])", "[]").find("`plot`, whose footprint it shares, is no volume of this solver"), std::string::npos);
+  EXPECT_NE(said(R"(["flats"])", "[]").find("is itself"), std::string::npos);
+  const std::string circle = said(R"(["offices"])", R"(["flats"])");
+  EXPECT_NE(circle.find("`flats` has a footprint of its own, because `offices`"), std::string::npos) << circle;
+  EXPECT_NE(circle.find("`offices` has a footprint of its own, because `flats`"), std::string::npos) << circle;
+  const std::string chain = said(R"(["offices"])", R"(["shops"])");
+  EXPECT_NE(
+      chain.find("`flats` has a footprint of its own, because `offices`, whose footprint it shares, shares the footprint of "
+                 "another itself"),
+      std::string::npos)
+      << chain;
+}
+
+}  // namespace
+}  // namespace bl
