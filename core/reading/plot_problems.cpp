@@ -9,8 +9,10 @@
 #include "core/base/text.h"
 #include "core/demand/demand_limit.h"
 #include "core/geometry/plan_ring.h"
+#include "core/geometry/plates_table.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/plot.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::reading {
 
@@ -27,17 +29,36 @@ struct Breaker {
 struct VolumeThere {
   std::string id;
   PlotVolume figures;
+  double clearance = 0;  // how far it stays inside the sides of the plot [m]
+  bool is_standing = false;
 };
+
+// As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint.
+void measure_clearance(const State& state, std::uint32_t node, const PlotFigures& figures, VolumeThere& volume) {
+  constexpr double kChords = 1e-3;  // [m]
+  if (const auto footprint = row_of<FootprintFigures>(state, node)) {
+    volume.is_standing = true;
+    const geometry::StandingBody body = geometry::read_body(footprint->plates, volume.figures.position);
+    volume.clearance = geometry::clearance_of(body, figures.polygon, kChords);
+    return;
+  }
+  const Point3 flat{volume.figures.centroid.x, volume.figures.centroid.y, 0};
+  const Point3 side = geometry::nearest_on_ring(figures.polygon, flat);
+  volume.clearance = distance({side.x, side.y, 0}, flat) - std::sqrt(volume.figures.footprint / std::numbers::pi);
+}
 
 // The volumes that the plot counts: those of its selection whose centre of gravity lies within it.
 std::vector<VolumeThere> volumes_on(const State& state, std::uint32_t plot, const PlotFigures& figures) {
   std::vector<VolumeThere> volumes;
   for (const SetPlan& set : state.plan->sets) {
     if (set.node != plot || state.plan->nodes[plot].types[set.type].definition->id != type_of<PlotFigures>()) continue;
-    for (const std::uint32_t member : set.members)
-      if (auto volume = row_of<PlotVolume>(state, member);
-          volume && volume->volume > 0 && geometry::ring_contains(figures.polygon, volume->centroid))
-        volumes.push_back({state.plan->nodes[member].id, std::move(*volume)});
+    for (const std::uint32_t member : set.members) {
+      auto volume = row_of<PlotVolume>(state, member);
+      if (!volume || !(volume->volume > 0) || !geometry::ring_contains(figures.polygon, volume->centroid)) continue;
+      measure_clearance(state, member, figures,
+                        volumes.emplace_back(VolumeThere{state.plan->nodes[member].id, std::move(*volume)}));
+    }
+    break;  // the other sets of a plot hold the same volumes
   }
   return volumes;
 }
@@ -46,7 +67,7 @@ template <class Amount>
 std::vector<Breaker> breakers(const std::vector<VolumeThere>& volumes, const Amount& amount) {
   std::vector<Breaker> all;
   for (const VolumeThere& volume : volumes)
-    if (const double part = amount(volume.figures); part > 0) all.push_back({volume.id, part});
+    if (const double part = amount(volume); part > 0) all.push_back({volume.id, part});
   std::stable_sort(all.begin(), all.end(), [](const Breaker& a, const Breaker& b) { return a.amount > b.amount; });
   return all;
 }
@@ -61,7 +82,7 @@ std::string listed_breakers(const std::vector<Breaker>& all, Unit unit) {
 
 // Does a link of the kind `plot_rules` have this rule switched on? A kind that cannot hold it has no such parameter.
 bool has_switched_on(const LinkPlan& link, const std::string& port) {
-  const std::string name = port == "setback" ? "hold_setback" : "hold_" + port.substr(0, port.find('_'));
+  const std::string name = "hold_" + port.substr(0, port.find('_'));
   const PortDefinition* parameter = link.definition->find_port(name);
   return parameter != nullptr && as_number(parameter->get(link.parameters.get())) != 0;
 }
@@ -109,8 +130,6 @@ void find_holders(const State& state, BrokenRule& rule) {
     if (!missed.empty()) rule.text += "; it does not lead to " + quoted_ids(missed) + ": add what is missing to its end";
   } else if (!idle.empty()) {
     rule.text += "; nothing holds it, because link " + quoted_ids(idle) + " is switched off or muted";
-  } else if (rule.port == "setback") {
-    rule.text += "; nothing holds it: move what is too near inwards, or lower `setback`";
   } else if (!off.empty()) {
     rule.text += "; nothing holds it, because link " + quoted_ids(off) + " has `hold_" +
                  rule.port.substr(0, rule.port.find('_')) + "` switched off";
@@ -127,32 +146,32 @@ class Rules {
 
   void compare() {
     at_most("fsi_max", "FSI ", figures_.fsi, figures_.fsi_max, 2, "",
-            breakers(volumes_, [](const PlotVolume& v) { return v.floor_area; }), Unit::square_metre);
+            breakers(volumes_, [](const VolumeThere& v) { return v.figures.floor_area; }), Unit::square_metre);
     at_most("gsi_max", "GSI ", figures_.gsi, figures_.gsi_max, 2, "",
-            breakers(volumes_, [&](const PlotVolume& v) { return is_on_ground(v) ? v.footprint : 0; }), Unit::square_metre);
-    at_most(
-        "height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
-        breakers(volumes_, [&](const PlotVolume& v) { return top(v) > figures_.height_max * (1 + kRuleRounding) ? top(v) : 0; }),
-        Unit::metre);
+            breakers(volumes_, [&](const VolumeThere& v) { return is_on_ground(v.figures) ? v.figures.footprint : 0; }),
+            Unit::square_metre);
+    at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
+            breakers(volumes_,
+                     [&](const VolumeThere& v) {
+                       return top(v.figures) > figures_.height_max * (1 + kRuleRounding) ? top(v.figures) : 0;
+                     }),
+            Unit::metre);
     if (figures_.setback_overshoot <= kRuleRounding * figures_.setback) return;
     const double found = figures_.setback - figures_.setback_overshoot;
     add("setback",
         found < 0 ? "built " + fixed(-found, 2) + " m beyond the side of the plot, where a set-back of " +
                         fixed(figures_.setback, 2) + " m is asked for"
                   : "a set-back of " + demand::found_of_allowed(found, figures_.setback, 2, " m") + " asked for",
-        found, figures_.setback, breakers(volumes_, [&](const PlotVolume& v) { return depth_in_setback(v); }), Unit::metre);
+        found, figures_.setback, breakers(volumes_, [&](const VolumeThere& v) { return figures_.setback - v.clearance; }),
+        Unit::metre);
+    const bool has_balls = std::any_of(volumes_.begin(), volumes_.end(),
+                                       [this](const VolumeThere& v) { return !v.is_standing && v.clearance < figures_.setback; });
+    if (has_balls) all_.back().text += "; balls keep no set-back by a link: move them inwards, or lower `setback`";
   }
 
  private:
   double top(const PlotVolume& volume) const { return volume.bottom + volume.height - figures_.ground; }
   bool is_on_ground(const PlotVolume& volume) const { return volume.bottom < figures_.ground + volume.storey_height; }
-
-  // As the plot measures it: the volume taken as a disc of the area of its footprint.
-  double depth_in_setback(const PlotVolume& volume) const {
-    const Point3 flat{volume.centroid.x, volume.centroid.y, 0};
-    const Point3 side = geometry::nearest_on_ring(figures_.polygon, flat);
-    return figures_.setback - distance({side.x, side.y, 0}, flat) + std::sqrt(volume.footprint / std::numbers::pi);
-  }
 
   void at_most(const char* port, const std::string& what, double found, double allowed, int decimals, const char* unit,
                const std::vector<Breaker>& by, Unit amounts) {

@@ -22,6 +22,7 @@ BL_VIEW(PlotFigures)
 
 void PlotVolume::declare(ViewBuilder<PlotVolume>& v) {
   v.of("smart_volume");
+  v.reads(&PlotVolume::position, "node.position", Unit::metre);
   v.reads(&PlotVolume::centroid, "smart_volume.centroid", Unit::metre);
   v.reads(&PlotVolume::volume, "smart_volume.volume", Unit::cubic_metre);
   v.reads(&PlotVolume::floor_area, "smart_volume.floor_area", Unit::square_metre);
@@ -37,6 +38,7 @@ void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
   v.reads(&PlotRuleParameters::hold_fsi, "plot_rules.hold_fsi");
   v.reads(&PlotRuleParameters::hold_gsi, "plot_rules.hold_gsi");
   v.reads(&PlotRuleParameters::hold_height, "plot_rules.hold_height");
+  v.reads(&PlotRuleParameters::hold_setback, "plot_rules.hold_setback");
 }
 BL_VIEW(PlotRuleParameters)
 

@@ -15,7 +15,7 @@ struct PlotFigures {
   double fsi = 0;                ///< floor space index
   double gsi = 0;                ///< ground space index
   double top = 0;                ///< of the highest volume above the ground [m]
-  double overshoot = 0;          ///< by how much the worst rule of FSI, GSI and height is broken
+  double overshoot = 0;          ///< by how much the worst of the rules is broken
   double setback = 0;            ///< [m]
   double setback_overshoot = 0;  ///< the largest depth of a volume in it [m]
   std::string message;           ///< what no smaller demand corrects
@@ -26,6 +26,7 @@ struct PlotFigures {
 
 /// What the rules of a plot read of a volume.
 struct PlotVolume {
+  Point3 position;           ///< [m]
   Point3 centroid;           ///< [m]
   double volume = 0;         ///< [m³]
   double floor_area = 0;     ///< [m²]
@@ -43,6 +44,7 @@ struct PlotRuleParameters {
   bool hold_fsi = false;
   bool hold_gsi = false;
   bool hold_height = false;
+  bool hold_setback = false;
 
   static void declare(ViewBuilder<PlotRuleParameters>& v);
   static const ViewDefinition& view();
