@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/standing_text.h"
 #include "core/geometry/standing_tick.h"
 #include "core/traffic/street_line.h"
 
@@ -202,31 +202,10 @@ struct StandingSolver {
     return wish;
   }
 
-  // What is compared with what is wanted: floor area by the volume's own storey height. In a storey that it shares, the volume
-  // may be more than that [m³].
-  static double fitted_of(const geometry::StandingWish& wish, const geometry::StandingResult& result) {
-    return result.is_shared ? result.floor_area * wish.site.storey_height : result.volume;
-  }
-
-  static double error_of(const geometry::StandingWish& wish, const geometry::StandingResult& result) {
-    return wish.volume > 0 ? std::abs(fitted_of(wish, result) - wish.volume) / wish.volume : 0;
-  }
-
   // What is below the ground; nothing under a volume that stands on another.
   static geometry::PlateStack cellar_of(const std::pair<int, double>& wish, const geometry::StandingResult& result) {
     if (result.stands_on >= 0 || !result.body) return geometry::cellar_of({}, 0, wish.second);
     return geometry::cellar_of(*result.body, wish.first, wish.second);
-  }
-
-  static std::string reason_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
-                               std::span<const std::string> names) {
-    if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
-    if (result.state == geometry::SiteState::coincident) return "stands in the place of a heavier volume: move one of them";
-    if (result.floor_area > 0) return "";
-    if (wish.base >= 0)
-      return "has no footprint: `" + names[static_cast<std::size_t>(wish.base)] +
-             "`, on which it stands, its neighbours and its " + "set-backs leave it no roof where it stands";
-    return "has no footprint: its neighbours, its set-backs and the plot leave it nothing where it stands";
   }
 
   static Reply reply_of(const geometry::StandingWish& wish, const geometry::StandingResult& result,
@@ -236,7 +215,7 @@ struct StandingSolver {
     if (result.body) geometry::write_body(*result.body, plates);
     const double around = result.facade_area + result.roof_area + result.footprint;
     return {.wanted = wish.volume,
-            .fitted = fitted_of(wish, result),
+            .fitted = geometry::fitted_volume(wish, result),
             .weight = result.weight,
             .radius = std::sqrt(std::max(0.0, result.weight)),
             .volume = result.volume,
@@ -247,9 +226,9 @@ struct StandingSolver {
             .spherical_area = result.free_facade_area,
             .height = result.height,
             .bottom = result.bottom,
-            .error = error_of(wish, result),
+            .error = geometry::error_of(wish, result),
             .state = std::string(name_of(result.state)),
-            .reason = reason_of(wish, result, names),
+            .reason = geometry::missing_text(wish, result, names),
             .stands_on = !(result.floor_area > 0) ? ""
                          : result.stands_on < 0   ? "the ground"
                                                   : names[static_cast<std::size_t>(result.stands_on)],
@@ -320,54 +299,12 @@ struct StandingSolver {
     return words;
   }
 
-  // Cellars that are asked for where none can be. Sentences after semicolons.
-  static std::string find_lost_cellars(const Kept& kept, std::span<const geometry::StandingResult> results) {
-    std::string words;
-    for (std::size_t i = 0; i < results.size(); ++i)
-      if (kept.cellars[i].first > 0 && results[i].stands_on >= 0)
-        words += "; `" + kept.names[i] + "` has no cellar, because it stands on `" +
-                 kept.names[static_cast<std::size_t>(results[i].stands_on)] + "`: set its `cellar_storeys` to 0";
-    return words;
-  }
-
-  // What is built otherwise than people have set it. Sentences after semicolons.
-  static std::string find_other_storeys(const Kept& kept, std::span<const geometry::StandingResult> results, double top,
-                                        double tolerance) {
-    std::string words;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      const geometry::StandingWish& wish = kept.wishes[i];
-      if (!(wish.volume > 0)) continue;
-      if (wish.host >= 0) continue;
-      // Of a building that several share, all of it.
-      const geometry::StandingResult& whole = results[i].is_shared ? kept.cache.results[i] : results[i];
-      if (wish.storeys < wish.least)
-        words += "; `" + kept.names[i] + "` has " + how_many(static_cast<std::size_t>(wish.least), "storey") +
-                 ", the least that it may have, and not " + std::to_string(wish.storeys) +
-                 ": lower `storeys_min`, or raise `storeys`";
-      if (wish.base < 0 && whole.bottom < wish.ground && whole.body)
-        words += "; `" + kept.names[i] + "` stands at " + fixed(whole.bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
-                 " m, because the boundary leaves no storey above that";
-      if (whole.body && whole.bottom + whole.height > top + 1e-6)
-        words += "; `" + kept.names[i] + "` reaches " + fixed(whole.bottom + whole.height, 1) + " m, and the boundary " +
-                 fixed(top, 1) + " m: the least of its storeys need more height than there is";
-      // On their way to what they want, volumes are smaller.
-      if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
-      int with_area = 0;
-      for (const geometry::PlateStack& stack : whole.body->stacks) with_area += stack.storeys;
-      if (with_area < whole.storeys.count)
-        words += "; the set-back of `" + kept.names[i] + "` leaves nothing of its upper " +
-                 how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
-                 ": lower it, or the number of storeys";
-    }
-    return words;
-  }
-
   static void add_up(const Kept& kept, std::span<const geometry::StandingResult> results, Out& out) {
     for (std::size_t i = 0; i < results.size(); ++i) {
       out.count += results[i].volume > 0 ? 1 : 0;
       out.total_floor_area += results[i].floor_area;
       out.covered += results[i].stands_on < 0 ? results[i].footprint : 0;
-      const double error = error_of(kept.wishes[i], results[i]);
+      const double error = geometry::error_of(kept.wishes[i], results[i]);
       if (error <= out.largest_error) continue;
       out.largest_error = error;
       out.worst = kept.names[i];
@@ -442,7 +379,10 @@ struct StandingSolver {
                "` stands on the ground, because it would stand upon itself: take away what makes it do so, its `bases` or a link "
                "of the kind `stack`";
     }
-    words += find_other_storeys(kept, done->results, (*domain)->maximum.z, in.tolerance) + find_lost_cellars(kept, done->results);
+    words += geometry::other_storeys_text(kept.wishes, done->results, kept.cache.results, (*domain)->maximum.z, in.tolerance,
+                                          kept.names);
+    for (std::size_t i = 0; i < kept.names.size(); ++i)
+      if (kept.cellars[i].first > 0) words += geometry::lost_cellar_text(done->results[i], i, kept.names);
     add_up(kept, done->results, out);
     for (const std::uint32_t i : answered)
       out.replies.replies.push_back(

@@ -69,6 +69,12 @@ struct StandingResult {
   MeshPointer mesh;
 };
 
+/// What is compared with what is wanted: floor area by the volume's own storey height. In a storey that it shares, the volume may
+/// be more than that [m³].
+double fitted_volume(const StandingWish& wish, const StandingResult& result);
+/// By how much it misses what is wanted, as a share of that; 0 where nothing is.
+double error_of(const StandingWish& wish, const StandingResult& result);
+
 /// One tick. Volumes on one roof divide its plate among themselves as those on the ground divide the plot, and never compete with
 /// what carries them. A volume below does not depend on those above it, so levels are fitted one after the other, and demands are
 /// met as exactly on roofs as on the ground. Of a round roof they get the chords within `kRoofTolerance`.

@@ -1,0 +1,57 @@
+// Sentences about volumes that stand, with people's names of them.
+#include "core/geometry/standing_text.h"
+
+#include "core/base/plural.h"
+#include "core/base/text.h"
+
+namespace bl::geometry {
+
+std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names) {
+  if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
+  if (result.state == SiteState::coincident) return "stands in the place of a heavier volume: move one of them";
+  if (result.floor_area > 0) return "";
+  if (wish.base >= 0)
+    return "has no footprint: `" + names[static_cast<std::size_t>(wish.base)] + "`, on which it stands, its neighbours and its " +
+           "set-backs leave it no roof where it stands";
+  return "has no footprint: its neighbours, its set-backs and the plot leave it nothing where it stands";
+}
+
+std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
+                               std::span<const StandingResult> buildings, double top, double tolerance,
+                               std::span<const std::string> names) {
+  std::string words;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const StandingWish& wish = wishes[i];
+    if (!(wish.volume > 0)) continue;
+    if (wish.host >= 0) continue;
+    // Of a building that several share, all of it.
+    const StandingResult& whole = results[i].is_shared ? buildings[i] : results[i];
+    if (wish.storeys < wish.least)
+      words += "; `" + names[i] + "` has " + how_many(static_cast<std::size_t>(wish.least), "storey") +
+               ", the least that it may have, and not " + std::to_string(wish.storeys) +
+               ": lower `storeys_min`, or raise `storeys`";
+    if (wish.base < 0 && whole.bottom < wish.ground && whole.body)
+      words += "; `" + names[i] + "` stands at " + fixed(whole.bottom, 1) + " m and not at " + fixed(wish.ground, 1) +
+               " m, because the boundary leaves no storey above that";
+    if (whole.body && whole.bottom + whole.height > top + 1e-6)
+      words += "; `" + names[i] + "` reaches " + fixed(whole.bottom + whole.height, 1) + " m, and the boundary " + fixed(top, 1) +
+               " m: the least of its storeys need more height than there is";
+    // On their way to what they want, volumes are smaller.
+    if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
+    int with_area = 0;
+    for (const PlateStack& stack : whole.body->stacks) with_area += stack.storeys;
+    if (with_area < whole.storeys.count)
+      words += "; the set-back of `" + names[i] + "` leaves nothing of its upper " +
+               how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
+               ": lower it, or the number of storeys";
+  }
+  return words;
+}
+
+std::string lost_cellar_text(const StandingResult& result, std::size_t i, std::span<const std::string> names) {
+  if (result.stands_on < 0) return "";
+  return "; `" + names[i] + "` has no cellar, because it stands on `" + names[static_cast<std::size_t>(result.stands_on)] +
+         "`: set its `cellar_storeys` to 0";
+}
+
+}  // namespace bl::geometry

@@ -1,0 +1,24 @@
+// Sentences about volumes that stand, with people's names of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/geometry/standing_tick.h"
+
+namespace bl::geometry {
+
+/// Why a volume has no footprint; empty where it has one. Lists are in the order of the wishes.
+std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names);
+
+/// What is built otherwise than people have set it, each sentence after "; ". `buildings`: the results of whole buildings, where
+/// volumes share a footprint; `top`: of the boundary [m]; `tolerance`: the share by which a volume may miss what it wants.
+std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
+                               std::span<const StandingResult> buildings, double top, double tolerance,
+                               std::span<const std::string> names);
+
+/// The same of a cellar that volume i asks for and cannot have.
+std::string lost_cellar_text(const StandingResult& result, std::size_t i, std::span<const std::string> names);
+
+}  // namespace bl::geometry
