@@ -32,8 +32,8 @@ TEST(ShareFootprint, ThreeUsesMakeOneBuilding) {
   // Covered once, by whoever has the ground.
   const double covered = world.number("solver", "standing_solver.covered");
   EXPECT_LT(covered, 1200);
-  // A limit on the flats is one on the building: it loses storeys, and its footprint grows.
-  ASSERT_EQ(world.submit(command<SetPort>({.node = "flats", .port = {"footprint.height_limit"}, .value = {"4"}})), "");
+  // A limit on the host is one on the building: it loses storeys, its footprint grows, and the flats stay as large.
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "shops", .port = {"footprint.height_limit"}, .value = {"15.5"}})), "");
   world.tick(8);
   ASSERT_TRUE(world.settle());
   EXPECT_LT(world.number("shops", "footprint.storeys_held"), 6);

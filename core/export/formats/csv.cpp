@@ -72,7 +72,6 @@ struct CsvFormat {
           rows.push_back({"storey", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
                           "", "", "", ""});
       }
-      // Of their own kind, so that the rows of storeys add up to the floor area.
       for (const Storey& s : b.cellars)
         if (options.storeys)
           rows.push_back({"cellar", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
