@@ -376,8 +376,7 @@ struct StandingSolver {
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] +
-               "` stands on the ground, because it would stand upon itself: take away what makes it do so, its `bases` or a link "
-               "of the kind `stack`";
+               "` stands on the ground, because it would stand upon itself: change its `bases`, or the `stack` link to it";
     }
     words += geometry::other_storeys_text(kept.wishes, done->results, kept.cache.results, (*domain)->maximum.z, in.tolerance,
                                           kept.names);
