@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/cell_mesh.h"
+#include "core/reading/cell_cut.h"
 #include "core/reading/views/volume.h"
 #include "tests/support/world.h"
 #include "tests/ui/desktop/panels_support.h"

@@ -178,12 +178,12 @@ void SceneView::draw_labels() {
   ImFont* font = theme.fonts().small;
   std::vector<Rectangle> taken;
   for (const LabelRequest& w : wishes) {
-    const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
-    if (!anchor.is_in_front) continue;
-    const ImVec2 p = on_screen(anchor);
     const ImVec2 extent = extent_of(font, w);
     // What is much smaller than its name would be hidden by it: the card says it where people point.
     if (!w.is_mark && !w.is_chosen && 2 * w.reach < kLeastShareOfLabel * extent.x) continue;
+    const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
+    if (!anchor.is_in_front) continue;
+    const ImVec2 p = on_screen(anchor);
     const float below = w.is_mark ? theme.px(20) + (w.stream ? 0.575f * font->FontSize : 0) : 0;
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {{{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};

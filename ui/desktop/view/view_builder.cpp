@@ -67,6 +67,7 @@ struct Builder {
   void add_boundary();
   void add_media();
   void add_section();
+  void cut_lines();
   void add_links();
   void add_weights();
   void add_neighbours();
@@ -118,6 +119,22 @@ void Builder::add_section() {
   const auto corners = section_corners(choices.section, model_box(facts));
   for (std::size_t k = 0; k < corners.size(); ++k)
     line(corners[k], corners[(k + 1) % corners.size()], faded(theme.colours().accent, 0.85f), 1.4f, 0.35f);
+}
+
+// What is drawn of lines before the plane is hidden with the bodies that they belong to.
+void Builder::cut_lines() {
+  const ViewSection& section = choices.section;
+  if (!section.is_on) return;
+  constexpr double kOnPlane = 1e-3;  // [m]: lines in the plane, such as its frame, stay
+  const auto before = [&](const Point3& p) { return dot(section.normal, p) - section.offset; };
+  std::erase_if(scene.lines, [&](ViewLine& line) {
+    const double a = before(line.from), b = before(line.to);
+    if (a > kOnPlane && b > kOnPlane) return true;
+    const Point3 cut = line.from + std::clamp(a / (a - b), 0.0, 1.0) * (line.to - line.from);
+    if (a > kOnPlane) line.from = cut, line.came = {};
+    else if (b > kOnPlane) line.to = cut, line.goes = {};
+    return false;
+  });
 }
 
 void Builder::add_media() {
@@ -245,6 +262,7 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
   builder.add_pulls();
   add_urban(
       facts, choices, picks, theme, [&](const char* layer) { return is_on(person, layer); }, builder.scene);
+  builder.cut_lines();
   return std::move(builder.scene);
 }
 
