@@ -82,6 +82,10 @@ class Adding {
   void role(const std::string& node, const char* type, const Json& values = Json::object()) {
     add(command<Typify>({node, type, JsonValue::of(values)}));
   }
+  void row(const std::string& node, const std::string& port, const Json& row) {
+    add(command<AddRow>({node, {port}, JsonValue::of(row)}));
+  }
+  void leave_out(const std::string& name, const std::vector<Point3>& corners);
   void say(const std::string& sentence) { result_.said.push_back(sentence); }
   std::string new_node(const std::string& wanted) const { return fresh_id(scene_.nodes, wanted); }
   std::string new_link(const std::string& wanted) const { return fresh_id(scene_.links, wanted); }
@@ -174,6 +178,36 @@ Result<void> Adding::sun(const SunAddition& o) {
   return {};
 }
 
+// The outline of a boundary with the form of a plan; empty for all others.
+std::vector<Point3> plan_of(const Scene& scene, const Registry& registry, const NodeRecord& node) {
+  const TypificationDefinition* type = registry.typification("boundary");
+  if (type == nullptr || !node.types.contains("boundary")) return {};
+  const Value& form = set_value(scene, node, *type, *type->find_port("form"));
+  if (std::get<std::string>(form) != "plan") return {};
+  return *std::get<Shared<std::vector<Point3>>>(set_value(scene, node, *type, *type->find_port("plan")));
+}
+
+// From the underside of a boundary to its top, so that nothing hangs above open space.
+void Adding::leave_out(const std::string& name, const std::vector<Point3>& corners) {
+  bool is_inside_any = false;
+  for (const auto& [id, node] : scene_.nodes) {
+    const std::vector<Point3> plan = plan_of(scene_, registry_, node);
+    if (plan.empty() ||
+        std::none_of(corners.begin(), corners.end(), [&](const Point3& corner) { return geometry::ring_contains(plan, corner); }))
+      continue;
+    is_inside_any = true;
+    const TypificationDefinition& type = *registry_.typification("boundary");
+    const double bottom = as_number(set_value(scene_, node, type, *type.find_port("bottom"))),
+                 height = as_number(set_value(scene_, node, type, *type.find_port("height")));
+    for (const Point3& corner : corners)
+      row(id, "boundary.exclusions",
+          {{"name", name}, {"x", corner.x}, {"y", corner.y}, {"bottom", bottom}, {"top", bottom + height}});
+    say("The boundary `" + id + "` leaves out its " + fixed(std::abs(geometry::signed_area(corners)), 1) +
+        " m²: open space, which plots count as not built.");
+  }
+  if (!is_inside_any) say("No boundary reaches it, so that none leaves its ground out.");
+}
+
 Result<std::vector<Point3>> read_corners(const std::vector<std::string>& texts) {
   std::vector<Point3> corners;
   for (const std::string& text : texts) {
@@ -222,15 +256,6 @@ Rectangle around(const std::vector<Point3>& corners) {
 }
 
 double to_millimetres(double value) { return std::round(value * 1000) / 1000 + 0.0; }
-
-// The outline of a boundary with the form of a plan; empty for all others.
-std::vector<Point3> plan_of(const Scene& scene, const Registry& registry, const NodeRecord& node) {
-  const TypificationDefinition* type = registry.typification("boundary");
-  if (type == nullptr || !node.types.contains("boundary")) return {};
-  const Value& form = set_value(scene, node, *type, *type->find_port("form"));
-  if (std::get<std::string>(form) != "plan") return {};
-  return *std::get<Shared<std::vector<Point3>>>(set_value(scene, node, *type, *type->find_port("plan")));
-}
 
 }  // namespace
 
@@ -312,6 +337,8 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
   if (garden.corners.empty() && !node->second.types.contains("shadow_receiver") && !node->second.types.contains("plot"))
     return Error{ErrorCode::wrong_kind, "--id",
                  "`" + garden.id + "` is neither a plot nor a shadow receiver: give the garden --corners"};
+  if (garden.is_open && garden.corners.empty() && node->second.types.contains("shadow_receiver"))
+    return Error{ErrorCode::conflict, "--open", "`" + garden.id + "` is there already: open space is laid with a new garden"};
   Adding adding(scene, registry);
   if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.latitude ||
       !garden.sun.date.empty())
@@ -345,6 +372,7 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
                          {"required_sun", hours * 3600}}}}}});
     adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
                shortest(hours) + " h of sun a day.");
+    if (garden.is_open) adding.leave_out(id, corners);
     if (box.beyond > kRectangle)
       adding.say("A garden is a rectangle: " + fixed(100 * box.beyond, 0) + " % of this one lies outside of the corners.");
   }

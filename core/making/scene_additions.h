@@ -30,6 +30,7 @@ struct GardenAddition {
   std::string id;                    ///< of a node that is a garden or becomes one; empty: a new node
   std::vector<std::string> corners;  ///< each "X,Y" [m]; three or more
   std::optional<double> hours;       ///< of sun a day
+  bool is_open = false;              ///< boundaries leave its ground out: open space that nobody builds on
   SunAddition sun;                   ///< used where the scene has no sun study
 };
 

@@ -194,6 +194,8 @@ void declare_add(CLI::App& app, AddOptions& o) {
          "sun, garden: hours that clocks are ahead of universal time. Default: by the longitude.", "HOURS", "sun", "garden");
   option("--corners", o.garden.corners, "garden: its corners in order, in m of the scene.", "X,Y", "garden")->expected(1, 1000);
   option("--id", o.garden.id, "garden: a plot or a garden of the scene; with --corners the id of the new one.", "ID", "garden");
+  of_addition(c.add_flag("--open", o.garden.is_open, "garden: keeps its ground free, as open space inside the boundary."), o,
+              "garden");
   option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
   c.footer(
       "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExamples:\n"

@@ -77,6 +77,24 @@ TEST_F(Add, AGardenBringsItsSunAndHoldsIt) {
   EXPECT_TRUE(added_node(after, "sun_2").is_null());
 }
 
+TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
+  const auto ground = [&] {
+    (void)place.run({"run", "s.json", "--ticks", "2", "--save", "after.json"});
+    return place.json("after.json")["state"]["nodes"]["site"].value("boundary.ground_area", 0.0);
+  };
+  EXPECT_NEAR(ground(), 80 * 44, 1e-6);
+  const Outcome done = add({"garden", "--corners", "0,0", "20,0", "20,10", "0,10", "--open"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("The boundary `site` leaves out its 200.0 m²: open space"), std::string::npos) << done.out;
+  EXPECT_NEAR(ground(), 80 * 44 - 200, 1e-6);
+  ASSERT_EQ(add({"rules", "--gsi", "0.9"}).code, 0);
+  (void)place.run({"run", "s.json", "--json", "r.json"});
+  const nlohmann::json plot = place.json("r.json")["plots"][0];
+  EXPECT_NEAR(plot["area"].get<double>(), 80 * 44, 1e-6) << "the land stays what it is";
+  EXPECT_NEAR(plot["osr"].get<double>(), (1 - plot["gsi"].get<double>()) / plot["fsi"].get<double>(), 1e-9);
+  EXPECT_EQ(add({"garden", "--id", "garden", "--open"}).code, 2);
+}
+
 TEST_F(Add, WhatIsWrongIsRefusedInASentenceAndNothingIsWritten) {
   const std::string before = place.text("s.json");
   const auto said = [&](std::vector<std::string> arguments) {
