@@ -313,7 +313,7 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
   }
   adding.say("The rules of `" + id + "`: " + list + ".");
   if (rules.setback)
-    adding.say("The setback is measured; what keeps volumes away from the sides is the margin of the link `inside`.");
+    adding.say("Volumes that stand keep the setback from the border in all storeys; of balls it is measured only.");
   if (!adding.has_link("plot_rules", id)) {
     const std::string link = adding.new_link("plot_rules");
     adding.link(link, {{"kind", "plot_rules"}, {"from", id}, {"to", {{"typification", "smart_volume"}}}});

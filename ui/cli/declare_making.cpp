@@ -184,7 +184,7 @@ void declare_add(CLI::App& app, AddOptions& o) {
   option("--fsi", o.rules.fsi, "rules: the largest floor area over land.", "RATIO", "rules");
   option("--gsi", o.rules.gsi, "rules: the largest built ground over land.", "RATIO", "rules");
   option("--height", o.rules.height, "rules: the largest height above the ground, in m.", "METRES", "rules");
-  option("--setback", o.rules.setback, "rules: the distance from the sides of the plot that is measured, in m.", "METRES",
+  option("--setback", o.rules.setback, "rules: how far volumes that stand keep from the border of the plot, in m.", "METRES",
          "rules");
   option("--latitude", o.sun.latitude, "sun, garden: where the sun stands, in degrees. Default: where the scene lies.", "DEGREES",
          "sun", "garden");
