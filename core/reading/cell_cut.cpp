@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/mathematics.h"
+
 namespace bl::reading {
 
 namespace {
@@ -117,7 +119,7 @@ class CellCutter {
     if (rim.size() >= 3) {
       const Point3 middle = middle_of(rim);
       const auto angle = [&](std::uint32_t v) {
-        return sign_ * std::atan2(made_.vertices[v].y - middle.y, made_.vertices[v].x - middle.x);
+        return sign_ * mathematics::arc_tangent(made_.vertices[v].y - middle.y, made_.vertices[v].x - middle.x);
       };
       std::sort(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
       add_fan(add(middle, 0), rim);

@@ -98,7 +98,7 @@ FormedVolume as_ball(const FormSource& source, bool with_body) {
     return std::pair{std::move(ball), volume};
   }();
   FormedVolume made;
-  const double radius = ball_radius(source.volume), reach = std::cbrt(source.volume / unit.second);
+  const double radius = ball_radius(source.volume), reach = mathematics::cube_root(source.volume / unit.second);
   if (!(radius > 0)) return made;
   const Point3 middle = ball_middle(source);
   if (with_body) {
@@ -195,7 +195,7 @@ const VolumeFormChoice& choice_of(VolumeForm form) {
   return *std::find_if(kForms.begin(), kForms.end(), [&](const VolumeFormChoice& choice) { return choice.form == form; });
 }
 
-double ball_radius(double volume) { return volume > 0 ? std::cbrt(0.75 * volume / std::numbers::pi) : 0; }
+double ball_radius(double volume) { return volume > 0 ? mathematics::cube_root(0.75 * volume / std::numbers::pi) : 0; }
 
 Point3 ball_middle(const FormSource& source) {
   Point3 middle = source.position;
