@@ -198,7 +198,7 @@ void declare_add(CLI::App& app, AddOptions& o) {
               "garden");
   option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
   c.footer(
-      "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExamples:\n"
+      "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExample:\n"
       "  behaviourlinks add scene.json rules --fsi 2.5 --gsi 0.5 --height 24\n"
       "  behaviourlinks add scene.json sun --date 2026-03-21\n"
       "  behaviourlinks add scene.json garden --corners 10,60 34,60 34,72 10,72 --hours 3");
