@@ -322,7 +322,10 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
   return adding.take();
 }
 
-Result<Addition> add_garden(const Scene& scene, const Registry& registry, const GardenAddition& garden) {
+namespace {
+
+// Is it said where the garden is, in one way only?
+Result<void> check_garden(const Scene& scene, const GardenAddition& garden) {
   if (auto sound = within("--hours", garden.hours, 0, 24, " h"); !sound) return sound.error();
   if (garden.id.empty() && garden.corners.empty())
     return Error{ErrorCode::missing, "--corners", "say where the garden is: by --corners X,Y X,Y X,Y ..., or by --id of a node"};
@@ -339,6 +342,14 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
                  "`" + garden.id + "` is neither a plot nor a shadow receiver: give the garden --corners"};
   if (garden.is_open && garden.corners.empty() && node->second.types.contains("shadow_receiver"))
     return Error{ErrorCode::conflict, "--open", "`" + garden.id + "` is there already: open space is laid with a new garden"};
+  return {};
+}
+
+}  // namespace
+
+Result<Addition> add_garden(const Scene& scene, const Registry& registry, const GardenAddition& garden) {
+  if (auto sound = check_garden(scene, garden); !sound) return sound.error();
+  const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
   Adding adding(scene, registry);
   if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.latitude ||
       !garden.sun.date.empty())

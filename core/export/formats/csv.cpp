@@ -32,32 +32,35 @@ struct CsvFormat {
     return {kind, "", "", use.use, "", "", "", "", use.floor_area, "", use.asked_area, use.volume, use.asked_volume, "", "", ""};
   }
 
+  static std::vector<std::string> header() {
+    return {"row",
+            "building",
+            "label",
+            "use",
+            "form",
+            "storey",
+            "bottom [m]",
+            "top [m]",
+            "floor_area [m2]",
+            "drawn_area [m2]",
+            "asked_floor_area [m2]",
+            "volume [m3]",
+            "asked_volume [m3]",
+            "footprint [m2]",
+            "x [m]",
+            "y [m]",
+            "value",
+            "target",
+            "unit",
+            "status",
+            "scene",
+            "hash",
+            "tick",
+            "place",
+            "measured"};
+  }
+
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    const std::vector<std::string> header = {"row",
-                                             "building",
-                                             "label",
-                                             "use",
-                                             "form",
-                                             "storey",
-                                             "bottom [m]",
-                                             "top [m]",
-                                             "floor_area [m2]",
-                                             "drawn_area [m2]",
-                                             "asked_floor_area [m2]",
-                                             "volume [m3]",
-                                             "asked_volume [m3]",
-                                             "footprint [m2]",
-                                             "x [m]",
-                                             "y [m]",
-                                             "value",
-                                             "target",
-                                             "unit",
-                                             "status",
-                                             "scene",
-                                             "hash",
-                                             "tick",
-                                             "place",
-                                             "measured"};
     std::vector<Row> rows;
     const auto add_building = [&](const Building& b, const char* form, csv::CsvCell drawn) {
       rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, std::move(drawn),
@@ -66,16 +69,16 @@ struct CsvFormat {
     for (const Building& b : proposal.buildings) {
       const char* form = b.is_standing ? "standing" : "rounded";
       double drawn = 0;
+      const auto add_storey = [&](const Storey& s, const char* kind) {
+        if (options.storeys)
+          rows.push_back({kind, b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "", "",
+                          "", "", ""});
+      };
       for (const Storey& s : b.storeys) {
         drawn += area_of(s.faces);
-        if (options.storeys)
-          rows.push_back({"storey", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
-                          "", "", "", ""});
+        add_storey(s, "storey");
       }
-      for (const Storey& s : b.cellars)
-        if (options.storeys)
-          rows.push_back({"cellar", b.id, b.label, b.use, form, s.number, s.bottom, s.top, s.floor_area, area_of(s.faces), "", "",
-                          "", "", "", ""});
+      for (const Storey& s : b.cellars) add_storey(s, "cellar");
       add_building(b, form, drawn);
     }
     for (const Building& b : proposal.shapeless) add_building(b, "no shape", "");
@@ -92,7 +95,7 @@ struct CsvFormat {
       for (csv::CsvCell& cell :
            Row{proposal.name(), proposal.hash, proposal.tick, place_text(proposal), reading::choice_of(proposal.form).measured})
         row.push_back(std::move(cell));
-    return ExportFiles{{{"schedule.csv", csv::write_csv(header, rows)}}, {}};
+    return ExportFiles{{{"schedule.csv", csv::write_csv(header(), rows)}}, {}};
   }
 };
 
