@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/geometry/touching_balls.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/node.h"
 #include "core/reading/views/volume.h"
 
@@ -142,6 +143,9 @@ VolumePlaces::Volume VolumePlaces::volume_of(const State& state, std::uint32_t n
   std::optional<Level> level;
   if (const auto storeys = reading::row_of<StoreyFigures>(state, node))
     level = {place.bottom, storeys->bases.empty() ? "" : storeys->bases.front()};
+  // What shares the footprint of another divides no ground with anybody: its place says nothing.
+  if (const auto sharing = reading::row_of<SharingFigures>(state, node); level && sharing && !sharing->shares.empty())
+    level->base = state.plan->nodes[node].id;
   return {node, place.position, geometry::ball_radius(place.wanted), place.hang, std::move(level)};
 }
 

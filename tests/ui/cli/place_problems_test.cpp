@@ -78,6 +78,21 @@ TEST(PlaceProblems, WhoStandsOnAVolumeWithoutABodyLiesOnNoPointWithIt) {
   EXPECT_EQ(collapses(""), 1u) << "on the ground they do";
 }
 
+TEST(PlaceProblems, WhoSharesAFootprintLiesOnNoPointWithItsHost) {
+  const auto collapses = [](const std::string& shares) {
+    World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40}}},
+      {"id": "solver", "types": {"standing_solver": {}}},
+      {"id": "shop", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"storeys": 3}}},
+      {"id": "flats", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 1800}, "footprint": {)" +
+                                   shares + R"(}}}], "links": []})");
+    world.tick(5);
+    return reading::collapsed_volumes(world.state()).size();
+  };
+  EXPECT_EQ(collapses(R"("shares": ["shop"])"), 0u);
+  EXPECT_EQ(collapses(""), 1u);
+}
+
 TEST(PlaceProblems, TellsACollapseAsOneWithThosePulling) {
   World world = World::from_text(placed_scene(
       volume_at("a", "[20, 20, 6]") + "," + volume_at("b", "[22, 20, 6]") + "," + volume_at("c", "[20, 22, 6]") + "," +
