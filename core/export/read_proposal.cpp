@@ -47,22 +47,17 @@ std::vector<PlateFace> section_at(const reading::VolumeRow& volume, double z) {
   return faces_of_rings(rings_of(geometry::section(*volume.mesh, z, [](std::size_t) { return true; })));
 }
 
-// The solver measures a rounded volume at the middle of each storey above its lowest point, at least once. What is left above
-// the last whole storey counts by its share of a storey. Half a storey or more is a storey of the drawing; less belongs to the
-// one below.
+// A rounded volume, where its solver measures it.
 void cut(const reading::VolumeRow& volume, Building& building) {
-  const double height = volume.figures.height, storey = building.storey_height;
-  const auto cuts = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(height / storey - 0.5)));
   double drawn = 0;
-  for (std::int64_t k = 0; k < cuts; ++k) {
-    const double bottom = building.bottom + static_cast<double>(k) * storey, top = std::min(bottom + storey, building.top);
-    Storey made{static_cast<int>(k), 0, bottom, top, 0, section_at(volume, 0.5 * (bottom + top)), {}, {}};
-    if (made.faces.empty()) continue;
-    made.floor_area = area_of(made.faces) * (cuts > 1 ? (top - bottom) / storey : 1);
-    if (const double rest = building.top - top; k + 1 == cuts && rest > 0)
-      made.floor_area += rest / storey * area_of(section_at(volume, top + 0.5 * rest));
+  int number = 0;
+  for (const reading::FloorCut& cut : reading::floor_cuts(building.bottom, volume.figures.height, building.storey_height)) {
+    Storey made{number, 0, cut.bottom, cut.top, 0, section_at(volume, cut.at), {}, {}};
+    number += cut.is_drawn ? 1 : 0;
+    made.floor_area = cut.share * area_of(made.faces);
     drawn += made.floor_area;
-    building.storeys.push_back(std::move(made));
+    if (!cut.is_drawn && !building.storeys.empty()) building.storeys.back().floor_area += made.floor_area;
+    else if (!made.faces.empty()) building.storeys.push_back(std::move(made));
   }
   // Arcs are drawn as chords, so the drawing has a little less than the figure: each storey gets its share of the figure.
   for (Storey& made : building.storeys) made.floor_area *= building.floor_area / drawn;

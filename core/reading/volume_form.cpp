@@ -75,19 +75,11 @@ geometry::Ring circle(const Point3& middle, double radius) {
   return ring;
 }
 
-// Where solvers cut a rounded body for its floors: in the middle of each storey from its bottom up, at least once.
-struct Cut {
-  double bottom = 0, top = 0, at = 0;
-};
-std::vector<Cut> cuts_of(double bottom, double height, double storey) {
-  std::vector<Cut> cuts;
-  const int count = std::max(1, static_cast<int>(std::ceil(std::min(height / storey, 5000.0) - 0.5 - 1e-9)));
-  for (int k = 0; k < count; ++k) {
-    const double floor = bottom + k * storey;
-    cuts.push_back(
-        {floor, std::min(floor + storey, bottom + height), height < storey ? bottom + height / 2 : floor + storey / 2});
-  }
-  return cuts;
+// What is too low for a storey of its own belongs to the one below.
+void add_floor(FormedStorey storey, const FloorCut& cut, FormedVolume& made) {
+  made.floor_area += storey.area;
+  if (cut.is_drawn || made.storeys.empty()) made.storeys.push_back(std::move(storey));
+  else made.storeys.back().area += storey.area;
 }
 
 FormedVolume as_ball(const FormSource& source, bool with_body) {
@@ -109,12 +101,12 @@ FormedVolume as_ball(const FormSource& source, bool with_body) {
   made.volume = source.volume;
   made.bottom = middle.z - radius;
   made.top = middle.z + radius;
-  for (const Cut& cut : cuts_of(made.bottom, 2 * radius, source.storey_height)) {
+  for (const FloorCut& cut : floor_cuts(made.bottom, 2 * radius, source.storey_height)) {
     const double squared = radius * radius - (cut.at - middle.z) * (cut.at - middle.z);
     if (!(squared > 0)) continue;
-    made.storeys.push_back({cut.bottom, cut.top, std::numbers::pi * squared, {}});
-    if (with_body) made.storeys.back().faces.push_back({circle(middle, std::sqrt(squared)), {}});
-    made.floor_area += made.storeys.back().area;
+    FormedStorey storey{cut.bottom, cut.top, cut.share * std::numbers::pi * squared, {}};
+    if (with_body) storey.faces.push_back({circle(middle, std::sqrt(squared)), {}});
+    add_floor(std::move(storey), cut, made);
   }
   return made;
 }
@@ -127,7 +119,7 @@ FormedVolume as_cell(const FormSource& source) {
   made.volume = enclosed_volume(mesh);
   made.bottom = source.bottom;
   made.top = source.bottom + source.height;
-  for (const Cut& cut : cuts_of(made.bottom, source.height, source.storey_height)) {
+  for (const FloorCut& cut : floor_cuts(made.bottom, source.height, source.storey_height)) {
     FormedStorey storey{cut.bottom, cut.top, 0, {}};
     for (geometry::Polyline& line : geometry::section(mesh, cut.at, [](std::size_t) { return true; })) {
       if (!line.is_closed || line.points.size() < 3) continue;
@@ -137,8 +129,8 @@ FormedVolume as_cell(const FormSource& source) {
       storey.faces.push_back({std::move(line.points), {}});
     }
     if (storey.faces.empty()) continue;
-    made.floor_area += storey.area;
-    made.storeys.push_back(std::move(storey));
+    storey.area *= cut.share;
+    add_floor(std::move(storey), cut, made);
   }
   made.mesh = std::make_shared<const Mesh>(std::move(mesh));
   return made;
@@ -188,6 +180,22 @@ FormedVolume as_standing(const FormSource& source, bool with_body) {
 }
 
 }  // namespace
+
+std::vector<FloorCut> floor_cuts(double bottom, double height, double storey) {
+  std::vector<FloorCut> cuts;
+  if (height < storey) return {{bottom, bottom + height, bottom + 0.5 * height, 1, true}};
+  const double whole = std::min(std::floor(height / storey), geometry::kMostStoreys), rest = height - whole * storey;
+  for (int k = 0; k < static_cast<int>(whole); ++k) {
+    const double floor = bottom + k * storey;
+    cuts.push_back({floor, floor + storey, floor + 0.5 * storey, 1, true});
+  }
+  // A hair more than half a storey, so that rounding does not decide.
+  if (rest > 0) {
+    const double top = bottom + height;
+    cuts.push_back({top - rest, top, top - 0.5 * rest, rest / storey, rest / storey > 0.5 + 1e-9});
+  }
+  return cuts;
+}
 
 std::span<const VolumeFormChoice> volume_forms() { return kForms; }
 

@@ -40,6 +40,15 @@ struct FormSource {
   std::vector<FormedStorey> storeys;                 ///< balls and cells do without
 };
 
+/// Where solvers measure the floor area of a rounded body: in the middle of each whole storey from its bottom up, and of what is
+/// left above the last one, which counts by its share of a storey. A body without a whole storey has one floor.
+struct FloorCut {
+  double bottom = 0, top = 0, at = 0;  ///< [m]
+  double share = 1;                    ///< by which its section counts
+  bool is_drawn = true;                ///< as a storey; what is left and no more than half a storey belongs to the one below
+};
+std::vector<FloorCut> floor_cuts(double bottom, double height, double storey);
+
 struct FormedVolume {
   double volume = 0, floor_area = 0;  ///< [m³], [m²]
   double bottom = 0, top = 0;         ///< height above the origin [m]

@@ -75,31 +75,33 @@ Slabs slabs_of(const geometry::StandingBody& body) {
   return made;
 }
 
-// The solver measures the floor area of a rounded volume at the middle of each storey.
+// Its floors as the solver measures them.
 Slabs slabs_of(const SceneFacts& facts, const VolumeFacts& volume, int storeys) {
   Slabs made;
   const reading::VolumeFigures& figures = volume.figures;
   const reading::ExactShape exact = reading::exact_shape(*facts.state, volume.node, figures);
   if (!(exact.radius > 0) && !figures.mesh) return made;
-  const double storey = figures.storey_height, height = figures.height;
+  const double storey = figures.storey_height;
   const int all = storeys_of(volume), shown = storeys == 0 ? all : std::min(storeys, all);
-  for (int k = 0; k < shown; ++k) {
-    const double floor = figures.bottom + k * storey, z = height < storey ? figures.bottom + height / 2 : floor + storey / 2;
+  for (const reading::FloorCut& cut : reading::floor_cuts(figures.bottom, figures.height, storey)) {
+    const auto drawn = static_cast<int>(made.faces.size());
+    if (cut.is_drawn ? drawn == shown : drawn < all) break;
     std::vector<geometry::Ring> rings;
     if (exact.radius > 0) {
-      rings.push_back(reading::section_of(exact, z));
+      rings.push_back(reading::section_of(exact, cut.at));
     } else {
-      for (geometry::Polyline& line : geometry::section(*figures.mesh, z, [](std::size_t) { return true; }))
+      for (geometry::Polyline& line : geometry::section(*figures.mesh, cut.at, [](std::size_t) { return true; }))
         if (line.is_closed) rings.push_back(std::move(line.points));
     }
-    made.faces.emplace_back();
+    if (cut.is_drawn) made.faces.emplace_back();
     for (geometry::Ring& ring : rings) {
       if (ring.size() < 3) continue;
       if (geometry::signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
-      const double area = geometry::signed_area(ring);
+      const double area = cut.share * geometry::signed_area(ring);
       made.area += area;
       made.volume += area * storey;
-      append(geometry::prism_mesh(ring, {}, floor, floor + thickness_of(storey)), made.mesh);
+      if (!cut.is_drawn) continue;
+      append(geometry::prism_mesh(ring, {}, cut.bottom, cut.bottom + thickness_of(storey)), made.mesh);
       for (Point3& corner : ring) corner.z = 0;
       made.faces.back().push_back({std::move(ring), {}});
     }
@@ -116,13 +118,15 @@ reading::FormSource source_of(const VolumeFacts& volume, bool is_standing) {
 std::vector<reading::FormedStorey> floors_of(const SceneFacts& facts, const VolumeFacts& volume) {
   const Slabs whole = slabs_of(facts, volume, 0);
   std::vector<reading::FormedStorey> floors;
+  double drawn = 0;
   for (std::size_t k = 0; k < whole.faces.size(); ++k) {
     const double bottom = volume.figures.bottom + static_cast<double>(k) * volume.figures.storey_height;
     double area = 0;
     for (const geometry::PlateFace& face : whole.faces[k]) area += geometry::signed_area(face.outer);
-    if (area > 0)
-      floors.push_back({bottom, bottom + volume.figures.storey_height, volume.floor_area * area / whole.area, whole.faces[k]});
+    if (area > 0) floors.push_back({bottom, bottom + volume.figures.storey_height, area, whole.faces[k]});
+    drawn += area;
   }
+  for (reading::FormedStorey& floor : floors) floor.area *= volume.floor_area / drawn;
   return floors;
 }
 
