@@ -153,8 +153,15 @@ void pile_up(FormedVolume& made, bool with_body) {
 FormedVolume as_slabs(const FormSource& source, bool with_body) {
   FormedVolume made;
   made.storeys = source.storeys;
-  for (FormedStorey& storey : made.storeys) storey.top = storey.bottom + source.storey_height;
   pile_up(made, with_body);
+  // The floor area of the highest storey counts what is left above it, or is a share of its plate.
+  made.volume = 0;
+  for (const FormedStorey& storey : made.storeys)
+    for (const geometry::PlateFace& face : storey.faces) {
+      double area = geometry::signed_area(face.outer);
+      for (const geometry::Ring& hole : face.holes) area += geometry::signed_area(hole);
+      made.volume += area * (storey.top - storey.bottom);
+    }
   return made;
 }
 

@@ -62,7 +62,7 @@ struct FormedVolume {
 ///   in the middle of each storey, as solvers measure rounded volumes.
 /// - cells: what neighbours and boundary leave between the volume's own bottom and top, with flat facets, measured in the same
 /// way.
-/// - slabs: each storey as a plate of its floor; the floor area is that of the scene, the volume floors times storey height.
+/// - slabs: each storey as a plate of its floor; the floor area is that of the scene, the volume that of the plates.
 /// - standing: whole storeys on the largest floor, as many as the volume fills, at least one; such bodies may meet each other.
 /// Without its body, storeys have no faces and there is no mesh, except of cells: figures alone take less time.
 FormedVolume in_form(const FormSource& source, VolumeForm form, bool with_body = true);

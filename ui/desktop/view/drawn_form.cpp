@@ -99,8 +99,8 @@ Slabs slabs_of(const SceneFacts& facts, const VolumeFacts& volume, int storeys) 
       if (geometry::signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
       const double area = cut.share * geometry::signed_area(ring);
       made.area += area;
-      made.volume += area * storey;
       if (!cut.is_drawn) continue;
+      made.volume += area * storey;
       append(geometry::prism_mesh(ring, {}, cut.bottom, cut.bottom + thickness_of(storey)), made.mesh);
       for (Point3& corner : ring) corner.z = 0;
       made.faces.back().push_back({std::move(ring), {}});
@@ -197,8 +197,8 @@ void DrawnShapes::fill(const SceneFacts& facts, const VolumeFacts& volume, Shape
   if (shape.form == DrawnForm::standing && !is_standing) return fill_standing(facts, volume, shape);
   if (shape.form == DrawnForm::slabs) {
     const Slabs slabs = body.stacks.empty() ? slabs_of(facts, volume, shape.storeys) : slabs_of(body);
-    // Floors are those of the scene; of a rounded volume a slab has its storey's whole height.
-    if (!is_standing) shape.form_volume = volume.floor_area * figures.storey_height;
+    // Floors are those of the scene; of a rounded volume a slab has its storey's whole height, the last one what is left.
+    if (!is_standing) shape.form_volume = shape.storeys == 0 ? slabs.volume : slabs_of(facts, volume, 0).volume;
     MeshPointer made = shape_of(slabs.mesh);
     if (!made) return;
     shape.made = std::move(made);
