@@ -65,11 +65,12 @@ TEST(Problems, ABrokenRuleOfAPlotIsListedWithWhoBreaksIt) {
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"plot", {"plot.height_max"}, {"3"}})));
   desktop.ticks(30);
   const auto broken = desktop.of(ProblemKind::rule);
-  ASSERT_EQ(broken.size(), 1u);
+  ASSERT_EQ(broken.size(), 2u);
   EXPECT_EQ(broken[0].subject, "Plot breaks a rule");
   EXPECT_NE(broken[0].text.find("of 3.0 m allowed, by `"), std::string::npos) << broken[0].text;
   EXPECT_EQ(broken[0].nodes.front(), "plot");
   EXPECT_EQ(broken[0].nodes.size(), 3u) << "with both volumes on it";
+  EXPECT_NE(broken[1].text.find("so that however small it becomes"), std::string::npos) << broken[1].text;
 }
 
 TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
