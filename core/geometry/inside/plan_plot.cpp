@@ -23,7 +23,7 @@ namespace {
 constexpr double kGrid = 1e8;  // steps of the Clipper library's integers in a metre
 // About the largest distance of a chord from its arc [m]: of arcs that are seen whole, so that the area is right all the same,
 // and of others.
-constexpr double kArcTolerance = 1e-4, kPartTolerance = 1e-5;
+constexpr double kArcTolerance = 1e-4, kPartTolerance = 4e-6;
 constexpr ClipperLib::cInt kSameStep = 4;
 constexpr double kStripMargin = 1e-6;  // [m]
 // The section is taken at this share of the height: at the bottom itself planes of several pieces meet.
