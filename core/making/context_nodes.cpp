@@ -13,6 +13,7 @@
 #include "core/geometry/height_grid.h"
 #include "core/geometry/plan_ring.h"
 #include "core/import/thin_line.h"
+#include "core/making/tidy_length.h"
 
 namespace bl::making {
 
@@ -21,15 +22,9 @@ namespace {
 // No street has more bends; where its file has more, those that count most are taken.
 constexpr std::size_t kMostBends = 500;
 
-// A tenth of a millimetre: files stay readable, and far finer than any survey.
-double tidy(double number) {
-  const double rounded = std::round(number * 1e4) / 1e4;
-  return rounded == 0 ? 0 : rounded;
-}
-
 Json points_json(const std::vector<Point3>& points, bool with_heights) {
   Json list = Json::array();
-  for (const Point3& p : points) list.push_back({tidy(p.x), tidy(p.y), with_heights ? tidy(p.z) : 0.0});
+  for (const Point3& p : points) list.push_back({tidy_length(p.x), tidy_length(p.y), with_heights ? tidy_length(p.z) : 0.0});
   return list;
 }
 
@@ -39,7 +34,7 @@ Point3 middle(const std::vector<Point3>& points) {
   return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
 }
 
-Json position_json(const Point3& p) { return {tidy(p.x), tidy(p.y), tidy(p.z)}; }
+Json position_json(const Point3& p) { return {tidy_length(p.x), tidy_length(p.y), tidy_length(p.z)}; }
 
 double length_of(const std::vector<Point3>& line) {
   double length = 0;
@@ -99,7 +94,8 @@ std::string ContextNodes::fresh_id(const std::string& wanted) {
 
 std::string ContextNodes::id_of(const std::string& kind, const std::string& wanted, const std::string& element,
                                 const Point3& place) {
-  std::string known = earlier_.claim(kind, to_identifier(wanted), element, {tidy(place.x), tidy(place.y), tidy(place.z)});
+  std::string known =
+      earlier_.claim(kind, to_identifier(wanted), element, {tidy_length(place.x), tidy_length(place.y), tidy_length(place.z)});
   return known.empty() ? fresh_id(wanted) : known;
 }
 
@@ -219,11 +215,12 @@ std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(const im
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
-      ports["holes"].push_back({{"name", "court " + std::to_string(h + 1)}, {"x", tidy(corner.x)}, {"y", tidy(corner.y)}});
-  ports["base"] = tidy(building.base);
-  ports["height"] = std::max(0.01, tidy(building.height));
+      ports["holes"].push_back(
+          {{"name", "court " + std::to_string(h + 1)}, {"x", tidy_length(corner.x)}, {"y", tidy_length(corner.y)}});
+  ports["base"] = tidy_length(building.base);
+  ports["height"] = std::max(0.01, tidy_length(building.height));
   ports["height_source"] = std::string(name_of(building.height_source));
-  if (building.storey_height > 0) ports["storey_height"] = tidy(building.storey_height);
+  if (building.storey_height > 0) ports["storey_height"] = tidy_length(building.storey_height);
   if (!building.use.empty()) ports["use"] = building.use;
   ports["origin"] =
       building.id + (making.source.empty() ? "" : " of " + making.source) + (making.licence.empty() ? "" : ", " + making.licence);
@@ -389,8 +386,8 @@ void ContextNodes::add(const importing::LocalTerrain& terrain, const NodeMaking&
     rows.push_back({{"heights", geometry::height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns),
                                                      lowest, step)}});
   const Json ports = {{"rows", rows},
-                      {"west", tidy(terrain.west)},
-                      {"north", tidy(terrain.north)},
+                      {"west", tidy_length(terrain.west)},
+                      {"north", tidy_length(terrain.north)},
                       {"cell", terrain.cell},
                       {"lowest", lowest},
                       {"step", step},
@@ -409,7 +406,7 @@ void ContextNodes::add(const importing::DataLayer& layer, const NodeMaking& maki
   Json rows = Json::array();
   std::vector<Point3> places;
   for (const importing::LayerPoint& point : layer.points) {
-    rows.push_back({{"x", tidy(point.x)}, {"y", tidy(point.y)}, {"value", point.value}});
+    rows.push_back({{"x", tidy_length(point.x)}, {"y", tidy_length(point.y)}, {"value", point.value}});
     places.push_back({point.x, point.y, 0});
   }
   const Json ports = {{"values", rows},

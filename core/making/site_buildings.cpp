@@ -10,6 +10,7 @@
 #include "core/import/box_grid.h"
 #include "core/import/plan_cover.h"
 #include "core/making/site_grounds.h"
+#include "core/making/tidy_length.h"
 
 namespace bl::making {
 
@@ -58,8 +59,6 @@ double footprint_of(const importing::ContextBuilding& building) {
 }
 
 std::string share_text(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
-
-double tidy_length(double number) { return std::round(number * 1e4) / 1e4 + 0.0; }
 
 }  // namespace
 
