@@ -351,8 +351,7 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
   if (auto sound = check_garden(scene, garden); !sound) return sound.error();
   const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
   Adding adding(scene, registry);
-  if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.latitude ||
-      !garden.sun.date.empty())
+  if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.is_given())
     if (auto added = adding.sun(garden.sun); !added) return added.error();
   const double hours = garden.hours.value_or(2);
   std::string id = garden.id;

@@ -78,6 +78,18 @@ TEST_F(Add, AGardenBringsItsSunAndHoldsIt) {
   EXPECT_TRUE(added_node(after, "sun_2").is_null());
 }
 
+// What is said of the sun holds for the sun that is there already.
+TEST_F(Add, AGardenTakesEachOptionOfTheSun) {
+  ASSERT_EQ(add({"garden", "--corners", "-12,40", "12,40", "12,52", "-12,52"}).code, 0);
+  const Outcome clocks = add({"garden", "--id", "garden", "--utc-offset", "2"});
+  ASSERT_EQ(clocks.code, 0) << clocks.err;
+  EXPECT_NE(clocks.out.find("The sun is `sun`"), std::string::npos) << clocks.out;
+  EXPECT_EQ(added_node(place.json("s.json"), "sun")["types"]["sun_and_sky"]["utc_offset"], 7200);
+  const Outcome east = add({"garden", "--id", "garden", "--longitude", "5"});
+  EXPECT_EQ(east.code, 2) << east.out;
+  EXPECT_NE(east.err.find("both a latitude and a longitude"), std::string::npos) << east.err;
+}
+
 TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   const auto ground = [&] {
     (void)place.run({"run", "s.json", "--ticks", "2", "--save", "after.json"});
