@@ -70,6 +70,11 @@ std::optional<Error> foreign_to_name(const std::string& path, Format format, std
   return std::nullopt;
 }
 
+std::string where(const importing::GeoReference& place) {
+  if (place.has_system() || !place.is_on_earth()) return "in " + place.crs;
+  return "at latitude " + shortest(place.latitude) + "°, longitude " + shortest(place.longitude) + "°";
+}
+
 class Import {
  public:
   Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
@@ -147,9 +152,9 @@ class Import {
     for (const ImportKind& kind : kImportKinds)
       if (kind.is_of_features && kind.id == o_.kind) context_.feature_kind = kind.id;
     const Settings settings = settings_of(scene_);
-    if (!settings.coordinate_system.empty())
-      context_.target = importing::GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
-                                                settings.latitude,          settings.longitude, settings.true_north};
+    const importing::GeoReference place{settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                                        settings.latitude,          settings.longitude, settings.true_north};
+    if (!place.crs.empty() || place.is_on_earth()) context_.target = place;
     // What was drawn without a place on Earth is drawn in the metres of the model.
     if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() &&
         importing::tidy_crs_name(context_.crs) == importing::kLocalCrs)
@@ -162,7 +167,7 @@ class Import {
     if (context_.target)
       return fail(
           "", {ErrorCode::conflict, "--origin",
-               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave the origin out"});
+               "the scene lies " + where(*context_.target) + " already, and its origin stays where it is: leave the origin out"});
     context_.origin = {*x, *y};
   }
 
@@ -190,8 +195,14 @@ class Import {
     }
   }
 
-  // The first file decides where the scene lies; all others follow it.
+  // The first file decides where the scene lies, unless the scene says so; all others follow it.
   void settle(const importing::GeoReference& reference) {
+    const bool is_model = importing::tidy_crs_name(context_.crs) == importing::kLocalCrs;
+    if (context_.target && !context_.target->has_system() && context_.target->is_on_earth() && !is_model) {
+      const char* sentence = "The scene has no coordinate system: the files lie in it by its latitude, longitude and true north.";
+      if (std::find(result_.notes.begin(), result_.notes.end(), sentence) == result_.notes.end())
+        result_.notes.push_back(sentence);
+    }
     if (context_.target) return;
     if (!scene_.nodes.empty() && reference.crs != importing::kLocalCrs)
       result_.notes.push_back(
@@ -207,7 +218,7 @@ class Import {
       questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
     if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
     if (questions.empty() && context_.target)
-      questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+      questions = "do the files lie where the scene does (" + where(*context_.target) + ")? ";
     return questions + "--report FILE lists every element with its reason";
   }
 

@@ -116,14 +116,16 @@ void Dialogs::draw_import_options() {
   }
   text_field(theme, "Coordinates are in", "A CRS in place of the one in the files.", context.crs,
              "as the file says, or EPSG:28992");
-  const std::string crs = editor_->document ? settings_of(editor_->scene()).coordinate_system : std::string();
-  if (crs.empty()) {
+  const Settings settings = editor_->document ? settings_of(editor_->scene()) : Settings();
+  const std::string& crs = settings.coordinate_system;
+  if (crs.empty() && settings.latitude == 0 && settings.longitude == 0) {
     text_field(theme, "Origin of the scene (X,Y)", "In the CRS of the first file; later files land in the same frame.",
                import_.origin, "the middle of the first file");
   } else {
     import_.origin.clear();
     label(theme, "Origin of the scene", "Set by the first imported file, or by the plan that the scene was made from.");
-    ImGui::TextDisabled("stays where it is, in %s", crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
+    ImGui::TextDisabled("stays where it is, %s%s", crs.empty() ? "by the latitude and longitude of the scene" : "in ",
+                        crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
   }
   number_field(theme, "Radius around the origin", "Elements that begin farther away are skipped, and reported. 0: no limit.",
                context.radius, "%.5g m");
