@@ -32,6 +32,7 @@ struct GardenAddition {
   std::vector<std::string> corners;  ///< each "X,Y" [m]; three or more
   std::optional<double> hours;       ///< of sun a day
   bool is_open = false;              ///< boundaries leave its ground out: open space that nobody builds on
+  std::string use = "garden";        ///< of that open space
   SunAddition sun;                   ///< used where something of it is given, or the scene has no sun study
 };
 

@@ -60,6 +60,21 @@ double footprint_of(const importing::ContextBuilding& building) {
 
 std::string share_text(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
 
+// A ring of exclusions, one corner per row.
+void add_exclusion(Table& rows, const std::string& name, const std::string& use, const geometry::Ring& ring, double bottom,
+                   double top) {
+  for (const Point3& corner : ring) {
+    TableRow& row = rows.rows.emplace_back();
+    for (const std::string& column : rows.columns)
+      if (column == "name" || column == "use") row.emplace_back(column == "name" ? name : use);
+      else
+        row.emplace_back(column == "x"     ? tidy_length(corner.x)
+                         : column == "y"   ? tidy_length(corner.y)
+                         : column == "top" ? top
+                                           : bottom);
+  }
+}
+
 }  // namespace
 
 SiteBuildings::SiteBuildings(const Scene& scene, const Registry& registry, InsideChoice choice, AskToClear ask)
@@ -166,7 +181,8 @@ bool SiteBuildings::is_cleared(std::size_t building) const {
 }
 
 // The parts of the ground that lie in the site replace those of the same name that were left out before.
-bool SiteBuildings::leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings) {
+bool SiteBuildings::leave_out(Site& site, const std::string& name, const std::string& use,
+                              const std::vector<geometry::Ring>& rings) {
   std::vector<const geometry::Ring*> inside;
   double area = 0, whole = 0;
   for (const std::vector<geometry::Ring>& ground : site.grounds) {
@@ -192,16 +208,7 @@ bool SiteBuildings::leave_out(Site& site, const std::string& name, const std::ve
   });
   for (std::size_t i = 0; i < inside.size(); ++i) {
     const std::string part = inside.size() == 1 ? name : name + " part " + std::to_string(i + 1);
-    for (const Point3& corner : *inside[i]) {
-      TableRow& row = site.rows.rows.emplace_back();
-      for (const std::string& id : site.rows.columns)
-        if (id == "name") row.emplace_back(part);
-        else
-          row.emplace_back(id == "x"     ? tidy_length(corner.x)
-                           : id == "y"   ? tidy_length(corner.y)
-                           : id == "top" ? tidy_length(site.top)
-                                         : tidy_length(site.bottom));
-    }
+    add_exclusion(site.rows, part, use, *inside[i], tidy_length(site.bottom), tidy_length(site.top));
   }
   return true;
 }
@@ -216,11 +223,12 @@ void SiteBuildings::clear_grounds(const importing::Context& context, const std::
   for (Site& site : sites_) {
     if (kinds.contains("streets"))
       for (const importing::ContextStreet& street : context.streets)
-        if ((street.for_cars || takes_all_streets) && leave_out(site, "street " + street.id, street_ground(street)))
+        if ((street.for_cars || takes_all_streets) && leave_out(site, "street " + street.id, "", street_ground(street)))
           ++site.grounds_left_out["streets"];
     for (const importing::ContextArea& area : context.areas) {
       const std::string kind(ground_kind(area.use));
-      if (area.is_plot || !kinds.contains(kind) || !leave_out(site, kind + " " + area.id, {area.outer})) continue;
+      if (area.is_plot || !kinds.contains(kind) || !leave_out(site, kind + " " + area.id, open_use_of(area.use), {area.outer}))
+        continue;
       ++site.grounds_left_out[kind];
       left_out_[area.id] = site.id;
     }
@@ -254,16 +262,7 @@ void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding&
     }
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
-    for (const Point3& corner : made.outer) {
-      TableRow& row = site.rows.rows.emplace_back();
-      for (const std::string& column : site.rows.columns)
-        if (column == "name") row.emplace_back(node);
-        else
-          row.emplace_back(column == "x"     ? tidy_length(corner.x)
-                           : column == "y"   ? tidy_length(corner.y)
-                           : column == "top" ? top
-                                             : bottom);
-    }
+    add_exclusion(site.rows, node, "", made.outer, bottom, top);
   }
 }
 

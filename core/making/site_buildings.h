@@ -69,7 +69,7 @@ class SiteBuildings {
   };
 
   double inside(const Site& site, const importing::ContextBuilding& building) const;
-  bool leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings);
+  bool leave_out(Site& site, const std::string& name, const std::string& use, const std::vector<geometry::Ring>& rings);
   bool clears(std::size_t buildings, const std::string& site);
 
   std::vector<Site> sites_;
