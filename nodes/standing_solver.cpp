@@ -41,6 +41,7 @@ struct StandingSolver {
   struct Plot {
     std::string id;
     std::shared_ptr<const geometry::Domain> domain;
+    double open_area = 0;  // kept open beside the domain [m²]
   };
   struct Street {
     Selection start, end;
@@ -69,7 +70,8 @@ struct StandingSolver {
   };
   struct Out {
     std::int64_t count = 0;
-    double total_floor_area = 0, plot_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0, largest_error = 0;
+    double total_floor_area = 0, plot_area = 0, open_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0,
+           largest_error = 0;
     std::string worst, message;
     SomeReplies<Reply> replies;
   };
@@ -108,7 +110,10 @@ struct StandingSolver {
         .doc("The weights stay as they are while the error of every volume is within this share of what it wants.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
     t.out(&Out::total_floor_area, "total_floor_area").shown_first().unit(Unit::square_metre).doc("Sum of all plates.");
-    t.out(&Out::plot_area, "plot_area").unit(Unit::square_metre).doc("Area of the ground inside the boundary.");
+    t.out(&Out::plot_area, "plot_area")
+        .unit(Unit::square_metre)
+        .doc("Area of the ground inside the boundary, with what it keeps open.");
+    t.out(&Out::open_area, "open_area").unit(Unit::square_metre).doc("The part of it that the boundary keeps open.");
     t.out(&Out::covered, "covered").unit(Unit::square_metre).doc("Sum of the footprints.");
     t.out(&Out::fsi, "fsi").shown_first().unit(Unit::ratio).doc("Floor space index: floor area / plot area.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).doc("Ground space index: covered area / plot area.");
@@ -131,7 +136,10 @@ struct StandingSolver {
         .reads(&Street::end, "street.end")
         .reads(&Street::course, "street.course", Unit::metre);
     t.set("junctions", &Sets::junctions).reads(&Junction::id, "node.id").reads(&Junction::position, "node.position", Unit::metre);
-    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::domain, "boundary.domain");
+    t.set("boundary", &Sets::plots)
+        .reads(&Plot::id, "node.id")
+        .reads(&Plot::domain, "boundary.domain")
+        .reads(&Plot::open_area, "boundary.open_area");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
     set.reads(&Member::demand, "smart_volume.demand").reads(&Member::limit, "smart_volume.demand_limit");
@@ -372,7 +380,8 @@ struct StandingSolver {
       answered.clear();
       for (std::uint32_t i = 0; i < kept.names.size(); ++i) answered.push_back(i);
     }
-    out.plot_area = kept.cache.plot_area;
+    out.open_area = sets.plots.front().open_area;
+    out.plot_area = kept.cache.plot_area + out.open_area;
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] +

@@ -8,11 +8,13 @@
 
 #include "core/base/hash.h"
 #include "core/geometry/cellar.h"
+#include "core/geometry/domain_table.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
 #include "core/reading/views/building.h"
 #include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
+#include "core/reading/views/solver.h"
 #include "core/reading/views/surroundings.h"
 
 namespace bl::exporting {
@@ -113,6 +115,7 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
     land.is_boundary = true;
     land.faces = faces_of_rings(rings_of(site.ground));
     land.area = site.ground_area;
+    land.open_area = site.open_area;
     land.ground = site.bottom;
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }
@@ -121,6 +124,7 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
               state.plan->nodes[node].name,
               false,
               faces_of_rings({plot.polygon}),
+              0,
               0,
               plot.ground,
               plot.fsi,
@@ -183,6 +187,17 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
   }
   all.all = row_of(model.accounts.all);
   all.all.buildings = model.volumes.size();
+}
+
+void add_open_spaces(const State& state, const reading::ReportModel& model, Proposal& all) {
+  std::map<std::string, std::vector<PlateFace>> faces;
+  for (const auto& [node, ground] : reading::rows<reading::OpenGround>(state))
+    for (geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions))
+      if (const std::string& use = ground.exclusions->text(ring.first_row, "use"); !use.empty())
+        for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) faces[use].push_back(std::move(face));
+  for (const reading::OpenAccount& open : model.accounts.open)
+    all.open_spaces.push_back(
+        {open.use, open.asked, open.area, why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
 }
 
 }  // namespace
@@ -293,6 +308,7 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
     if (ground && !ground->triangles.empty()) all.terrains.push_back(std::make_shared<const Mesh>(*ground));
   add_story(state, model, all);
   add_uses(model, palette, all);
+  add_open_spaces(state, model, all);
   return all;
 }
 

@@ -131,6 +131,26 @@ TEST(StandingSolver, WithoutABoundaryItSaysSo) {
             "nodes/solver/standing_solver/boundary: a boundary is needed and none was found: add one, or choose one here");
 }
 
+// Land is land, built or not: gardens and courtyards are open ground of the plot.
+TEST(StandingSolver, GardensAndCourtyardsAreOpenGroundOfThePlot) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60, "exclusions": [
+      {"name": "lawn", "use": "garden", "x": 50, "y": 0, "bottom": 0, "top": 60}, {"name": "lawn", "x": 60, "y": 0},
+      {"name": "lawn", "x": 60, "y": 40}, {"name": "lawn", "x": 50, "y": 40}]}}},
+    {"id": "block", "position": [25, 20, 0], "types": {"smart_volume": {"storey_height": 3, "demand": 4500},
+     "footprint": {"form": "block", "aspect": 1, "storeys": 3, "depth": 6}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})");
+  ASSERT_TRUE(world.settle());
+  EXPECT_NEAR(world.number("solver", "standing_solver.plot_area"), 2400, 1e-9) << "with the garden";
+  EXPECT_NEAR(world.number("solver", "standing_solver.open_area"), 400, 1e-9);
+  const double floors = world.number("block", "smart_volume.floor_area"), built = world.number("block", "smart_volume.footprint");
+  EXPECT_NEAR(floors, 1500, 8);
+  EXPECT_NEAR(built, floors / 3, 1e-6) << "without its courtyard";
+  EXPECT_NEAR(world.number("solver", "standing_solver.fsi"), floors / 2400, 1e-9);
+  EXPECT_NEAR(world.number("solver", "standing_solver.gsi"), built / 2400, 1e-9);
+  EXPECT_NEAR(world.number("solver", "standing_solver.osr"), (2400 - built) / floors, 1e-9);
+}
+
 // Below the ground there is a figure of its own; what stands on a roof has none, and is told so.
 TEST(StandingSolver, CellarsCountForThemselves) {
   World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [

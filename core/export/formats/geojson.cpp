@@ -93,6 +93,12 @@ struct GeoJsonFormat {
       add((land.is_boundary ? "boundary/" : "plot/") + land.id, polygons(land.faces), std::move(figures));
     }
 
+    void add_open_space(const OpenSpace& open) {
+      if (open.faces.empty()) return;
+      add("open_space/" + open.use, polygons(open.faces),
+          {{"kind", "open_space"}, {"use", open.use}, {"area_m2", open.area}, {"asked_area_m2", open.asked_area}});
+    }
+
     void add_building(const Building& b) {
       if (b.outline.empty()) return;
       add("building/" + b.id, polygons(b.outline),
@@ -139,6 +145,7 @@ struct GeoJsonFormat {
             "the coordinates are metres of the scene, which programs that follow RFC 7946 take for degrees: tell them");
       }
       for (const Land& land : proposal.lands) add_land(land);
+      for (const OpenSpace& open : proposal.open_spaces) add_open_space(open);
       for (const Building& building : proposal.buildings) add_building(building);
       if (options.surroundings) add_surroundings();
       if (!is_all_finite)

@@ -253,7 +253,7 @@ struct HtmlFormat {
       const PlanExtent extent = plan_extent(proposal);
       origin = {std::round((extent.low.x + extent.high.x) / 2), std::round((extent.low.y + extent.high.y) / 2), 0};
       PageJson identity = PageJson::array(), plots = PageJson::array(), indicators = PageJson::array(),
-               conflicts = PageJson::array(), troubles = PageJson::array(), uses = PageJson::array();
+               conflicts = PageJson::array(), troubles = PageJson::array(), uses = PageJson::array(), open = PageJson::array();
       for (const auto& [name, value] : identity_of(proposal)) identity.push_back({name, value});
       for (const Land& land : proposal.lands)
         plots.push_back({{"name", land.name},
@@ -276,6 +276,8 @@ struct HtmlFormat {
         conflicts.push_back({{"node", one.node}, {"port", one.port}, {"tension", one.tension}, {"pulls", one.pulls}});
       for (const Trouble& one : proposal.troubles) troubles.push_back({{"place", one.place}, {"message", one.message}});
       for (const UseRow& row : proposal.uses) uses.push_back(use_of(row));
+      for (const OpenSpace& one : proposal.open_spaces)
+        open.push_back({{"use", one.use}, {"area", one.area}, {"asked_area", one.asked_area}, {"why", one.why_short}});
       PageJson all = {{"title", proposal.name()},
                       {"about", proposal.about},
                       {"settled", proposal.is_settled},
@@ -285,6 +287,7 @@ struct HtmlFormat {
                       {"buildings", buildings()},
                       {"uses", uses},
                       {"all", use_of(proposal.all)},
+                      {"open", open},
                       {"plots", plots},
                       {"indicators", indicators},
                       {"conflicts", conflicts},

@@ -18,7 +18,8 @@ struct XlsxFormat {
   static void declare(FormatBuilder<XlsxFormat>& f) {
     f.id("xlsx").label("Area schedule (XLSX)");
     f.doc(
-        "A workbook: storeys, buildings, programme against result, plots with their indices, indicators with their targets, "
+        "A workbook: storeys, buildings, programme against result, open space, plots with their indices, indicators with their "
+        "targets, "
         "problems, and what scene and state it is of. "
         "Sums are formulas over the rows above, or over the sheets before, and bring their values along, so that programs which "
         "do not calculate read the same numbers.");
@@ -145,14 +146,33 @@ struct XlsxFormat {
       return sheet;
     }
 
+    // Rows of the programme that ask for ground; only where there are any.
+    XlsxSheet open_space() const {
+      XlsxSheet sheet{"Open space", {24, 16, 16, 16, 12, 100}, {}};
+      sheet.rows.push_back(header({"use", "asked ground [m2]", "open ground [m2]", "difference [m2]", "met", "why"}));
+      double asked = 0, area = 0;
+      for (const OpenSpace& open : proposal.open_spaces) {
+        const std::string row = std::to_string(sheet.rows.size() + 1);
+        sheet.rows.push_back(
+            {w(open.use), n(open.asked_area), n(open.area), f("C" + row + "-B" + row, open.area - open.asked_area),
+             open.asked_area > 0 ? f("C" + row + "/B" + row, open.area / open.asked_area, XlsxStyle::percent) : XlsxCell(),
+             w(open.why_short)});
+        asked += open.asked_area, area += open.area;
+      }
+      const std::size_t last = sheet.rows.size();
+      sheet.rows.push_back({b("all"), f(above('B', last), asked), f(above('C', last), area), f(above('D', last), area - asked)});
+      return sheet;
+    }
+
     XlsxSheet plots() const {
-      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16}, {}};
-      sheet.rows.push_back(
-          header({"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]"}));
+      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16, 14}, {}};
+      sheet.rows.push_back(header(
+          {"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]", "kept open [m2]"}));
       for (const Land& land : proposal.lands) {
         Cells row = {w(land.name), w(land.is_boundary ? "boundary" : "plot"), n(land.area)};
         if (!land.is_boundary)
           for (const double value : {land.fsi, land.gsi, land.fsi_max, land.gsi_max, land.height_max}) row.push_back(n(value));
+        if (land.is_boundary && land.open_area > 0) row.resize(8), row.push_back(n(land.open_area));
         sheet.rows.push_back(std::move(row));
       }
       return sheet;
@@ -215,6 +235,7 @@ struct XlsxFormat {
                                      tables.problems(),
                                      tables.about()};
     if (XlsxSheet cellars = tables.cellars(); cellars.rows.size() > 2) sheets.insert(sheets.begin() + 3, std::move(cellars));
+    if (!proposal.open_spaces.empty()) sheets.insert(sheets.begin() + 1, tables.open_space());
     auto book = xlsx_book(sheets, proposal.name(), identity_line(proposal));
     if (!book) return book.error();
     return ExportFiles{{{"schedule.xlsx", std::move(*book)}}, {}};

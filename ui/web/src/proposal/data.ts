@@ -36,6 +36,12 @@ export interface Use {
   volume: number;
   asked_volume: number;
 }
+export interface OpenSpace {
+  use: string;
+  area: number; ///< kept open [m²]
+  asked_area: number;
+  why: string; ///< why there is less than asked for
+}
 export interface Plot {
   name: string;
   is_boundary: boolean;
@@ -77,6 +83,7 @@ export interface Proposal {
   buildings: Building[];
   uses: Use[];
   all: Use;
+  open: OpenSpace[];
   plots: Plot[];
   indicators: Indicator[];
   conflicts: { node: string; port: string; tension: string; pulls: string[] }[];

@@ -59,6 +59,23 @@ export function Programme({ proposal }: { proposal: Proposal }): JSX.Element {
   );
 }
 
+export function OpenSpaces({ proposal }: { proposal: Proposal }): JSX.Element {
+  return (
+    <Table label="Open space" head={["Open space", "Asked m²", "Open m²", "Difference m²", "Met", "Why"]}>
+      {proposal.open.map((one) => (
+        <tr key={one.use}>
+          <th scope="row">{one.use}</th>
+          <td>{whole(one.asked_area)}</td>
+          <td>{whole(one.area)}</td>
+          <td>{signed(one.area - one.asked_area)}</td>
+          <td>{one.asked_area > 0 ? `${whole((100 * one.area) / one.asked_area)} %` : ""}</td>
+          <td class="words">{one.why}</td>
+        </tr>
+      ))}
+    </Table>
+  );
+}
+
 export function Buildings({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
   return (
     <Table
