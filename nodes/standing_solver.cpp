@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain.h"
+#include "core/geometry/fit_text.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/standing_text.h"
 #include "core/geometry/standing_tick.h"
@@ -364,7 +364,7 @@ struct StandingSolver {
     const geometry::StandingTick now{
         .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
-    if (!done) return Error{done.error().code, "members", done.error().message};
+    if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, kept.names)};
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
                    std::back_inserter(answered));
@@ -391,12 +391,10 @@ struct StandingSolver {
       const std::string& name = kept.names[static_cast<std::size_t>(base)];
       words += text.starts_with("has ") || text.starts_with("fills ")
                    ? "; `" + name + "` " + text + ", so that nothing stands on it"
-                   : "; on the roof of `" + name + "` " + text;
+                   : "; on the roof of `" + name + "` " + geometry::with_names(text, kept.names);
     }
     out.message += words;
-    for (std::size_t k = 0; k < done->losses.size() && k < 3; ++k)
-      out.message += "; " + kept.names[done->losses[k].demand] + " has " + fixed(done->losses[k].had, 0) + " of " +
-                     fixed(done->losses[k].wanted, 0) + " m²";
+    out.message += geometry::floor_losses_text(done->losses, kept.names);
     if (out.message.starts_with("; ")) out.message.erase(0, 2);
     return out;
   }

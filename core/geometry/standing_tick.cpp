@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "core/base/text.h"
 #include "core/geometry/domain_makers.h"
 
 namespace bl::geometry {
@@ -245,6 +248,14 @@ Result<Domain> roof_of(const StandingBody& body, double top) {
   return unite(parts);
 }
 
+// What is wrong with a site, which its level counts by itself, gets the number of its wish.
+Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) {
+  constexpr std::string_view kSites = "sites/";
+  const auto site = error.place.starts_with(kSites) ? parse_number(error.place.substr(kSites.size())) : std::nullopt;
+  if (!site || !(*site < static_cast<double>(members.size()))) return error;
+  return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
+}
+
 // At the edge of a roof there is air, not the border of the plot.
 void free_edges(StandingResult& result) {
   StandingBody body = *result.body;
@@ -276,14 +287,14 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
   if (steps > 0) {
     auto fit = fit_footprints(level.diagram, sites, demands,
                               {.tolerance = tolerance, .most_steps = steps, .is_local = true, .pool = pool, .progress = {}});
-    if (!fit) return fit.error();
+    if (!fit) return error_of_wish(fit.error(), level.members);
     // Where only the steps of a tick did not suffice, nobody goes without: the next tick goes on.
     if (!fit->infeasible.empty())
       for (const FloorLoss& loss : fit->losses) outcome.losses.push_back({level.members[loss.demand], loss.wanted, loss.had});
     if (is_roof && !fit->infeasible.empty()) outcome.on_roofs.push_back({level.base, std::move(fit->infeasible)});
     else if (!is_roof) outcome.message = std::move(fit->infeasible);
   } else if (auto made = level.diagram.update(sites, pool); !made) {
-    return made.error();
+    return error_of_wish(made.error(), level.members);
   }
   std::vector<std::uint32_t> touched = level.diagram.take_touched();
   for (std::uint32_t k = 0; k < sites.size(); ++k)

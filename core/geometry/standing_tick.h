@@ -117,6 +117,7 @@ struct StandingTick {
     std::vector<LevelWord> on_roofs;          ///< the same of roofs, by their bases, and why a roof carries nothing
     std::vector<std::uint32_t> in_circles;    ///< those that would stand upon themselves: they are put on the ground
   };
+  /// Errors call wish 3 "site 3" (`with_names` of fit_text.h).
   Result<Outcome> run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const;
 
  private:

@@ -100,6 +100,12 @@ TEST(StandingSolver, WhatIsBuiltOtherwiseThanItIsSetIsSaid) {
   EXPECT_NEAR(eaten.number("house", "smart_volume.floor_area"), 400, 2);
   EXPECT_EQ(eaten.text("solver", "standing_solver.message"),
             "the set-back of `house` leaves nothing of its upper 3 storeys: lower it, or the number of storeys");
+  // A courtyard that is moved out as far as the depth moves it in is as large as the plate.
+  World hollow = World::from_text(
+      alone(R"("form": "block", "aspect": 1, "storeys": 4, "full_storeys": 1, "depth": 5, "courtyard_setback": 5)"));
+  ASSERT_TRUE(hollow.settle());
+  EXPECT_EQ(hollow.text("solver", "standing_solver.message"),
+            "the `courtyard_setback` of `house` leaves nothing of its upper 3 storeys: lower it, or the number of storeys");
   World sound = World::from_text(alone(R"("form": "block", "aspect": 1, "storeys": 2, "full_storeys": 1, "setback": 1)"));
   ASSERT_TRUE(sound.settle());
   EXPECT_EQ(sound.text("solver", "standing_solver.message"), "");
@@ -121,6 +127,27 @@ TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
   EXPECT_EQ(last, 4);
   wish.height_limit = 15.5;
   EXPECT_EQ(geometry::storeys_of(wish, 100).count, 5);
+}
+
+// Of many volumes the one with an absurd place is named, on the ground and on a roof.
+TEST(StandingSolver, WhoCannotStandIsNamed) {
+  const auto scene = [](const std::string& where, const std::string& bases) {
+    return R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "a", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900, "storey_height": 3}, "footprint": {}}},
+    {"id": "far", "position": )" +
+           where + R"(, "types": {"smart_volume": {"demand": 90, "storey_height": 3}, "footprint": {"bases": [)" + bases + R"(]}}},
+    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})";
+  };
+  World ground = World::from_text(scene("[3e8, 20, 0]", ""));
+  ground.tick();
+  EXPECT_EQ(ground.node_error("solver", "standing_solver"),
+            "nodes/solver/standing_solver/members: `far` cannot stand: its position is not a place within 100 000 km");
+  World roof = World::from_text(scene("[3e8, 20, 0]", R"("a")"));
+  roof.tick();
+  EXPECT_EQ(roof.node_error("solver", "standing_solver"), "");
+  EXPECT_EQ(roof.text("solver", "standing_solver.message"),
+            "on the roof of `a` `far` cannot stand: its position is not a place within 100 000 km");
 }
 
 TEST(StandingSolver, WithoutABoundaryItSaysSo) {
