@@ -71,7 +71,9 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   for (const std::uint32_t i : w.made)
     for (const StoreyRun& run : sites[i].runs) {
       w.plot.eroded(outer_offset(sites[i], run).plot);
-      if (std::isfinite(sites[i].depth)) w.plot.eroded(courtyard_offset(sites[i], run).plot);
+      if (!std::isfinite(sites[i].depth)) continue;
+      const PlateOffset court = courtyard_offset(sites[i], run);
+      if (leaves_form(sites[i], court)) w.plot.eroded(court.plot);
     }
   w.sites.assign(sites.begin(), sites.end());
   w.measures.resize(sites.size());

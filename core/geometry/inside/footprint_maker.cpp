@@ -43,6 +43,13 @@ PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run) {
           {outer.plot.border + (site.has_border_walls ? wing : own), outer.plot.street + own}};
 }
 
+bool leaves_form(const StandingSite& site, const PlateOffset& offset) {
+  if (site.form == FootprintForm::cell) return true;
+  if (site.form == FootprintForm::round) return std::sqrt(std::max(0.0, site.site.weight)) > offset.own;
+  const HalfSides half = half_sides(site);
+  return half.along > offset.own && half.across > offset.own;
+}
+
 int StandingSite::storeys() const {
   int count = 0;
   for (const StoreyRun& run : runs) count += run.storeys;
@@ -170,9 +177,10 @@ FootprintMaker::Sum FootprintMaker::measure_offset(std::uint32_t i, const PlateO
   Sum sum;
   lengths_.assign(neighbours_.size(), 0);
   const StandingSite& site = sites_[i];
+  if (!leaves_form(site, offset)) return sum;
   const double radius = site.form == FootprintForm::round ? std::sqrt(std::max(0.0, site.site.weight)) - offset.own : kInfinity;
   const PlanPlot::Pieces* pieces = plot_.made(offset.plot);
-  if (!(radius > 0) || pieces == nullptr) return sum;
+  if (pieces == nullptr) return sum;
   double scale = 0;
   for (const PlanPlot::Piece& piece : *pieces) {
     if (!cut(piece, i, offset)) continue;

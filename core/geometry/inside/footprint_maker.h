@@ -22,6 +22,9 @@ struct PlateOffset {
 PlateOffset outer_offset(const StandingSite& site, const StoreyRun& run);
 PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run);
 
+/// Does the form, eroded so far, leave anything? Without a form there is always something.
+bool leaves_form(const StandingSite& site, const PlateOffset& offset);
+
 /// Another site near enough to have a side with this one.
 struct PlanNeighbour {
   std::uint32_t site = 0;

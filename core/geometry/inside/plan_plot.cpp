@@ -250,6 +250,10 @@ Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetA
     plot.low_ = {std::min(plot.low_.x, piece.low.x), std::min(plot.low_.y, piece.low.y)};
     plot.high_ = {std::max(plot.high_.x, piece.high.x), std::max(plot.high_.y, piece.high.y)};
   }
+  constexpr double kRounding = 1 + 1e-9;
+  const double width = plot.high_.x - plot.low_.x, depth = plot.high_.y - plot.low_.y;
+  plot.widest_ = 0.5 * kRounding * std::min(width, depth);
+  plot.farthest_ = kRounding * mathematics::hypotenuse(width, depth);
   return plot;
 }
 
@@ -270,6 +274,8 @@ PlotOffset PlanPlot::effective(const PlotOffset& by) const {
 const PlanPlot::Pieces& PlanPlot::eroded(const PlotOffset& asked) {
   const PlotOffset by = effective(asked);
   if (!(by.border > 0 || by.street > 0)) return pieces_;
+  // A depth that is meant as none would cost discs of its radius about all corners.
+  if (is_too_far(by)) return none_;
   const auto [entry, is_new] = eroded_.try_emplace(by);
   if (is_new) entry->second = pieces_.size() == 1 && by.border == by.street ? erode_convex(by.border) : erode_rings(by);
   return entry->second;
@@ -278,6 +284,7 @@ const PlanPlot::Pieces& PlanPlot::eroded(const PlotOffset& asked) {
 const PlanPlot::Pieces* PlanPlot::made(const PlotOffset& asked) const {
   const PlotOffset by = effective(asked);
   if (!(by.border > 0 || by.street > 0)) return &pieces_;
+  if (is_too_far(by)) return &none_;
   const auto entry = eroded_.find(by);
   return entry == eroded_.end() ? nullptr : &entry->second;
 }

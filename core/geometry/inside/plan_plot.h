@@ -1,7 +1,9 @@
 // The plot on which volumes stand, as convex pieces, and the same eroded by a distance.
 #pragma once
 
+#include <algorithm>
 #include <compare>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <vector>
@@ -37,6 +39,7 @@ class PlanPlot {
   const Pieces& eroded(const PlotOffset& by);
   /// The same where it has been asked for before, else nullptr.
   const Pieces* made(const PlotOffset& by) const;
+  std::size_t kept() const { return eroded_.size(); }
   double area() const { return area_; }
   const PlanPoint& low() const { return low_; }
   const PlanPoint& high() const { return high_; }
@@ -47,12 +50,19 @@ class PlanPlot {
   void mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets);
   // Without sides of one kind their distance makes no difference.
   PlotOffset effective(const PlotOffset& by) const;
+  // Is no point so far from the sides, whatever the plot is like inside its box? A disc in it is no wider than the box, and no
+  // two points are farther apart than the corners of the box.
+  bool is_too_far(const PlotOffset& by) const {
+    return std::min(by.border, by.street) > widest_ || std::max(by.border, by.street) > farthest_;
+  }
 
   Pieces pieces_;  // as they are
   double area_ = 0;
   PlanPoint low_, high_;
+  double widest_ = 0, farthest_ = 0;  // half of its smaller side, and its diagonal [m], with room for rounding
   bool has_streets_ = false, has_borders_ = false;  // sides of each kind
   std::map<PlotOffset, Pieces> eroded_;
+  Pieces none_;
 };
 
 }  // namespace bl::geometry

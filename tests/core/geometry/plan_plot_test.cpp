@@ -1,0 +1,83 @@
+// A plot eroded by distances: what is farther from the sides than the plot is wide is nothing, and costs nothing.
+#include "core/geometry/inside/plan_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/plan_ring.h"
+#include "tests/core/geometry/standing_zoo.h"
+
+namespace bl::geometry {
+namespace {
+
+double area_of_pieces(const PlanPlot::Pieces& pieces) {
+  double area = 0;
+  for (const PlanPlot::Piece& piece : pieces) {
+    Ring ring;
+    for (const PlanPolygon::Corner& corner : piece.polygon.corners) ring.push_back({corner.at.x, corner.at.y, 0});
+    area += signed_area(ring);
+  }
+  return area;
+}
+
+// 48 sides, one of them along a street.
+Domain round_plot(double radius) {
+  std::vector<Point3> ring;
+  for (int k = 0; k < 48; ++k) ring.push_back({radius * std::cos(k * 0.1309), radius * std::sin(k * 0.1309), 0});
+  return test::plot_of(ring);
+}
+
+// The depth of a footprint is 1000 m where nobody asks for a courtyard.
+TEST(PlanPlot, WhatIsFartherInThanThePlotIsWideIsNotMade) {
+  const std::vector<StreetAxis> streets{{{{40, -10, 0}, {40, 10, 0}}, 5}};
+  PlanPlot plot = PlanPlot::section(round_plot(40), streets).value();
+  EXPECT_TRUE(plot.eroded({1000, 1003}).empty());
+  EXPECT_TRUE(plot.eroded({41, 45}).empty());
+  EXPECT_TRUE(plot.eroded({2, 90}).empty()) << "no point is so far from the street";
+  EXPECT_EQ(plot.kept(), 0u);
+  ASSERT_NE(plot.made({1000, 1003}), nullptr);
+  EXPECT_TRUE(plot.made({1000, 1003})->empty());
+  EXPECT_FALSE(plot.eroded({3, 5}).empty());
+  EXPECT_EQ(plot.kept(), 1u);
+}
+
+// Against places of which all sides are farther away.
+TEST(PlanPlotLaws, NothingIsLeftOnlyWhereNoPlaceIsSoFarIn) {
+  for (const test::PlotShape shape : test::kPlotShapes) {
+    const Domain domain = test::plot_of(shape);
+    PlanPlot plot = PlanPlot::section(domain).value();
+    std::vector<Ring> rings;
+    for (const PlanPlot::Piece& piece : plot.eroded({})) {
+      Ring& ring = rings.emplace_back();
+      for (const PlanPolygon::Corner& corner : piece.polygon.corners) ring.push_back({corner.at.x, corner.at.y, 0});
+    }
+    // The widest disc about a place of a fine grid, by all outer sides.
+    double deepest = 0;
+    for (double x = 0.5; x < 80; x += 0.5)
+      for (double y = 0.5; y < 80; y += 0.5) {
+        double away = 1e9;
+        bool is_inside = false;
+        for (std::size_t r = 0; r < rings.size(); ++r) {
+          is_inside |= ring_contains(rings[r], {x, y, 0});
+          for (std::size_t k = 0; k < rings[r].size(); ++k) {
+            if (plot.eroded({})[r].polygon.corners[k].beyond == PlanSide::kInner) continue;
+            const std::vector<Point3> side{rings[r][k], rings[r][(k + 1) % rings[r].size()]};
+            away = std::min(away, distance(nearest_on_ring(side, {x, y, 0}), {x, y, 0}));
+          }
+        }
+        if (is_inside) deepest = std::max(deepest, away);
+      }
+    EXPECT_GT(area_of_pieces(plot.eroded({deepest - 0.01, deepest - 0.01})), 0) << static_cast<int>(shape);
+    EXPECT_EQ(area_of_pieces(plot.eroded({deepest + 1, deepest + 1})), 0) << static_cast<int>(shape);
+    double last = area_of_pieces(plot.eroded({}));
+    for (double by = 1; by < 60; by += 1) {
+      const double area = area_of_pieces(plot.eroded({by, by}));
+      EXPECT_LE(area, last);
+      last = area;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bl::geometry
