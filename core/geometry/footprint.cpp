@@ -68,13 +68,7 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   if (auto sound = check(sites); !sound) return sound.error();
   w.find_made(sites);
   if (w.made.empty() && !sites.empty()) return std::span<const FootprintMeasure>(w.measures);
-  for (const std::uint32_t i : w.made)
-    for (const StoreyRun& run : sites[i].runs) {
-      w.plot.eroded(outer_offset(sites[i], run).plot);
-      if (!std::isfinite(sites[i].depth)) continue;
-      const PlateOffset court = courtyard_offset(sites[i], run);
-      if (leaves_form(sites[i], court)) w.plot.eroded(court.plot);
-    }
+  w.erode_plots(sites);
   w.sites.assign(sites.begin(), sites.end());
   w.measures.resize(sites.size());
   w.reaches.resize(sites.size());
@@ -97,6 +91,24 @@ std::vector<std::uint32_t> FootprintDiagram::take_touched() {
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (std::exchange(marks[i], std::uint8_t{0}) != 0) touched.push_back(i);
   return touched;
+}
+
+void FootprintDiagram::Workshop::erode_plots(std::span<const StandingSite> now) {
+  const auto each_offset = [](const StandingSite& site, const auto& take) {
+    for (const StoreyRun& run : site.runs) {
+      take(outer_offset(site, run).plot);
+      if (!std::isfinite(site.depth)) continue;
+      const PlateOffset court = courtyard_offset(site, run);
+      if (leaves_form(site, court)) take(court.plot);
+    }
+  };
+  for (const std::uint32_t i : made) each_offset(now[i], [this](const PlotOffset& by) { plot.eroded(by); });
+  if (plot.kept() <= most_kept) return;
+  std::vector<PlotOffset> used;
+  for (const StandingSite& site : now) each_offset(site, [&used](const PlotOffset& by) { used.push_back(by); });
+  plot.keep_only(std::move(used));
+  // Where so many are used they are not looked through in each frame.
+  most_kept = std::max(kMostUnused, 2 * plot.kept());
 }
 
 void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {

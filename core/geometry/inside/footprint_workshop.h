@@ -1,6 +1,7 @@
 // What a FootprintDiagram keeps between calls.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,8 @@
 namespace bl::geometry {
 
 struct FootprintDiagram::Workshop {
+  static constexpr std::size_t kMostUnused = 64;  // distances that plots are kept eroded by
+
   Domain domain;
   std::vector<StreetAxis> streets;
   bool has_plot = false;
@@ -21,6 +24,7 @@ struct FootprintDiagram::Workshop {
   std::vector<FootprintMeasure> measures;
   std::vector<double> reaches;  // how far from its site each footprint can reach [m]
   std::vector<std::uint32_t> made, order;
+  std::size_t most_kept = kMostUnused;
   std::vector<std::uint8_t> is_touched;  // since somebody has asked for the touched ones
   std::vector<std::uint8_t> is_covered;  // lies in the place of a heavier site
 
@@ -28,6 +32,8 @@ struct FootprintDiagram::Workshop {
   // Can another site, as it is or was, have a side with site i as it was?
   bool cuts(const StandingSite& other, std::uint32_t i) const;
   void find_coincident();
+  // Makes the plots eroded as those that are measured need them, and forgets what nobody needs any more.
+  void erode_plots(std::span<const StandingSite> now);
   void measure(std::uint32_t i, FootprintMaker& maker);
 };
 

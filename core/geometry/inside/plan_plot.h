@@ -34,11 +34,13 @@ class PlanPlot {
   static Result<PlanPlot> section(const Domain& domain, std::span<const StreetAxis> streets = {});
 
   /// All points of the plot that lie at least so far [m] from each side of its border. Exact for a convex plot with one distance.
-  /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept: distances are few,
-  /// because set-backs are rules of a whole plot.
+  /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept until `keep_only`:
+  /// distances are few, because set-backs are rules of a whole plot.
   const Pieces& eroded(const PlotOffset& by);
   /// The same where it has been asked for before, else nullptr.
   const Pieces* made(const PlotOffset& by) const;
+  /// Forgets what is eroded by other distances than these. While somebody drags a distance, each frame has a new one.
+  void keep_only(std::vector<PlotOffset> used);
   std::size_t kept() const { return eroded_.size(); }
   double area() const { return area_; }
   const PlanPoint& low() const { return low_; }

@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <numbers>
+#include <string>
 
+#include "core/geometry/inside/footprint_workshop.h"
 #include "core/geometry/plan_ring.h"
+#include "core/geometry/plates.h"
 #include "tests/core/geometry/standing_zoo.h"
 
 namespace bl::geometry {
@@ -77,6 +82,44 @@ TEST(PlanPlotLaws, NothingIsLeftOnlyWhereNoPlaceIsSoFarIn) {
       last = area;
     }
   }
+}
+
+// A distance that is dragged is another one in each frame.
+TEST(PlanPlot, DistancesThatNobodyHasAnyMoreAreForgotten) {
+  FootprintDiagram diagram;
+  ASSERT_TRUE(diagram.set_domain(test::plot_of(test::PlotShape::with_hole)));
+  std::vector<StandingSite> sites = test::random_standing(5, 3);
+  for (StandingSite& site : sites) site.form = FootprintForm::cell, site.runs = {{2, 0}, {2, 1.5}};
+  for (int frame = 0; frame < 300; ++frame) {
+    sites[0].depth = 4 + 0.01 * frame;
+    ASSERT_TRUE(diagram.update(sites));
+    EXPECT_LE(diagram.workshop().plot.kept(), FootprintDiagram::Workshop::kMostUnused + 4);
+  }
+  FootprintDiagram fresh;
+  ASSERT_TRUE(fresh.set_domain(test::plot_of(test::PlotShape::with_hole)));
+  ASSERT_TRUE(fresh.update(sites));
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    EXPECT_EQ(diagram.footprints()[i].plates, fresh.footprints()[i].plates);
+    EXPECT_TRUE(body_of(diagram, static_cast<std::uint32_t>(i)) == body_of(fresh, static_cast<std::uint32_t>(i)));
+  }
+}
+
+// A hole of many corners: each corner is looked up, and not sought among all others for each pair of sides.
+TEST(PlanPlot, AHoleOfManyCornersIsErodedQuickly) {
+  std::vector<Point3> hole;
+  for (int k = 0; k < 1500; ++k) {
+    const double angle = -2 * std::numbers::pi * k / 1500, radius = 100 + 5 * (k % 2);
+    hole.push_back({200 + radius * std::cos(angle), 200 + radius * std::sin(angle), 0});
+  }
+  const Domain domain = test::plot_of({{0, 0, 0}, {400, 0, 0}, {400, 400, 0}, {0, 400, 0}}, {hole});
+  PlanPlot plot = PlanPlot::section(domain).value();
+  const auto start = std::chrono::steady_clock::now();
+  const double area = area_of_pieces(plot.eroded({3, 3}));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  // The tips of the hole lie at 105 m, less than a metre apart.
+  EXPECT_NEAR(area, 394.0 * 394 - std::numbers::pi * 108 * 108, 40);
+  EXPECT_LT(seconds, 5) << "it took a minute where corners were sought";
+  RecordProperty("seconds", std::to_string(seconds));
 }
 
 }  // namespace
