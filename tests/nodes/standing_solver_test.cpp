@@ -129,27 +129,6 @@ TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
   EXPECT_EQ(geometry::storeys_of(wish, 100).count, 5);
 }
 
-// Of many volumes the one with an absurd place is named, on the ground and on a roof.
-TEST(StandingSolver, WhoCannotStandIsNamed) {
-  const auto scene = [](const std::string& where, const std::string& bases) {
-    return R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
-    {"id": "a", "position": [30, 20, 0], "types": {"smart_volume": {"demand": 900, "storey_height": 3}, "footprint": {}}},
-    {"id": "far", "position": )" +
-           where + R"(, "types": {"smart_volume": {"demand": 90, "storey_height": 3}, "footprint": {"bases": [)" + bases + R"(]}}},
-    {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 60}}},
-    {"id": "solver", "types": {"standing_solver": {}}}]})";
-  };
-  World ground = World::from_text(scene("[3e8, 20, 0]", ""));
-  ground.tick();
-  EXPECT_EQ(ground.node_error("solver", "standing_solver"),
-            "nodes/solver/standing_solver/members: `far` cannot stand: its position is not a place within 100 000 km");
-  World roof = World::from_text(scene("[3e8, 20, 0]", R"("a")"));
-  roof.tick();
-  EXPECT_EQ(roof.node_error("solver", "standing_solver"), "");
-  EXPECT_EQ(roof.text("solver", "standing_solver.message"),
-            "on the roof of `a` `far` cannot stand: its position is not a place within 100 000 km");
-}
-
 TEST(StandingSolver, WithoutABoundaryItSaysSo) {
   World world = World::from_text(
       R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [{"id": "solver", "types": {"standing_solver": {}}}]})");

@@ -175,6 +175,24 @@ TEST(StandingTick, TooMuchForARoofIsSaidOfThatRoof) {
   EXPECT_NEAR(outcome.results[0].floor_area, 300, 1e-6) << "those below do not suffer";
 }
 
+// Of many volumes the one with an absurd place is named, on the ground and on a roof.
+TEST(StandingTick, WhoCannotStandIsNamed) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {20, 20, 0}, 2, 300),
+                                   wish(FootprintForm::block, {40, 20, 0}, 2, 300),
+                                   wish(FootprintForm::block, {2e8, 20, 0}, 2, 300)};
+  const StandingTick tick{.steps = 20};
+  StandingTick::Cache kept;
+  const auto ground = tick.run(plot(60, 40), wishes, kept);
+  ASSERT_FALSE(ground);
+  EXPECT_EQ(ground.error().text(), "site 2 cannot stand: its position is not a place within 100 000 km");
+  wishes[2].base = 1;
+  StandingTick::Cache other;
+  const auto roof = tick.run(plot(60, 40), wishes, other);
+  ASSERT_TRUE(roof);
+  ASSERT_EQ(roof->on_roofs.size(), 1u);
+  EXPECT_EQ(roof->on_roofs[0].text, "site 2 cannot stand: its position is not a place within 100 000 km");
+}
+
 // A podium that vanishes, and comes back.
 TEST(StandingTick, WithoutARoofNothingIsLost) {
   std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 2, 1200),
