@@ -82,6 +82,7 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   };
   if (pool != nullptr) pool->for_each_chunk(w.made.size(), kGrain, measure);
   else measure(0, w.made.size());
+  w.find_largest_reach();
   return std::span<const FootprintMeasure>(w.measures);
 }
 
@@ -123,11 +124,38 @@ void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
   if (changed.empty()) return;
   // Whoever had a part of a changed site within its reach, or has it now. Where many have changed, nearly all are touched.
   const bool is_all = changed.size() * 8 > now.size();
-  for (std::uint32_t i = 0; i < now.size(); ++i) {
-    bool is_met = is_all;
-    for (std::size_t k = 0; !is_met && k < changed.size(); ++k)
-      is_met = changed[k] == i || cuts(sites[changed[k]], i) || cuts(now[changed[k]], i);
-    if (is_met) made.push_back(i);
+  std::vector<std::uint8_t> is_met(now.size(), is_all ? 1 : 0);
+  for (const std::uint32_t i : endless) is_met[i] = 1;
+  if (!is_all)
+    for (const std::uint32_t k : changed) {
+      is_met[k] = 1;
+      mark_cut(sites[k], is_met);
+      mark_cut(now[k], is_met);
+    }
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (is_met[i] != 0) made.push_back(i);
+}
+
+// A site at the distance d with the weight v cuts what lies within the reach R of one with the weight w where d² + w - v < 2 R d:
+// no farther away than R + sqrt(R² - w + v).
+void FootprintDiagram::Workshop::mark_cut(const StandingSite& other, std::vector<std::uint8_t>& is_met) const {
+  const double weight = std::max(0.0, other.site.weight);
+  const double farthest = largest_reach + std::sqrt(largest_excess + weight);
+  grid.around(other.site.position, 1e-9 + (1 + 1e-9) * farthest, [&](std::uint32_t i) {
+    if (is_met[i] == 0 && cuts(other, i)) is_met[i] = 1;
+  });
+}
+
+void FootprintDiagram::Workshop::find_largest_reach() {
+  largest_reach = largest_excess = 0;
+  endless.clear();
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) {
+    if (std::isinf(reaches[i])) {
+      endless.push_back(i);
+      continue;
+    }
+    largest_reach = std::max(largest_reach, reaches[i]);
+    largest_excess = std::max(largest_excess, reaches[i] * reaches[i] - sites[i].site.weight);
   }
 }
 

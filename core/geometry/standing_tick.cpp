@@ -218,18 +218,19 @@ std::vector<StandingTick::Level> levels_of(std::span<const StandingWish> wishes,
   std::map<std::int32_t, std::vector<std::uint32_t>> members;
   for (std::uint32_t i = 0; i < bases.size(); ++i)
     if (!is_member(wishes, i)) members[bases[i]].push_back(i);
+  std::map<std::int32_t, std::size_t> kept_of;
+  for (std::size_t k = 0; k < kept.size(); ++k) kept_of.emplace(kept[k].base, k);
   std::vector<StandingTick::Level> levels;
   const auto add = [&](std::int32_t base) {
     const auto found = members.find(base);
     if (found == members.end()) return;
-    const auto known =
-        std::find_if(kept.begin(), kept.end(), [&](const auto& k) { return k.base == base && k.members == found->second; });
-    if (known != kept.end()) levels.push_back(std::move(*known));
+    const auto known = kept_of.find(base);
+    if (known != kept_of.end() && kept[known->second].members == found->second) levels.push_back(std::move(kept[known->second]));
     else levels.push_back({base, std::move(found->second), {}, {}, nullptr, 0});
   };
   add(StandingWish::kGround);
   for (std::size_t k = 0; members.size() > levels.size() && k < levels.size(); ++k)
-    for (const std::uint32_t i : std::vector(levels[k].members)) add(static_cast<std::int32_t>(i));
+    for (std::size_t m = 0; m < levels[k].members.size(); ++m) add(static_cast<std::int32_t>(levels[k].members[m]));
   return levels;
 }
 

@@ -23,12 +23,18 @@ struct FootprintDiagram::Workshop {
   std::vector<StandingSite> sites;  // of the last update
   std::vector<FootprintMeasure> measures;
   std::vector<double> reaches;  // how far from its site each footprint can reach [m]
+  double largest_reach = 0;     // of those that are finite [m]
+  double largest_excess = 0;    // of the square of a reach over the weight [m²]
+  std::vector<std::uint32_t> endless;  // those whose reach is not finite
   std::vector<std::uint32_t> made, order;
   std::size_t most_kept = kMostUnused;
   std::vector<std::uint8_t> is_touched;  // since somebody has asked for the touched ones
   std::vector<std::uint8_t> is_covered;  // lies in the place of a heavier site
 
   void find_made(std::span<const StandingSite> now);
+  void find_largest_reach();
+  // Those that another site, as it is or was, can have a side with.
+  void mark_cut(const StandingSite& other, std::vector<std::uint8_t>& is_met) const;
   // Can another site, as it is or was, have a side with site i as it was?
   bool cuts(const StandingSite& other, std::uint32_t i) const;
   void find_coincident();

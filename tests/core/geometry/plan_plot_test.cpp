@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/base/random.h"
 #include "core/geometry/inside/footprint_workshop.h"
 #include "core/geometry/plan_ring.h"
 #include "core/geometry/plates.h"
@@ -120,6 +121,43 @@ TEST(PlanPlot, AHoleOfManyCornersIsErodedQuickly) {
   EXPECT_NEAR(area, 394.0 * 394 - std::numbers::pi * 108 * 108, 40);
   EXPECT_LT(seconds, 5) << "it took a minute where corners were sought";
   RecordProperty("seconds", std::to_string(seconds));
+}
+
+// One volume that is lost far away does not bring all others into one square.
+TEST(PlanGrid, OneFarAwayCostsTheOthersNothing) {
+  Random random(3);
+  std::vector<StandingSite> sites(6000);
+  for (StandingSite& site : sites) {
+    site.site = {{random.uniform(0, 2000), random.uniform(0, 2000), 0}, random.uniform(30, 90)};
+    site.runs = {{3, 0}};
+  }
+  const Domain plot = test::plot_of({{0, 0, 0}, {2000, 0, 0}, {2000, 2000, 0}, {0, 2000, 0}});
+  const auto seconds = [&] {
+    double least = 1e9;
+    for (int run = 0; run < 3; ++run) {
+      FootprintDiagram diagram;
+      EXPECT_TRUE(diagram.set_domain(plot));
+      const auto start = std::chrono::steady_clock::now();
+      EXPECT_TRUE(diagram.update(sites));
+      least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return least;
+  };
+  const double near = seconds();
+  sites[17].site.position = {90000, 40000, 0};
+  const double far = seconds();
+  EXPECT_LT(far, 4 * near) << "it was thirty times as much";
+  // Whoever it is asked for, the sites around a place are among those that it finds.
+  PlanGrid grid;
+  grid.fill(sites);
+  for (int k = 0; k < 50; ++k) {
+    const Point3 at{random.uniform(-500, 2500), random.uniform(-500, 2500), 0};
+    const double distance_there = k == 0 ? 1e5 : random.uniform(1, 200);
+    std::vector<std::uint8_t> is_found(sites.size(), 0);
+    grid.around(at, distance_there, [&](std::uint32_t i) { is_found[i] = 1; });
+    for (std::uint32_t i = 0; i < sites.size(); ++i)
+      if (distance(sites[i].site.position, at) <= distance_there) { ASSERT_EQ(is_found[i], 1) << k << ", " << i; }
+  }
 }
 
 }  // namespace
