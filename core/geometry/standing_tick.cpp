@@ -173,7 +173,7 @@ StandingResult part_of(const StandingResult& whole, const SharedBuilding& buildi
   part.bottom = whole.bottom;
   part.centroid = whole.centroid;
   part.is_shared = true;
-  part.storeys = {0, whole.storeys.is_limited};
+  part.storeys = {0, whole.storeys.is_limited, is_host ? whole.storeys.least_room : 0};
   const StandingBody& body = building.parts[share];
   if (!body.stacks.empty()) part.bottom = body.stacks.front().bottom;
   else if (part.state == SiteState::alive) part.state = SiteState::starved;

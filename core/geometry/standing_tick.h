@@ -23,7 +23,7 @@ struct StandingWish {
   int storeys = 1, least = 1;    ///< wished, and insisted on
   double height_limit = 1e9;     ///< [m] above its lowest floor
   int built = 0;                 ///< storeys of the last tick; 0: none yet
-  bool was_limited = false;      ///< by the height limit, in the last tick
+  double least_room = 0;         ///< of the last tick, see Storeys
   double setback = 0;            ///< [m], of the storeys above the first `full_storeys`
   double courtyard_setback = 0;  ///< [m], of the same storeys behind the edge that a constant depth would give the courtyard
   int full_storeys = 0;
@@ -34,13 +34,12 @@ struct StandingWish {
   bool operator==(const StandingWish&) const = default;
 };
 
-/// A storey that a height limit has taken away comes back when the limit leaves room for it and this share of a storey more, so
-/// that storeys do not come and go with a limit that trembles.
-inline constexpr double kStoreyPlay = 0.15;
-
 struct Storeys {
   int count = 1;            ///< whole, at least 1
   bool is_limited = false;  ///< fewer than wished, by the height limit
+  /// Where there are fewer than wished: the least room, in storeys, since there have been as many as now; else 0. `kStoreyPlay`
+  /// says when more come back.
+  double least_room = 0;
   bool operator==(const Storeys&) const = default;
 };
 /// `highest`: the height of the boundary above the lowest floor [m].

@@ -36,7 +36,7 @@ StandingTick::Outcome run(const Domain& domain, std::vector<StandingWish>& wishe
     for (std::size_t i = 0; i < wishes.size(); ++i) {
       wishes[i].site.site.weight = outcome.results[i].weight;
       wishes[i].built = outcome.results[i].storeys.count;
-      wishes[i].was_limited = outcome.results[i].storeys.is_limited;
+      wishes[i].least_room = outcome.results[i].storeys.least_room;
     }
   }
   return outcome;
