@@ -59,6 +59,7 @@ Result<void> FootprintDiagram::set_domain(const Domain& domain, std::span<const 
   return {};
 }
 
+bool FootprintDiagram::is_of(const Domain& domain) const { return workshop_->has_plot && workshop_->domain == domain; }
 double FootprintDiagram::plot_area() const { return workshop_->plot.area(); }
 std::span<const FootprintMeasure> FootprintDiagram::footprints() const { return workshop_->measures; }
 std::span<const std::uint32_t> FootprintDiagram::made() const { return workshop_->made; }

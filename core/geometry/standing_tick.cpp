@@ -358,6 +358,17 @@ Result<void> StandingTick::run_roof(const Domain& ground, std::span<const Standi
   return {};
 }
 
+// The plot is the ground of the boundary, and storeys end at its top: between them it may be narrower.
+void StandingTick::measure_outside(const Domain& domain, bool is_known, Cache& kept, const Outcome& outcome) {
+  const bool may_reach_out = !is_upright(domain);
+  const auto measure = [&](StandingResult& result) {
+    result.outside = may_reach_out && result.body ? reach_out_of(domain, *result.body) : BoundaryReach();
+  };
+  if (!is_known) std::ranges::for_each(kept.results, measure);
+  else if (may_reach_out)
+    for (const std::uint32_t i : outcome.differing) measure(kept.results[i]);
+}
+
 // Gives what buildings have to those who share them.
 void StandingTick::share_buildings(std::span<const StandingWish> wishes, Cache& kept, Outcome& outcome) const {
   const auto has_shares = [](const std::vector<BuildingShare>& shares) { return !shares.empty(); };
@@ -419,6 +430,7 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
   kept.shares = shares_of(wishes);
   kept.shares_before.resize(wishes.size());
   kept.buildings.resize(wishes.size());
+  const bool is_known = !kept.levels.empty() && kept.levels.front().diagram.is_of(domain);
   for (Level& level : kept.levels) {
     const bool is_roof = level.base >= 0;
     auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
@@ -426,6 +438,7 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     if (!done) return done.error();
     if (!is_roof) kept.plot_area = level.diagram.plot_area();
   }
+  measure_outside(domain, is_known, kept, outcome);
   share_buildings(wishes, kept, outcome);
   std::sort(outcome.differing.begin(), outcome.differing.end());
   outcome.differing.erase(std::unique(outcome.differing.begin(), outcome.differing.end()), outcome.differing.end());

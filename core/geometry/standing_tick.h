@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/boundary_reach.h"
 #include "core/geometry/footprint_fit.h"
 #include "core/geometry/plates.h"
 #include "core/geometry/shared_building.h"
@@ -64,6 +65,7 @@ struct StandingResult {
   double facade_area = 0, free_facade_area = 0, roof_area = 0;  ///< [m²]; free: towards no neighbour
   Point3 centroid;
   std::vector<std::pair<std::uint32_t, double>> walls;  ///< area of the walls shared with other sites [m²]
+  BoundaryReach outside;                                ///< of the boundary
   std::shared_ptr<const StandingBody> body;
   MeshPointer mesh;
 };
@@ -123,6 +125,7 @@ struct StandingTick {
   Result<void> run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                          Outcome& outcome) const;
   void share_buildings(std::span<const StandingWish> wishes, Cache& kept, Outcome& outcome) const;
+  static void measure_outside(const Domain& domain, bool is_known, Cache& kept, const Outcome& outcome);
   static void split_losses(std::span<const StandingWish> wishes, const Cache& kept, Outcome& outcome);
   Result<void> run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                         Outcome& outcome) const;

@@ -137,7 +137,9 @@ TEST(StandingSolver, ALimitThatIsPutBackGivesTheStoreyBack) {
   for (const bool is_shared : {false, true}) {
     SCOPED_TRACE(is_shared);
     double height = 3;
-    const auto storeys = [&] { return is_shared ? geometry::storeys_of(wish, shares, 100, height) : geometry::storeys_of(wish, 100); };
+    const auto storeys = [&] {
+      return is_shared ? geometry::storeys_of(wish, shares, 100, height) : geometry::storeys_of(wish, 100);
+    };
     const double whole = 7 * (is_shared ? geometry::mean_storey_height(shares, 7) : 3);
     wish.built = 0;
     wish.least_room = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Labels beside those of PlanSide. A block's sides are its first pair, across which its first side runs, and its second.
 constexpr std::size_t kMostSquares = 1000;  // in a row or column
-constexpr double kNothing = 1e-13;  // areas below this share of the square of the reach
+constexpr double kNothing = 1e-13;          // areas below this share of the square of the reach
 constexpr std::int32_t kAlong = -10, kAcross = -11;
 
 struct HalfSides {

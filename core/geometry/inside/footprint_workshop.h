@@ -22,9 +22,9 @@ struct FootprintDiagram::Workshop {
   PlanGrid grid;
   std::vector<StandingSite> sites;  // of the last update
   std::vector<FootprintMeasure> measures;
-  std::vector<double> reaches;  // how far from its site each footprint can reach [m]
-  double largest_reach = 0;     // of those that are finite [m]
-  double largest_excess = 0;    // of the square of a reach over the weight [m²]
+  std::vector<double> reaches;         // how far from its site each footprint can reach [m]
+  double largest_reach = 0;            // of those that are finite [m]
+  double largest_excess = 0;           // of the square of a reach over the weight [m²]
   std::vector<std::uint32_t> endless;  // those whose reach is not finite
   std::vector<std::uint32_t> made, order;
   std::size_t most_kept = kMostUnused;

@@ -51,16 +51,6 @@ PlanPolygon section_of(const Domain::Piece& piece, double z) {
   return polygon;
 }
 
-double area_of(const PlanPolygon& polygon) {
-  double twice = 0;
-  const std::size_t count = polygon.corners.size();
-  for (std::size_t k = 1; k + 1 < count; ++k) {
-    const PlanPoint &a = polygon.corners[0].at, &b = polygon.corners[k].at, &c = polygon.corners[k + 1].at;
-    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-  return 0.5 * twice;
-}
-
 PlanPlot::Piece piece_of(PlanPolygon polygon) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   PlanPlot::Piece piece{std::move(polygon), {kFar, kFar}, {-kFar, -kFar}};
@@ -85,7 +75,8 @@ class PlotGrid {
       for (ClipperLib::cInt y = square.second - 1; y <= square.second + 1; ++y)
         if (const auto found = squares_.find({x, y}); found != squares_.end())
           for (const std::size_t k : found->second)
-            if (std::abs(known_[k].X - at.X) <= kSameStep && std::abs(known_[k].Y - at.Y) <= kSameStep) first = std::min(first, k);
+            if (std::abs(known_[k].X - at.X) <= kSameStep && std::abs(known_[k].Y - at.Y) <= kSameStep)
+              first = std::min(first, k);
     if (first < known_.size()) return first;
     squares_[square].push_back(first);
     known_.push_back(at);
@@ -249,6 +240,24 @@ void add_pieces(const ClipperLib::PolyNode& outer, const PlotGrid& grid, PlanPlo
 }
 
 }  // namespace
+
+double area_of(const PlanPolygon& polygon) {
+  double twice = 0;
+  const std::size_t count = polygon.corners.size();
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const PlanPoint &a = polygon.corners[0].at, &b = polygon.corners[k].at, &c = polygon.corners[k + 1].at;
+    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return 0.5 * twice;
+}
+
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z) {
+  std::vector<PlanPolygon> sections;
+  for (const Domain::Piece& piece : domain.pieces)
+    if (piece.shape.minimum.z <= z && z <= piece.shape.maximum.z)
+      if (PlanPolygon polygon = section_of(piece, z); !polygon.is_empty()) sections.push_back(std::move(polygon));
+  return sections;
+}
 
 Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetAxis> streets) {
   PlanPlot plot;

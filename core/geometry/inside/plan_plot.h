@@ -22,6 +22,11 @@ struct PlotOffset {
   auto operator<=>(const PlotOffset&) const = default;
 };
 
+/// The section of a domain, as convex polygons.
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z);
+/// [m²]; negative where the corners are clockwise.
+double area_of(const PlanPolygon& polygon);
+
 class PlanPlot {
  public:
   struct Piece {
@@ -61,7 +66,7 @@ class PlanPlot {
   Pieces pieces_;  // as they are
   double area_ = 0;
   PlanPoint low_, high_;
-  double widest_ = 0, farthest_ = 0;  // half of its smaller side, and its diagonal [m], with room for rounding
+  double widest_ = 0, farthest_ = 0;                // half of its smaller side, and its diagonal [m], with room for rounding
   bool has_streets_ = false, has_borders_ = false;  // sides of each kind
   std::map<PlotOffset, Pieces> eroded_;
   Pieces none_;

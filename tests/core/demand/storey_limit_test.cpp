@@ -88,7 +88,8 @@ TEST(StoreyLimit, AHeightThatTremblesTakesAStoreyOnce) {
   EXPECT_LE(changes, 2);
   EXPECT_EQ(volume.built, 5);
   EXPECT_EQ(storeys_left(volume, 17.9), "5 of 8 storeys, because it may be no higher than 17.90 m");
-  EXPECT_EQ(storeys_left(volume, 18), "5 of 8 storeys, because it may be no higher than 18.00 m (one more comes back from 18.45 m on)");
+  EXPECT_EQ(storeys_left(volume, 18),
+            "5 of 8 storeys, because it may be no higher than 18.00 m (one more comes back from 18.45 m on)");
 }
 
 }  // namespace
