@@ -26,7 +26,7 @@ struct Footprint {
   struct Out {
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0;
+    double least_room = 0, facade_area = 0, roof_area = 0, cellar_area = 0;
     Table plates;
   };
 
@@ -151,8 +151,8 @@ struct Footprint {
         .combine(CombineRule::min)
         .doc(
             "Greatest height above the ground or roof that it stands on. Links that set limits propose here. A storey that it "
-            "has "
-            "taken away comes back when the limit leaves room for 1.15 storeys.");
+            "has taken away comes back when the limit leaves room for it and has risen by 0.15 storeys since it was least; else "
+            "when it leaves room for 1.15 storeys.");
     t.in(&In::bases, "bases")
         .collect()
         .doc(
@@ -195,6 +195,12 @@ struct Footprint {
             "Number of storeys that height limits hold: its own, or those of the whole building where others share its "
             "footprint.");
     t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
+    t.out(&Out::least_room, "least_room")
+        .means()
+        .unit(Unit::ratio)
+        .doc(
+            "Where there are fewer storeys than are wished: the least room for storeys since there have been as many as now, in "
+            "storeys; else 0. More come back when the room has grown by 0.15 since.");
     t.out(&Out::facade_area, "facade_area")
         .unit(Unit::square_metre)
         .doc("Area of all walls, towards courtyards and neighbours too.");

@@ -129,17 +129,22 @@ struct Plot {
   static constexpr double kRounding = 1e-6;  // [m] of set-backs that are kept exactly
   static constexpr double kChords = 1e-3;    // [m] between arcs of plates and their chords
 
+  // As one with plates; else nullptr.
+  static const Standing* standing_of(const Sets& sets, const Member& member) {
+    const auto found = std::ranges::lower_bound(sets.standing, member.id, {}, &Standing::id);
+    return found != sets.standing.end() && found->id == member.id ? &*found : nullptr;
+  }
+
   // How far a volume stays inside the sides of the plot [m]: its plates where it stands, else a disc.
   static double clearance(const In& in, const Sets& sets, const Member& member) {
-    const auto standing = std::ranges::lower_bound(sets.standing, member.id, {}, &Standing::id);
-    if (standing != sets.standing.end() && standing->id == member.id)
+    if (const Standing* standing = standing_of(sets, member))
       return geometry::clearance_of(geometry::read_body(standing->plates, standing->position), in.polygon, kChords);
     const Point3 flat{member.centroid.x, member.centroid.y, 0};
     const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
     return distance({side.x, side.y, 0}, flat) - std::sqrt(member.footprint / 3.14159265358979323846);
   }
 
-  // Rounded shapes shrink towards their positions. What stands begins on the ground, wherever its position is.
+  // Of rounded shapes, which shrink towards their positions. What stands begins on its ground, wherever its position is.
   static void tell_height(const In& in, const Member& member, std::string& message) {
     const double height = member.position.z - in.ground;
     if (member.position.z > member.bottom + member.height || height < in.height_max ||
@@ -164,7 +169,7 @@ struct Plot {
       ++out.count;
       out.floor_area += member.floor_area;
       out.footprint += grounded(in, member) * member.footprint;
-      tell_height(in, member, out.message);
+      if (standing_of(sets, member) == nullptr) tell_height(in, member, out.message);
       out.top = std::max(out.top, member.bottom + member.height - in.ground);
       if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, sets, member));
     }

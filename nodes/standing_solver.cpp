@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain.h"
+#include "core/geometry/fit_text.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/standing_text.h"
 #include "core/geometry/standing_tick.h"
@@ -34,8 +34,8 @@ struct StandingSolver {
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
     double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0, order = 0, cellar_storeys = 0;
-    double cellar_height = 3, bottom = 0, floor_area = 0;  // the last two as they came out of the last tick
-    bool has_party_walls = true, has_border_walls = false, was_limited = false;
+    double cellar_height = 3, bottom = 0, floor_area = 0, least_room = 0;  // the last three as they came out of the last tick
+    bool has_party_walls = true, has_border_walls = false;
     std::vector<std::string> bases, shares;
   };
   struct Plot {
@@ -66,7 +66,7 @@ struct StandingSolver {
     MeshPointer mesh;
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0;
+    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0, least_room = 0;
   };
   struct Out {
     std::int64_t count = 0;
@@ -161,7 +161,8 @@ struct StandingSolver {
     set.reads(&Member::bottom, "smart_volume.bottom").reads(&Member::floor_area, "smart_volume.floor_area");
     set.reads(&Member::cellar_storeys, "footprint.cellar_storeys").reads(&Member::cellar_height, "footprint.cellar_height");
     set.writes(&Reply::cellars_built, "footprint.cellars_built").writes(&Reply::cellar_area, "footprint.cellar_area");
-    set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
+    set.reads(&Member::least_room, "footprint.least_room").writes(&Reply::least_room, "footprint.least_room");
+    set.writes(&Reply::is_limited, "footprint.is_limited");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::fitted, "smart_volume.fitted");
     set.writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
@@ -201,7 +202,7 @@ struct StandingSolver {
     wish.least = m.storeys_min;
     wish.height_limit = m.height_limit;
     wish.built = m.built;
-    wish.was_limited = m.was_limited;
+    wish.least_room = m.least_room;
     wish.setback = m.setback;
     wish.courtyard_setback = m.courtyard_setback;
     wish.full_storeys = m.full_storeys;
@@ -250,7 +251,8 @@ struct StandingSolver {
             .is_limited = result.storeys.is_limited,
             .facade_area = result.facade_area,
             .roof_area = result.roof_area,
-            .cellar_area = cellar.storeys * cellar.area};
+            .cellar_area = cellar.storeys * cellar.area,
+            .least_room = result.storeys.least_room};
   }
 
   // On whom each volume stands. Returns what is wrong with that, sentences after semicolons.
@@ -372,7 +374,7 @@ struct StandingSolver {
     const geometry::StandingTick now{
         .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
-    if (!done) return Error{done.error().code, "members", done.error().message};
+    if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, kept.names)};
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
                    std::back_inserter(answered));
@@ -400,12 +402,10 @@ struct StandingSolver {
       const std::string& name = kept.names[static_cast<std::size_t>(base)];
       words += text.starts_with("has ") || text.starts_with("fills ")
                    ? "; `" + name + "` " + text + ", so that nothing stands on it"
-                   : "; on the roof of `" + name + "` " + text;
+                   : "; on the roof of `" + name + "` " + geometry::with_names(text, kept.names);
     }
     out.message += words;
-    for (std::size_t k = 0; k < done->losses.size() && k < 3; ++k)
-      out.message += "; " + kept.names[done->losses[k].demand] + " has " + fixed(done->losses[k].had, 0) + " of " +
-                     fixed(done->losses[k].wanted, 0) + " m²";
+    out.message += geometry::floor_losses_text(done->losses, kept.names);
     if (out.message.starts_with("; ")) out.message.erase(0, 2);
     return out;
   }

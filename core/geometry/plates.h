@@ -33,7 +33,7 @@ struct PlateStack {
   double bottom = 0, storey_height = 3;  ///< [m]
   double area = 0;                       ///< of one plate [m²]
   std::vector<PlateRing> outlines;       ///< of the footprint; several where the plot is not convex
-  std::vector<PlateRing> courtyards;     ///< what is not built of it
+  std::vector<PlateRing> courtyards;     ///< what is not built of it, where that does not reach an outer wall
   double top() const { return bottom + storeys * storey_height; }
   bool operator==(const PlateStack&) const = default;
 };

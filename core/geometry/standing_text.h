@@ -18,6 +18,9 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
                                std::span<const StandingResult> buildings, double top, double tolerance,
                                std::span<const std::string> names);
 
+/// Those that have less floor area than they want, each after "; ": the three that lack most, and how many there are besides.
+std::string floor_losses_text(std::span<const FloorLoss> losses, std::span<const std::string> names);
+
 /// The same of a cellar that volume i asks for and cannot have.
 std::string lost_cellar_text(const StandingResult& result, std::size_t i, std::span<const std::string> names);
 

@@ -19,6 +19,7 @@ namespace bl::reading {
 namespace {
 
 constexpr std::size_t kNamedBreakers = 4;
+constexpr double kSetbackRounding = 1e-6;  // [m] of set-backs that are kept exactly, as the plot reckons
 
 /// A volume with the part that it has in what is found.
 struct Breaker {
@@ -162,15 +163,18 @@ class Rules {
         found < 0 ? "built " + fixed(-found, 2) + " m beyond the side of the plot, where a set-back of " +
                         fixed(figures_.setback, 2) + " m is asked for"
                   : "a set-back of " + demand::found_of_allowed(found, figures_.setback, 2, " m") + " asked for",
-        found, figures_.setback, breakers(volumes_, [&](const VolumeThere& v) { return figures_.setback - v.clearance; }),
-        Unit::metre);
+        found, figures_.setback, breakers(volumes_, [this](const VolumeThere& v) { return lack_of_setback(v); }), Unit::metre);
     const bool has_balls = std::any_of(volumes_.begin(), volumes_.end(),
-                                       [this](const VolumeThere& v) { return !v.is_standing && v.clearance < figures_.setback; });
+                                       [this](const VolumeThere& v) { return !v.is_standing && lack_of_setback(v) > 0; });
     if (has_balls) all_.back().text += "; balls keep no set-back by a link: move them inwards, or lower `setback`";
   }
 
  private:
   double top(const PlotVolume& volume) const { return volume.bottom + volume.height - figures_.ground; }
+  double lack_of_setback(const VolumeThere& volume) const {
+    const double lack = figures_.setback - volume.clearance;
+    return lack < kSetbackRounding ? 0 : lack;
+  }
   bool is_on_ground(const PlotVolume& volume) const { return volume.bottom < figures_.ground + volume.storey_height; }
 
   void at_most(const char* port, const std::string& what, double found, double allowed, int decimals, const char* unit,

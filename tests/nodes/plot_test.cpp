@@ -80,6 +80,19 @@ TEST(Plot, AFootprintFadesInTheUpperHalfOfTheLowestStorey) {
   EXPECT_EQ(footprint(20), 0);
 }
 
+// What stands begins on its ground: no place of its position makes it lower.
+TEST(Plot, WhatStandsIsNotToldToMoveDown) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "house", "position": [20, 20, 15],
+     "types": {"smart_volume": {"demand": 2400, "storey_height": 3}, "footprint": {"storeys": 8}}},
+    {"id": "plot", "types": {"plot": {"polygon": [[0,0,0],[40,0,0],[40,40,0],[0,40,0]], "height_max": 12}}},
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[40,0,0],[40,40,0],[0,40,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})");
+  ASSERT_TRUE(world.settle());
+  EXPECT_NEAR(world.number("plot", "plot.height_overshoot"), 12, 1e-9);
+  EXPECT_EQ(world.text("plot", "plot.message"), "");
+}
+
 TEST(Plot, OvershootHasALargestValue) {
   World world = World::from_file("scenes/nodes/plot.json");
   for (const char* port : {"plot.gsi_max", "plot.height_max", "plot.fsi_max"})

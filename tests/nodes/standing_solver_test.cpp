@@ -100,9 +100,66 @@ TEST(StandingSolver, WhatIsBuiltOtherwiseThanItIsSetIsSaid) {
   EXPECT_NEAR(eaten.number("house", "smart_volume.floor_area"), 400, 2);
   EXPECT_EQ(eaten.text("solver", "standing_solver.message"),
             "the set-back of `house` leaves nothing of its upper 3 storeys: lower it, or the number of storeys");
+  // A courtyard that is moved out as far as the depth moves it in is as large as the plate.
+  World hollow = World::from_text(
+      alone(R"("form": "block", "aspect": 1, "storeys": 4, "full_storeys": 1, "depth": 5, "courtyard_setback": 5)"));
+  ASSERT_TRUE(hollow.settle());
+  EXPECT_EQ(hollow.text("solver", "standing_solver.message"),
+            "the `courtyard_setback` of `house` leaves nothing of its upper 3 storeys: lower it, or the number of storeys");
   World sound = World::from_text(alone(R"("form": "block", "aspect": 1, "storeys": 2, "full_storeys": 1, "setback": 1)"));
   ASSERT_TRUE(sound.settle());
   EXPECT_EQ(sound.text("solver", "standing_solver.message"), "");
+}
+
+// The ground of a volume on a slope moves up and down by a little: the boundary above it leaves now eight storeys, now seven.
+TEST(StandingSolver, ABoundaryThatTremblesTakesAStoreyOnce) {
+  geometry::StandingWish wish;
+  wish.site.storey_height = 3;
+  wish.storeys = 8;
+  int changes = 0, last = 0;
+  for (int k = 0; k < 40; ++k) {
+    const geometry::Storeys now = geometry::storeys_of(wish, 24 + 0.0005 * std::cos(3 * k));
+    changes += last != 0 && now.count != last ? 1 : 0;
+    last = wish.built = now.count;
+    wish.least_room = now.least_room;
+    EXPECT_FALSE(now.is_limited) << "by no limit of height";
+  }
+  EXPECT_LE(changes, 1);
+  EXPECT_EQ(last, 7);
+}
+
+// A limit that was lower for a while and is put back leaves no trace: neither on a house, nor on a building of two uses.
+TEST(StandingSolver, ALimitThatIsPutBackGivesTheStoreyBack) {
+  geometry::StandingWish wish;
+  wish.site.storey_height = 3;
+  wish.storeys = 7;
+  const std::vector<geometry::BuildingShare> shares{{0, 100, 4.5}, {1, 250, 3}};
+  for (const bool is_shared : {false, true}) {
+    SCOPED_TRACE(is_shared);
+    double height = 3;
+    const auto storeys = [&] {
+      return is_shared ? geometry::storeys_of(wish, shares, 100, height) : geometry::storeys_of(wish, 100);
+    };
+    const double whole = 7 * (is_shared ? geometry::mean_storey_height(shares, 7) : 3);
+    wish.built = 0;
+    wish.least_room = 0;
+    const auto tick = [&](double limit) {
+      wish.height_limit = limit;
+      const geometry::Storeys now = storeys();
+      wish.built = now.count;
+      wish.least_room = now.least_room;
+      return now.count;
+    };
+    EXPECT_EQ(tick(whole), 7);
+    EXPECT_EQ(tick(whole - 1), 6);
+    EXPECT_EQ(tick(whole - 1), 6);
+    EXPECT_EQ(tick(whole), 7);
+    EXPECT_EQ(wish.least_room, 0);
+    // One that comes back by less than 0.15 storeys may be one that trembles.
+    EXPECT_EQ(tick(whole - 0.1), 6);
+    EXPECT_EQ(tick(whole), 6);
+    EXPECT_EQ(tick(whole + 0.15 * 3), 7);
+  }
 }
 
 TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
@@ -115,7 +172,7 @@ TEST(StandingSolver, ALimitThatTremblesTakesAStoreyOnce) {
     const geometry::Storeys now = geometry::storeys_of(wish, 100);
     changes += last != 0 && now.count != last ? 1 : 0;
     last = wish.built = now.count;
-    wish.was_limited = now.is_limited;
+    wish.least_room = now.least_room;
   }
   EXPECT_LE(changes, 1);
   EXPECT_EQ(last, 4);
