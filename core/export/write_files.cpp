@@ -14,16 +14,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kTailReach = 256;  // no end of a mark is longer
+
 Result<void> may_replace(const std::string& path, const FormatDefinition& format) {
   // Devices and pipes take what they are given.
   if (std::error_code none; !fs::is_regular_file(path, none)) return {};
   std::ifstream file(path, std::ios::binary);
-  std::string begin(256, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
-  if (begin.empty()) return {};
-  for (const std::string& known : format.beginnings)
-    if (begin.starts_with(known)) return {};
+  const auto part = [&](std::size_t most) {
+    std::string bytes(most, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(most));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+    return bytes;
+  };
+  const std::string head = part(kMarkReach);
+  std::string tail = head;
+  if (head.size() == kMarkReach) {
+    file.clear();
+    file.seekg(-static_cast<std::streamoff>(kTailReach), std::ios::end);
+    tail = part(kTailReach);
+  }
+  if (!file.is_open() || file.bad())
+    return Error{ErrorCode::io, path,
+                 "exists already and cannot be read, so that nobody knows whether it was exported as " + format.id +
+                     "; choose another name, or remove it first"};
+  if (head.empty() || has_mark(format, head, tail)) return {};
   return Error{ErrorCode::conflict, path,
                "exists already and was not exported as " + format.id + "; choose another name, or remove it first"};
 }

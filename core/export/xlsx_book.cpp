@@ -140,7 +140,7 @@ Result<std::string> xlsx_book(const std::vector<XlsxSheet>& sheets, const std::s
       {"xl/styles.xml", std::string(kXmlHead) + kStyles}};
   for (std::size_t k = 0; k < sheets.size(); ++k)
     files.emplace_back("xl/worksheets/sheet" + std::to_string(k + 1) + ".xml", sheet_text(sheets[k]));
-  return zip_archive(files);
+  return zip_archive(files, kXlsxEnd);
 }
 
 }  // namespace bl::exporting

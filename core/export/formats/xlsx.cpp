@@ -22,7 +22,7 @@ struct XlsxFormat {
         "problems, and what scene and state it is of. "
         "Sums are formulas over the rows above, or over the sheets before, and bring their values along, so that programs which "
         "do not calculate read the same numbers.");
-    f.ending(".xlsx").begins("PK\x03\x04");
+    f.ending(".xlsx").marked({"PK\x03\x04", "", kXlsxEnd});
     f.option(&Options::formulas, "formulas").doc("Sums as formulas; else as numbers alone.");
     declare_form_option(f);
   }
