@@ -59,6 +59,9 @@ class Export(unittest.TestCase):
             {"id": "ground", "name": "Ground", "position": [15, 20, -3],
              "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEs..."}] * 5, "north": 40}}}]
         scene["nodes"].sort(key=lambda node: node["id"])
+        # Letters of western Europe that have no place in Latin-1.
+        cls.title = "Cœur d’îlot – „Škoda“, 3 M€ …"
+        scene["settings"]["title"] = cls.title
         cls.scene = os.path.join(cls.folder, "placed.json")
         with open(cls.scene, "w", encoding="utf-8") as file:
             json.dump(scene, file)
@@ -392,6 +395,8 @@ class Export(unittest.TestCase):
     def test_pdf_texts(self):
         text = run("pdftotext", "-layout", self.path("a.pdf"), "-").stdout
         self.assertIn(self.rows[0]["hash"], text)
+        self.assertIn(self.title, text)
+        self.assertIn("Title:           " + self.title, run("pdfinfo", self.path("a.pdf")).stdout)
         self.assertRegex(run("pdfinfo", self.path("a.pdf")).stdout, r"Page size:\s+1190\.5\d* x 841\.8\d*")
 
 

@@ -54,5 +54,16 @@ TEST(Letters, TextsOfADrawingMeanWhatTheySay) {
   EXPECT_NE(made.notes.front().find("question marks"), std::string::npos) << made.notes.front();
 }
 
+// All that the code page 1252 has beyond the numbers of Unicode, and a title too long for its place, which ends in three dots.
+TEST(Letters, APdfHasTheSignsOfWesternEurope) {
+  Proposal proposal = proposal_of(settled_world());
+  proposal.title = "€ ‚ ƒ „ … † ‡ ˆ ‰ Š ‹ Œ Ž ‘ ’ “ ” • – — ˜ ™ š › œ ž Ÿ";
+  EXPECT_TRUE(files_of(proposal, "pdf").notes.empty());
+  proposal.title = std::string(2000, 'a');
+  EXPECT_TRUE(files_of(proposal, "pdf").notes.empty());
+  proposal.title = "住宅";
+  ASSERT_EQ(files_of(proposal, "pdf").notes.size(), 1u);
+}
+
 }  // namespace
 }  // namespace bl::exporting
