@@ -11,7 +11,7 @@
 #include "core/export/option_text.h"
 #include "core/export/read_proposal.h"
 #include "core/export/solids.h"
-#include "tests/support/world.h"
+#include "tests/core/export/two_houses.h"
 
 namespace bl::exporting {
 namespace {
@@ -118,6 +118,19 @@ TEST_P(ProposalForms, EveryFormatTakesTheFormOrSaysWhyNot) {
   }
   EXPECT_NE(identity_line(scene_).find("volumes as they are"), std::string::npos);
   EXPECT_NE(identity_line(in_form(scene_, VolumeForm::slabs)).find("volumes as slabs"), std::string::npos);
+}
+
+// An option must not be without effect and without a word.
+TEST(VolumeForms, BodiesWithoutWallsAreTold) {
+  const Proposal proposal = proposal_of(settled_world());
+  for (const char* form : {"form=slabs", "form=standing"}) {
+    const ExportFiles with = files_of(proposal, "ifc", {form}), without = files_of(proposal, "ifc", {form, "walls=no"});
+    EXPECT_EQ(with.files.front().content.find("IFCWALL("), std::string::npos);
+    ASSERT_EQ(with.notes.size(), 1u) << form;
+    EXPECT_NE(with.notes.front().find("2 volumes as s"), std::string::npos) << with.notes.front();
+    EXPECT_NE(with.notes.front().find("no walls"), std::string::npos) << with.notes.front();
+    EXPECT_TRUE(without.notes.empty()) << form;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Start, ProposalForms, ::testing::Values("scenes/start/standing.json", "scenes/start/quarter.json"));
