@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,11 @@ struct Land {
   std::string id, name;
   bool is_boundary = false;
   std::vector<geometry::PlateFace> faces;
-  double area = 0;          ///< [m²]
-  double ground = 0;        ///< height above the origin [m]
-  double fsi = 0, gsi = 0;  ///< of a plot
-  double fsi_max = 0, gsi_max = 0;
-  double height_max = 0;  ///< [m]
+  double area = 0;                         ///< [m²]
+  double ground = 0;                       ///< height above the origin [m]
+  double fsi = 0, gsi = 0;                 ///< of a plot
+  std::optional<double> fsi_max, gsi_max;  ///< none where there is no rule
+  std::optional<double> height_max;        ///< [m]
 };
 
 /// A building of the surroundings, which stands already.

@@ -105,6 +105,12 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   all.shapeless.push_back(std::move(building));
 }
 
+// A limit at the end of its port's range forbids nothing, and is no rule.
+std::optional<double> rule_of(const State& state, std::uint32_t node, const char* port, double limit) {
+  const auto ref = state.plan->find(node, {reading::type_of<reading::PlotFigures>(), port, {}});
+  return ref && limit >= state.plan->port(*ref).hard_maximum ? std::nullopt : std::optional(limit);
+}
+
 void add_lands(const State& state, const reading::ReportModel& model, Proposal& all) {
   for (const reading::SiteRow& site : model.sites) {
     if (!site.shape) continue;
@@ -125,9 +131,9 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
               plot.ground,
               plot.fsi,
               plot.gsi,
-              plot.fsi_max,
-              plot.gsi_max,
-              plot.height_max};
+              rule_of(state, node, "fsi_max", plot.fsi_max),
+              rule_of(state, node, "gsi_max", plot.gsi_max),
+              rule_of(state, node, "height_max", plot.height_max)};
     land.area = area_of(land.faces);
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }

@@ -56,6 +56,8 @@ class Export(unittest.TestCase):
                                   "latitude": 51.9949, "longitude": 4.3716})
         scene["nodes"] += [
             {"id": "goal", "name": "Cost", "types": {"indicator": {"value": 3.6e7, "unit": "EUR", "target": 3e7, "direction": "at_most"}}},
+            {"id": "free", "name": "Free", "types": {"plot": {}}},
+            {"id": "park", "name": "Park", "types": {"plot": {"fsi_max": 0}}},
             {"id": "ground", "name": "Ground", "position": [15, 20, -3],
              "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEs..."}] * 5, "north": 40}}}]
         scene["nodes"].sort(key=lambda node: node["id"])
@@ -365,6 +367,9 @@ class Export(unittest.TestCase):
         storeys = list(values["Storeys"].iter_rows(min_row=2, values_only=True))
         self.near(storeys[-1][7], math.fsum(row[7] for row in storeys[:-1]), 1e-9)
         self.assertEqual(formulas["Buildings"].cell(len(rows) + 1, 6).value, "=SUM(F2:F%d)" % len(rows))
+        # Where nothing may be built the rule is 0; where there is none, the cell is empty.
+        plots = {row[0]: row[5:8] for row in values["Plots"].iter_rows(min_row=2, values_only=True)}
+        self.assertEqual((plots["Free"], plots["Park"]), ((None, None, None), (0, None, None)))
         about = dict(row[:2] for row in values["About"].iter_rows(min_row=2, values_only=True))
         self.assertEqual(about["hash"], self.rows[0]["hash"])
 

@@ -249,6 +249,8 @@ struct HtmlFormat {
               {"streets", streets}};
     }
 
+    static PageJson rule_of(const std::optional<double>& limit) { return limit ? PageJson(*limit) : PageJson(); }
+
     PageJson document() {
       const PlanExtent extent = plan_extent(proposal);
       origin = {std::round((extent.low.x + extent.high.x) / 2), std::round((extent.low.y + extent.high.y) / 2), 0};
@@ -261,9 +263,9 @@ struct HtmlFormat {
                          {"area", land.area},
                          {"fsi", land.fsi},
                          {"gsi", land.gsi},
-                         {"fsi_max", land.fsi_max},
-                         {"gsi_max", land.gsi_max},
-                         {"height_max", land.height_max}});
+                         {"fsi_max", rule_of(land.fsi_max)},
+                         {"gsi_max", rule_of(land.gsi_max)},
+                         {"height_max", rule_of(land.height_max)}});
       for (const Indicator& one : proposal.indicators)
         indicators.push_back({{"name", one.name},
                               {"value", one.value},

@@ -152,7 +152,9 @@ struct XlsxFormat {
       for (const Land& land : proposal.lands) {
         Cells row = {w(land.name), w(land.is_boundary ? "boundary" : "plot"), n(land.area)};
         if (!land.is_boundary)
-          for (const double value : {land.fsi, land.gsi, land.fsi_max, land.gsi_max, land.height_max}) row.push_back(n(value));
+          for (const std::optional<double>& value :
+               {std::optional(land.fsi), std::optional(land.gsi), land.fsi_max, land.gsi_max, land.height_max})
+            row.push_back(value ? n(*value) : XlsxCell());
         sheet.rows.push_back(std::move(row));
       }
       return sheet;

@@ -184,6 +184,34 @@ TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
   EXPECT_NE(made->notes.front().find("upright"), std::string::npos) << made->notes.front();
 }
 
+// Where nothing may be built the rule is 0; where there is none, tables say nothing.
+TEST(Formats, NoRuleIsNoNumber) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "house", "position": [0, 0, 8], "types": {"smart_volume": {"demand": 900}}},
+      {"id": "free", "types": {"plot": {}}},
+      {"id": "park", "types": {"plot": {"fsi_max": 0, "height_max": 12.5}}}]})");
+  ASSERT_TRUE(world.settle());
+  Proposal proposal = proposal_of(world);
+  proposal.shell = kShell;
+  const auto land = [&](const char* id) {
+    return *std::find_if(proposal.lands.begin(), proposal.lands.end(), [&](const Land& one) { return one.id == id; });
+  };
+  EXPECT_FALSE(land("free").fsi_max || land("free").gsi_max || land("free").height_max);
+  EXPECT_EQ(land("park").fsi_max, 0.0);
+  EXPECT_FALSE(land("park").gsi_max);
+  EXPECT_EQ(land("park").height_max, 12.5);
+  const auto features = nlohmann::json::parse(file_of(proposal, "geojson", {"coordinates=scene"}))["features"];
+  for (const auto& feature : features) {
+    const auto& figures = feature["properties"];
+    if (feature["id"] == "plot/free") EXPECT_TRUE(figures["fsi_max"].is_null() && figures["height_max_m"].is_null());
+    if (feature["id"] == "plot/park") EXPECT_EQ(figures["fsi_max"], 0);
+  }
+  const std::string page = file_of(proposal, "html");
+  EXPECT_NE(page.find(R"("fsi_max":0.0,"gsi_max":null,"height_max":12.5)"), std::string::npos);
+}
+
 TEST(Formats, GeoJsonRefusesASceneWithoutAPlace) {
   Proposal proposal = proposal_of(settled_world());
   proposal.reference = {};
