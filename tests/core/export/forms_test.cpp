@@ -127,7 +127,7 @@ TEST(VolumeForms, BodiesWithoutWallsAreTold) {
     const ExportFiles with = files_of(proposal, "ifc", {form}), without = files_of(proposal, "ifc", {form, "walls=no"});
     EXPECT_EQ(with.files.front().content.find("IFCWALL("), std::string::npos);
     ASSERT_EQ(with.notes.size(), 1u) << form;
-    EXPECT_NE(with.notes.front().find("2 volumes as s"), std::string::npos) << with.notes.front();
+    EXPECT_NE(with.notes.front().find("volumes as s"), std::string::npos) << with.notes.front();
     EXPECT_NE(with.notes.front().find("no walls"), std::string::npos) << with.notes.front();
     EXPECT_TRUE(without.notes.empty()) << form;
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/export/coarse_ground.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/option_text.h"
@@ -168,20 +169,23 @@ TEST(Formats, APageHoldsItsDataAndNothingThatEndsIt) {
     for (const auto& storey : building["storeys"]) EXPECT_LT(storey["path"], data["paths"].size());
 }
 
-TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
+// So many volumes that a page has no room for their shapes.
+Proposal crowded_proposal() {
   Proposal proposal = proposal_of(settled_world());
   proposal.shell = kShell;
-  const FormatDefinition* format = find_format("html");
   const Building one = proposal.buildings.front();
   for (int k = 0; k < 1500; ++k) {
     proposal.buildings.push_back(one);
     proposal.buildings.back().id += std::to_string(k);
   }
-  const auto made = format->write(proposal, *option_values(*format, {}), false);
-  ASSERT_TRUE(made) << made.error().text();
-  EXPECT_LE(made->files.front().content.size(), 3000000u);
-  ASSERT_EQ(made->notes.size(), 1u);
-  EXPECT_NE(made->notes.front().find("upright"), std::string::npos) << made->notes.front();
+  return proposal;
+}
+
+TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
+  const ExportFiles made = files_of(crowded_proposal(), "html");
+  EXPECT_LE(made.files.front().content.size(), 3000000u);
+  ASSERT_EQ(made.notes.size(), 1u);
+  EXPECT_NE(made.notes.front().find("upright"), std::string::npos) << made.notes.front();
 }
 
 // Where nothing may be built the rule is 0; where there is none, tables say nothing.
@@ -210,6 +214,55 @@ TEST(Formats, NoRuleIsNoNumber) {
   }
   const std::string page = file_of(proposal, "html");
   EXPECT_NE(page.find(R"("fsi_max":0.0,"gsi_max":null,"height_max":12.5)"), std::string::npos);
+}
+
+// A slope of 128 by 128 places, as the terrain node has it at most.
+Mesh slope() {
+  constexpr std::uint32_t kSide = 128;
+  Mesh ground;
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) ground.vertices.push_back({5.0 * x, 5.0 * y, 0.1 * x});
+  for (std::uint32_t y = 0; y + 1 < kSide; ++y)
+    for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+      const std::uint32_t a = y * kSide + x, b = a + kSide;
+      ground.triangles.push_back({a, a + 1, b + 1});
+      ground.triangles.push_back({a, b + 1, b});
+    }
+  return ground;
+}
+
+TEST(CoarseGround, ItCoversTheSameLandWithFewerTriangles) {
+  const Mesh ground = slope();
+  EXPECT_EQ(coarse_ground(ground, ground.triangles.size()), ground);
+  for (const std::size_t most : {20000u, 4000u, 1000u, 50u, 2u}) {
+    const Mesh coarse = coarse_ground(ground, most);
+    EXPECT_LE(coarse.triangles.size(), most);
+    EXPECT_GE(coarse.triangles.size(), most / 4);
+    double area = 0;
+    for (const auto& [a, b, c] : coarse.triangles) {
+      const Vector3 u = coarse.vertices[b] - coarse.vertices[a], v = coarse.vertices[c] - coarse.vertices[a];
+      const double part = (u.x * v.y - u.y * v.x) / 2;
+      EXPECT_GE(part, 0) << "turned over";
+      area += part;
+    }
+    EXPECT_NEAR(area, 635.0 * 635.0, 1e-6 * area) << most;
+    for (const Point3& v : coarse.vertices) EXPECT_NEAR(v.z, 0.02 * v.x, 1e-9) << "places stay where they are";
+  }
+}
+
+// The ground stays on a page that has little room, and what is coarser is said.
+TEST(Formats, ALargePageKeepsTheGround) {
+  Proposal proposal = crowded_proposal();
+  const Building& one = proposal.buildings.front();
+  proposal.terrains = {std::make_shared<const Mesh>(slope())};
+  proposal.neighbours.push_back({"old", "Old", "", one.outline.front(), 0, 9, one.mesh});
+  const ExportFiles made = files_of(proposal, "html");
+  const std::string& page = made.files.front().content;
+  EXPECT_LE(page.size(), 3000000u);
+  EXPECT_NE(page.find("\"n/terrain/0\""), std::string::npos);
+  ASSERT_EQ(made.notes.size(), 1u);
+  EXPECT_NE(made.notes.front().find(" of 32258 triangles"), std::string::npos) << made.notes.front();
+  EXPECT_NE(made.notes.front().find("existing building is an upright body"), std::string::npos) << made.notes.front();
 }
 
 TEST(Formats, GeoJsonRefusesASceneWithoutAPlace) {
