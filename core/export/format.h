@@ -104,7 +104,11 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
           if (formed.buildings.empty())
             return Error{ErrorCode::missing, "form",
                          std::string("no volume has a body ") + reading::choice_of(options.form).measured};
-          return written(formed);
+          auto made = written(formed);
+          // Volumes that have a body in the scene, and none in this form.
+          for (std::size_t k = proposal.shapeless.size(); made && k < formed.shapeless.size(); ++k)
+            made->notes.push_back("in tables only: " + formed.shapeless[k].label + ": " + formed.shapeless[k].why_shapeless);
+          return made;
         }
       }
       return written(proposal);

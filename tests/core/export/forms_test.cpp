@@ -120,6 +120,25 @@ TEST_P(ProposalForms, EveryFormatTakesTheFormOrSaysWhyNot) {
   EXPECT_NE(identity_line(in_form(scene_, VolumeForm::slabs)).find("volumes as slabs"), std::string::npos);
 }
 
+// Its solver has kept no coarse mesh, as one of another program, or one that has failed since the scene was saved.
+TEST(VolumeForms, AVolumeWithoutABodyInAFormIsToldAndMeasuresNothing) {
+  Proposal proposal = proposal_of(settled_world());
+  proposal.buildings[1].shape = {};
+  const Proposal cells = in_form(proposal, VolumeForm::cells);
+  ASSERT_EQ(cells.buildings.size(), 1u);
+  ASSERT_EQ(cells.shapeless.size(), 1u);
+  EXPECT_EQ(cells.all.floor_area, cells.buildings[0].floor_area);
+  EXPECT_EQ(cells.all.volume, cells.buildings[0].volume);
+  EXPECT_EQ(cells.shapeless[0].floor_area, 0);
+  EXPECT_EQ(cells.shapeless[0].asked_area, proposal.buildings[1].asked_area);
+  for (const FormatDefinition& format : all_formats()) {
+    if (!format.shell.empty()) continue;  // these want a page
+    const ExportFiles made = files_of(proposal, format.id.c_str(), {"form=cells"});
+    ASSERT_EQ(made.notes.size(), 1u) << format.id;
+    EXPECT_EQ(made.notes.front(), "in tables only: west: it has no body as cells") << format.id;
+  }
+}
+
 // An option must not be without effect and without a word.
 TEST(VolumeForms, BodiesWithoutWallsAreTold) {
   const Proposal proposal = proposal_of(settled_world());
