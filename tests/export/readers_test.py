@@ -61,6 +61,8 @@ class Export(unittest.TestCase):
             {"id": "ground", "name": "Ground", "position": [15, 20, -3],
              "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEs..."}] * 5, "north": 40}}}]
         scene["nodes"].sort(key=lambda node: node["id"])
+        # Uses that spreadsheets take for one, since they compare texts without their case.
+        next(node for node in scene["nodes"] if node["id"] == "office-2")["types"]["smart_volume"]["use"] = "Office"
         # Letters of western Europe that have no place in Latin-1.
         cls.title = "Cœur d’îlot – „Škoda“, 3 M€ …"
         scene["settings"]["title"] = cls.title
@@ -372,6 +374,29 @@ class Export(unittest.TestCase):
         self.assertEqual((plots["Free"], plots["Park"]), ((None, None, None), (0, None, None)))
         about = dict(row[:2] for row in values["About"].iter_rows(min_row=2, values_only=True))
         self.assertEqual(about["hash"], self.rows[0]["hash"])
+
+    # As a spreadsheet calculates: EXACT knows cases, the equals sign does not.
+    @needs_module("openpyxl")
+    def test_xlsx_sums_by_name(self):
+        import openpyxl
+        values = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
+        formulas = openpyxl.load_workbook(self.path("a.xlsx"))
+        column = lambda text: [row[0].value for row in values[text.split("!")[0]][text.split("!")[1].replace("$", "")]]
+        count = 0
+        for name in ("Programme", "Buildings"):
+            for cell in (cell for row in formulas[name].iter_rows() for cell in row):
+                if not str(cell.value).startswith("=SUMPRODUCT("):
+                    continue
+                exact = re.fullmatch(r"=SUMPRODUCT\(EXACT\(([^,]*),(\w+)\)\*([^)]*)\)", cell.value)
+                plain = re.fullmatch(r"=SUMPRODUCT\(\(([^=]*)=(\w+)\)\*([^)]*)\)", cell.value)
+                names, one, numbers = (exact or plain).groups()
+                wanted = values[name][one].value
+                is_same = lambda text: text == wanted if exact else text.lower() == wanted.lower()
+                found = math.fsum(number for text, number in zip(column(names), column(numbers)) if is_same(text))
+                self.near(found, values[name][cell.coordinate].value, 1e-9)
+                count += 1
+        self.assertGreater(count, len(self.buildings))
+        self.assertLessEqual({"office", "Office"}, {row[0] for row in values["Programme"].iter_rows(values_only=True)})
 
     @needs("ssconvert")
     @needs_module("openpyxl")
