@@ -26,8 +26,8 @@ struct ExportFiles {
   std::vector<std::string> notes;  ///< sentences on what the format cannot hold or had to change
 };
 
-/// By what a file of a format is known: its first bytes, and where files of other programs begin in the same way, words further
-/// on as well.
+/// By what all files of a format are known: its first bytes, and where files of other programs begin in the same way, words
+/// further on as well.
 struct FileMark {
   std::string begin;
   std::string within;  ///< words within the first `kMarkReach` bytes

@@ -59,6 +59,48 @@ TEST(WriteFiles, WhatWasExportedIsReplaced) {
     }
 }
 
+Result<Products> products_of(const Order& order) {
+  static const Proposal proposal = proposal_of(settled_world());
+  return make_products(std::span(&order, 1), proposal, "");
+}
+
+// All files of a folder are looked at, not only those with the ending of the format.
+TEST(WriteFiles, AFolderKeepsWhatOthersPutThere) {
+  const test::Workplace place;
+  std::filesystem::create_directory(place.path("models"));
+  place.write("models/proposal.mtl", "newmtl mine\n");
+  const auto refused = products_of(order_of("obj", place.path("models").string()));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("was not exported as obj"), std::string::npos) << refused.error().message;
+  place.write("models/proposal.mtl", "# BehaviourLinks: of last week\n");
+  EXPECT_TRUE(products_of(order_of("obj", place.path("models").string())));
+}
+
+TEST(WriteFiles, WhereOneFileOfAFolderCannotBeWrittenNoneIsMade) {
+  const test::Workplace place;
+  std::filesystem::create_directories(place.path("plans/level_01.svg"));
+  const auto refused = products_of(order_of("svg", place.path("plans").string()));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().place.find("level_01.svg"), std::string::npos) << refused.error().text();
+}
+
+TEST(WriteFiles, FilesOfALargerExportBeforeAreTold) {
+  const test::Workplace place;
+  std::filesystem::create_directory(place.path("plans"));
+  const Order order = order_of("svg", place.path("plans").string());
+  const auto first = products_of(order);
+  ASSERT_TRUE(first);
+  std::vector<std::string> written;
+  ASSERT_TRUE(write_products(*first, written));
+  EXPECT_TRUE(products_of(order)->notes.empty());
+  place.write("plans/level_77.svg", place.text("plans/level_00.svg"));
+  place.write("plans/level_78.svg", "<svg>mine</svg>");
+  const auto again = products_of(order);
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->notes.size(), 1u);
+  EXPECT_NE(again->notes.front().find("also holds level_77.svg of an earlier export"), std::string::npos) << again->notes.front();
+}
+
 // A file of the system that is there, and of which no byte can be read.
 TEST(WriteFiles, WhatCannotBeReadIsNotReplaced) {
   const std::string locked = "/proc/self/mem";
