@@ -10,7 +10,7 @@
 namespace bl::exporting {
 
 /// How a number is shown.
-enum class XlsxStyle { plain, bold, one_decimal, two_decimals, percent, bold_one_decimal };
+enum class XlsxStyle { plain, bold, two_decimals, percent };
 
 struct XlsxCell {
   enum class Kind { empty, text, number } kind = Kind::empty;

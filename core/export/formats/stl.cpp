@@ -96,11 +96,11 @@ struct StlFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings);
+    ExportFiles made;
+    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, made.notes);
     // All files of a folder lie in one frame, so that they fit together.
     const ModelScale scale(solids, options.scale);
     const std::string note = "BehaviourLinks, 1:" + shortest(options.scale) + ", mm; " + identity_line(proposal);
-    ExportFiles made;
     const auto add = [&](const std::string& name, const std::vector<Solid>& part) {
       made.files.push_back(
           {name, options.layout == StlLayout::text ? as_text(part, scale, note) : as_binary(part, scale, proposal)});

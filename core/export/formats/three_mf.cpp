@@ -87,14 +87,16 @@ struct ThreeMfFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings);
+    ExportFiles made;
+    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, made.notes);
     const ModelScale scale(solids, options.scale);
     auto archive = zip_archive({{"[Content_Types].xml", kTypes},
                                 {"_rels/.rels", kRelations},
                                 {"3D/3dmodel.model", model_of(proposal, solids, scale, options)}},
                                kThreeMfEnd);
     if (!archive) return archive.error();
-    return ExportFiles{{{"model.3mf", std::move(*archive)}}, {}};
+    made.files.push_back({"model.3mf", std::move(*archive)});
+    return made;
   }
 };
 

@@ -139,6 +139,26 @@ TEST(VolumeForms, AVolumeWithoutABodyInAFormIsToldAndMeasuresNothing) {
   }
 }
 
+// As an import may bring it, or people: it encloses a volume all the same.
+TEST(Solids, AnOpenMeshIsNotPrinted) {
+  Proposal proposal = proposal_of(settled_world());
+  const Building& one = proposal.buildings.front();
+  Mesh open = *one.mesh;
+  EXPECT_TRUE(is_closed(open));
+  open.triangles.pop_back();
+  EXPECT_FALSE(is_closed(open));
+  EXPECT_FALSE(is_closed(Mesh{}));
+  proposal.neighbours = {{"shed", "Shed", "", one.outline.front(), 0, 9, std::make_shared<const Mesh>(open)},
+                         {"barn", "Barn", "", one.outline.front(), 0, 9, one.mesh}};
+  for (const char* id : {"stl", "3mf"}) {
+    const ExportFiles made = files_of(proposal, id, {"surroundings=yes"});
+    ASSERT_EQ(made.notes.size(), 1u) << id;
+    EXPECT_TRUE(made.notes.front().starts_with("Shed ")) << made.notes.front();
+  }
+  std::vector<std::string> notes;
+  for (const Solid& solid : printable_solids_of(proposal, true, notes)) EXPECT_TRUE(is_closed(*solid.mesh)) << solid.name;
+}
+
 // An option must not be without effect and without a word.
 TEST(VolumeForms, BodiesWithoutWallsAreTold) {
   const Proposal proposal = proposal_of(settled_world());
