@@ -128,7 +128,7 @@ struct Proposal {
   std::vector<UseRow> uses;
   UseRow all;
   double ground = 0;        ///< of level 0 [m]
-  double level_height = 3;  ///< of one level: the smallest storey height [m]
+  double level_height = 3;  ///< of one level: the least height of a storey with another one above it [m]
   int levels = 0;           ///< number of plans that show all storeys
   std::string shell;        ///< the built page, where a format asks for it; empty: there is none
 

@@ -193,7 +193,8 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
 
 }  // namespace
 
-// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
+// No floor lies closer above another one of its building than a level is high, so that no two of them fall on one level. In a
+// building of shops and flats the storey that both have is as high as those of the shops, whichever it is called by.
 void number_levels(Proposal& all) {
   all.level_height = std::numeric_limits<double>::infinity();
   all.levels = 0;
@@ -201,6 +202,8 @@ void number_levels(Proposal& all) {
   for (const Building& building : all.buildings) {
     all.ground = std::min(all.ground, building.storeys.front().bottom);
     all.level_height = std::min(all.level_height, building.storey_height);
+    for (std::size_t k = 1; k < building.storeys.size(); ++k)
+      all.level_height = std::min(all.level_height, building.storeys[k].bottom - building.storeys[k - 1].bottom);
   }
   for (Building& building : all.buildings)
     for (Storey& storey : building.storeys) {

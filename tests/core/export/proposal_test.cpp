@@ -53,6 +53,27 @@ TEST(Proposal, EachStoreyOfABuildingHasALevelOfItsOwn) {
     for (std::size_t k = 1; k < building.storeys.size(); ++k) EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level);
 }
 
+// Shops of 4.5 m below flats of 3 m: the storey that both have is as high as a shop.
+TEST(Proposal, StoreysOfASharedBuildingHaveLevelsOfTheirOwn) {
+  Proposal proposal;
+  const auto add = [&](const char* id, std::initializer_list<double> floors) {
+    Building& building = proposal.buildings.emplace_back();
+    building.id = id;
+    building.is_standing = true;
+    building.storey_height = 4.5;
+    for (auto floor = floors.begin(); floor + 1 != floors.end(); ++floor)
+      building.storeys.push_back({static_cast<int>(building.storeys.size()), 0, *floor, *(floor + 1), 100, {}, {}, {}});
+  };
+  add("shops", {0, 4.5, 9});
+  add("flats", {4.5, 9, 12, 15, 18, 21, 24});
+  number_levels(proposal);
+  EXPECT_EQ(proposal.level_height, 3);
+  EXPECT_EQ(proposal.levels, 8);
+  for (const Building& building : proposal.buildings)
+    for (std::size_t k = 1; k < building.storeys.size(); ++k)
+      EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level) << building.id;
+}
+
 // Storeys below the ground leave with negative numbers, and count in nothing but their own area.
 TEST(Formats, CellarsAreStoreysBelowTheGround) {
   World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
