@@ -166,10 +166,10 @@ struct HtmlFormat {
         if (proposal.streets[k].line.size() > 1)
           all["n/street/" + std::to_string(k)] = lines({proposal.streets[k].line}, false, 6, 0);
       for (std::size_t k = 0; k < proposal.terrains.size(); ++k) {
-        const Mesh ground = coarse_ground(*proposal.terrains[k], detail.most_of_ground / proposal.terrains.size());
+        const Mesh coarse = coarse_ground(*proposal.terrains[k], detail.most_of_ground / proposal.terrains.size());
         all_ground += proposal.terrains[k]->triangles.size();
-        shown_ground += ground.triangles.size();
-        all["n/terrain/" + std::to_string(k)] = surface(ground, 0, 0);
+        shown_ground += coarse.triangles.size();
+        all["n/terrain/" + std::to_string(k)] = surface(coarse, 0, 0);
       }
       return all;
     }
