@@ -255,7 +255,7 @@ class Export(unittest.TestCase):
                     self.assertGreater(volume, 0.8 * one["attributes"]["volume_m3"])
                     self.assertLess(volume, 1.0001 * one["attributes"]["volume_m3"])
                     kinds = [k["type"] for k in geometry["semantics"]["surfaces"]]
-                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface"])
+                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface", "ClosureSurface"])
 
     def test_cityjson_is_read_back(self):
         back = self.path("back.json")

@@ -229,12 +229,8 @@ TEST(Formats, NoRuleIsNoNumber) {
   const auto features = nlohmann::json::parse(file_of(proposal, "geojson", {"coordinates=scene"}))["features"];
   for (const auto& feature : features) {
     const auto& figures = feature["properties"];
-    if (feature["id"] == "plot/free") {
-      EXPECT_TRUE(figures["fsi_max"].is_null() && figures["height_max_m"].is_null());
-    }
-    if (feature["id"] == "plot/park") {
-      EXPECT_EQ(figures["fsi_max"], 0);
-    }
+    if (feature["id"] == "plot/free") { EXPECT_TRUE(figures["fsi_max"].is_null() && figures["height_max_m"].is_null()); }
+    if (feature["id"] == "plot/park") { EXPECT_EQ(figures["fsi_max"], 0); }
   }
   const std::string page = file_of(proposal, "html");
   EXPECT_NE(page.find(R"("fsi_max":0.0,"gsi_max":null,"height_max":12.5)"), std::string::npos);
