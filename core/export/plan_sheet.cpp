@@ -213,7 +213,9 @@ class PlanMaker : SheetFrame {
     shape.fill = b.colour;
     shape.width = 0.5;  // heavier than a plan: it is a cut
     use.shapes.push_back(std::move(shape));
-    if (options_.labels) add_label(b, *part.storey, labels);
+    Storey cut = *part.storey;
+    cut.faces = part.faces;
+    if (options_.labels) add_label(b, cut, labels, *height_ < cut.top);
   }
 
   // In a size that fits into the plate, as far as it can be read and nothing else is written there; else the area alone; else

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,12 @@ struct Land {
   std::string id, name;
   bool is_boundary = false;
   std::vector<geometry::PlateFace> faces;
-  double area = 0;          ///< [m²]
-  double open_area = 0;     ///< kept open beside it by a boundary [m²]
-  double ground = 0;        ///< height above the origin [m]
-  double fsi = 0, gsi = 0;  ///< of a plot
-  double fsi_max = 0, gsi_max = 0;
-  double height_max = 0;  ///< [m]
+  double area = 0;                         ///< [m²]
+  double open_area = 0;                    ///< kept open beside it by a boundary [m²]
+  double ground = 0;                       ///< height above the origin [m]
+  double fsi = 0, gsi = 0;                 ///< of a plot
+  std::optional<double> fsi_max, gsi_max;  ///< none where there is no rule
+  std::optional<double> height_max;        ///< [m]
 };
 
 /// A building of the surroundings, which stands already.
@@ -137,7 +138,7 @@ struct Proposal {
   UseRow all;
   std::vector<OpenSpace> open_spaces;  ///< in the order of programmes; no part of `uses` and `all`
   double ground = 0;                   ///< of level 0 [m]
-  double level_height = 3;             ///< of one level: the smallest storey height [m]
+  double level_height = 3;             ///< of one level: the least height of a storey with another one above it [m]
   int levels = 0;                      ///< number of plans that show all storeys
   std::string shell;                   ///< the built page, where a format asks for it; empty: there is none
 

@@ -107,6 +107,12 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   all.shapeless.push_back(std::move(building));
 }
 
+// A limit at the end of its port's range forbids nothing, and is no rule.
+std::optional<double> rule_of(const State& state, std::uint32_t node, const char* port, double limit) {
+  const auto ref = state.plan->find(node, {reading::type_of<reading::PlotFigures>(), port, {}});
+  return ref && limit >= state.plan->port(*ref).hard_maximum ? std::nullopt : std::optional(limit);
+}
+
 void add_lands(const State& state, const reading::ReportModel& model, Proposal& all) {
   for (const reading::SiteRow& site : model.sites) {
     if (!site.shape) continue;
@@ -129,9 +135,9 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
               plot.ground,
               plot.fsi,
               plot.gsi,
-              plot.fsi_max,
-              plot.gsi_max,
-              plot.height_max};
+              rule_of(state, node, "fsi_max", plot.fsi_max),
+              rule_of(state, node, "gsi_max", plot.gsi_max),
+              rule_of(state, node, "height_max", plot.height_max)};
     land.area = area_of(land.faces);
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }
@@ -202,7 +208,8 @@ void add_open_spaces(const State& state, const reading::ReportModel& model, Prop
 
 }  // namespace
 
-// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
+// No floor lies closer above another one of its building than a level is high, so that no two of them fall on one level. In a
+// building of shops and flats the storey that both have is as high as those of the shops, whichever it is called by.
 void number_levels(Proposal& all) {
   all.level_height = std::numeric_limits<double>::infinity();
   all.levels = 0;
@@ -210,6 +217,8 @@ void number_levels(Proposal& all) {
   for (const Building& building : all.buildings) {
     all.ground = std::min(all.ground, building.storeys.front().bottom);
     all.level_height = std::min(all.level_height, building.storey_height);
+    for (std::size_t k = 1; k < building.storeys.size(); ++k)
+      all.level_height = std::min(all.level_height, building.storeys[k].bottom - building.storeys[k - 1].bottom);
   }
   for (Building& building : all.buildings)
     for (Storey& storey : building.storeys) {

@@ -204,6 +204,10 @@ LevelPart level_part(const Building& building, double height) {
   LevelPart part;
   for (const Storey& storey : building.storeys)
     if (storey.bottom <= height && height < storey.top) part.storey = &storey;
+  // What a rounded volume has above its last storey belongs to that.
+  if (part.storey == nullptr && !building.is_standing && building.bottom <= height && height < building.top)
+    for (const Storey& storey : building.storeys)
+      if (part.storey == nullptr || storey.bottom <= height) part.storey = &storey;
   if (part.storey == nullptr) return part;
   if (building.is_standing) {
     part.faces = part.storey->faces;

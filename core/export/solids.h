@@ -29,6 +29,10 @@ std::vector<Solid> terrains_of(const Proposal& proposal);
 /// One for each building, then one for each building of the surroundings that has a mesh, where these are wanted.
 std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings);
 
+/// The same for programs that print, which want bodies without a hole: of what stands already and has an open mesh they get an
+/// upright body over its outline. `notes` names these.
+std::vector<Solid> printable_solids_of(const Proposal& proposal, bool with_surroundings, std::vector<std::string>& notes);
+
 /// A model at a scale in millimetres, with its lowest corner at (0, 0, 0): slicers expect it on the plate.
 class ModelScale {
  public:

@@ -136,20 +136,6 @@ FormedVolume as_cell(const FormSource& source) {
   return made;
 }
 
-void pile_up(FormedVolume& made, bool with_body) {
-  Mesh mesh;
-  for (const FormedStorey& storey : made.storeys) {
-    made.floor_area += storey.area;
-    made.volume += storey.area * (storey.top - storey.bottom);
-    for (std::size_t k = 0; with_body && k < storey.faces.size(); ++k)
-      append(geometry::prism_mesh(storey.faces[k].outer, storey.faces[k].holes, storey.bottom, storey.top), mesh);
-  }
-  if (made.storeys.empty()) return;
-  made.bottom = made.storeys.front().bottom;
-  made.top = made.storeys.back().top;
-  if (with_body) made.mesh = std::make_shared<const Mesh>(std::move(mesh));
-}
-
 // Of its drawing: the floor area of the highest storey counts what is left above it, or is a share of its plate.
 double plate_area(const FormedStorey& storey) {
   double area = 0;
@@ -160,12 +146,24 @@ double plate_area(const FormedStorey& storey) {
   return area;
 }
 
+void pile_up(FormedVolume& made, bool with_body) {
+  Mesh mesh;
+  for (const FormedStorey& storey : made.storeys) {
+    made.floor_area += storey.area;
+    made.volume += plate_area(storey) * (storey.top - storey.bottom);
+    for (std::size_t k = 0; with_body && k < storey.faces.size(); ++k)
+      append(geometry::prism_mesh(storey.faces[k].outer, storey.faces[k].holes, storey.bottom, storey.top), mesh);
+  }
+  if (made.storeys.empty()) return;
+  made.bottom = made.storeys.front().bottom;
+  made.top = made.storeys.back().top;
+  if (with_body) made.mesh = std::make_shared<const Mesh>(std::move(mesh));
+}
+
 FormedVolume as_slabs(const FormSource& source, bool with_body) {
   FormedVolume made;
   made.storeys = source.storeys;
   pile_up(made, with_body);
-  made.volume = 0;
-  for (const FormedStorey& storey : made.storeys) made.volume += plate_area(storey) * (storey.top - storey.bottom);
   return made;
 }
 

@@ -85,11 +85,13 @@ struct GeoJsonFormat {
 
     void add_land(const Land& land) {
       Ordered figures = {{"kind", land.is_boundary ? "boundary" : "plot"}, {"name", land.name}, {"area_m2", land.area}};
-      if (!land.is_boundary)
-        for (const auto& [name, value] :
-             {std::pair("fsi", land.fsi), std::pair("gsi", land.gsi), std::pair("fsi_max", land.fsi_max),
-              std::pair("gsi_max", land.gsi_max), std::pair("height_max_m", land.height_max)})
-          figures[name] = value;
+      if (!land.is_boundary) {
+        figures["fsi"] = land.fsi;
+        figures["gsi"] = land.gsi;
+        for (const auto& [name, rule] :
+             {std::pair("fsi_max", land.fsi_max), std::pair("gsi_max", land.gsi_max), std::pair("height_max_m", land.height_max)})
+          figures[name] = rule ? Ordered(*rule) : Ordered();
+      }
       add((land.is_boundary ? "boundary/" : "plot/") + land.id, polygons(land.faces), std::move(figures));
     }
 

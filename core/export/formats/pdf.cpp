@@ -20,7 +20,7 @@ struct PdfFormat {
         "A page with the area schedule by use, then the plan of each level at one scale, and a section, as the format svg draws "
         "them. Letters are "
         "those of western Europe; others become question marks, which is told.");
-    f.ending(".pdf").begins("%PDF");
+    f.ending(".pdf").marked({"%PDF", "/Creator (BehaviourLinks)", ""});
     declare_sheet_options(f);
   }
 

@@ -48,9 +48,9 @@ export interface Plot {
   area: number;
   fsi: number;
   gsi: number;
-  fsi_max: number;
-  gsi_max: number;
-  height_max: number;
+  fsi_max: number | null; ///< no rule where null, as the others
+  gsi_max: number | null;
+  height_max: number | null;
 }
 export interface Indicator {
   name: string;

@@ -127,7 +127,7 @@ export function Storeys({ proposal }: { proposal: Proposal }): JSX.Element {
 }
 
 export function Plots({ proposal }: { proposal: Proposal }): JSX.Element {
-  const limit = (value: number): string => (value > 0 && value < 1e6 ? hundredths(value) : "");
+  const limit = (value: number | null): string => (value === null ? "" : hundredths(value));
   return (
     <Table label="Plots" head={["Plot", "Land m²", "FSI", "Most FSI", "GSI", "Most GSI", "Most height m"]}>
       {proposal.plots.map((one) => (
