@@ -106,8 +106,7 @@ struct SolarEnvelope {
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
     l.reads_if_there(&Ends::plates, End::to, "footprint.plates");
@@ -191,7 +190,7 @@ struct SolarEnvelope {
       const auto& part = planes.parts[i][side > 0 ? 1 : 0];
       above.insert(above.end(), part.begin(), part.end());
     }
-    const sun::BodyReach reach = sun::reach_of(geometry::read_body(**ends.plates, ends.position), above);
+    const sun::BodyReach reach = sun::reach_of(geometry::read_body(**ends.plates), above);
     const demand::StandingVolume volume{*ends.built,        *ends.wished,       *ends.least_storeys,
                                         ends.storey_height, *ends.height_limit, *ends.is_height_locked};
     const double beyond = reach.excess / ends.radius - in.tolerance;

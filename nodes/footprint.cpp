@@ -210,6 +210,8 @@ struct Footprint {
         .column({.id = "storey_height", .unit = Unit::metre, .doc = "Height from floor to floor."})
         .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of one of its plates."})
         .column({.id = "courtyard", .doc = "1 where the ring bounds a courtyard, 0 where it bounds the plate."})
+        .column({.id = "centre_x", .unit = Unit::metre, .doc = "East coordinate of the centre of the ring's arcs."})
+        .column({.id = "centre_y", .unit = Unit::metre, .doc = "North coordinate of that centre."})
         .column({.id = "corners",
                  .list = ListOf::numbers,
                  .default_value = Numbers(),

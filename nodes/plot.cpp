@@ -25,7 +25,6 @@ struct Plot {
   };
   struct Standing {
     std::string id;
-    Point3 position;
     Table plates;
   };
   struct Sets {
@@ -79,8 +78,7 @@ struct Plot {
         .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
     set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
     auto standing = t.set("volumes", &Sets::standing);  // those of the volumes that have plates
-    standing.reads(&Standing::id, "node.id").reads(&Standing::position, "node.position", Unit::metre);
-    standing.reads(&Standing::plates, "footprint.plates");
+    standing.reads(&Standing::id, "node.id").reads(&Standing::plates, "footprint.plates");
   }
 
   static void declare_results(TypificationBuilder<Plot>& t) {
@@ -138,7 +136,7 @@ struct Plot {
   // How far a volume stays inside the sides of the plot [m]: its plates where it stands, else a disc.
   static double clearance(const In& in, const Sets& sets, const Member& member) {
     if (const Standing* standing = standing_of(sets, member))
-      return geometry::clearance_of(geometry::read_body(standing->plates, standing->position), in.polygon, kChords);
+      return geometry::clearance_of(geometry::read_body(standing->plates), in.polygon, kChords);
     const Point3 flat{member.centroid.x, member.centroid.y, 0};
     const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
     return distance({side.x, side.y, 0}, flat) - std::sqrt(member.footprint / 3.14159265358979323846);

@@ -39,7 +39,7 @@ void measure_clearance(const State& state, std::uint32_t node, const PlotFigures
   constexpr double kChords = 1e-3;  // [m]
   if (const auto footprint = row_of<FootprintFigures>(state, node)) {
     volume.is_standing = true;
-    const geometry::StandingBody body = geometry::read_body(footprint->plates, volume.figures.position);
+    const geometry::StandingBody body = geometry::read_body(footprint->plates);
     volume.clearance = geometry::clearance_of(body, figures.polygon, kChords);
     return;
   }

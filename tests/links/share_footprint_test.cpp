@@ -1,4 +1,7 @@
 // Share footprint: a name by hand, a building of three uses, and everything that its parts must not be.
+#include <cmath>
+
+#include "core/reading/report_model.h"
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -43,6 +46,40 @@ TEST(ShareFootprint, ThreeUsesMakeOneBuilding) {
   world.tick(8);
   ASSERT_TRUE(world.settle());
   EXPECT_EQ(world.text("flats", "smart_volume.stands_on"), "the ground");
+}
+
+// The scene with a plot and a link of rules: the building of shops, offices and flats has six storeys.
+World building_on_plot(const std::string& plot, const std::string& shops = R"("aspect": 2, "storeys": 6)") {
+  std::string text = project_file("scenes/links/share_footprint.json");
+  const auto change = [&text](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  change(R"("aspect": 2, "storeys": 6)", shops);
+  change(R"("nodes": [)",
+         R"("nodes": [{"id": "land", "types": {"plot": {"polygon": [[-40,-25,0],[40,-25,0],[40,25,0],[-40,25,0]], )" + plot +
+             "}}},");
+  return World::from_text(text);
+}
+
+// The flats have their position 12 m north of the building: what they have is where the building is.
+TEST(ShareFootprint, PlatesWithArcsAreDrawnAboutTheHost) {
+  World world = building_on_plot(R"("setback": 8)", R"("form": "round", "storeys": 6)");
+  ASSERT_TRUE(world.settle());
+  const double radius = std::sqrt(world.number("shops", "smart_volume.weight"));
+  ASSERT_GT(radius, 13);
+  ASSERT_LT(radius, 17) << "the building keeps 8 m from all sides";
+  EXPECT_EQ(world.number("land", "plot.setback_overshoot"), 0);
+  // Wherever plates are read they are what stands.
+  reading::ReportModel model;
+  reading::read_model(world.state(), model);
+  for (const reading::VolumeRow& row : model.volumes) {
+    if (row.id == "library") continue;
+    ASSERT_FALSE(row.body.stacks.empty()) << row.id;
+    EXPECT_EQ(row.body.centre, (Point3{-14, 0, 0})) << row.id;
+    EXPECT_NEAR(enclosed_volume(geometry::mesh_of(row.body, 0.02)), enclosed_volume(*row.mesh), 1e-6 * row.volume) << row.id;
+  }
 }
 
 TEST(ShareFootprint, BadHostsAreNamedAndNobodyIsLost) {
