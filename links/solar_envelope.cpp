@@ -11,7 +11,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 #include "core/geometry/plates_table.h"
 #include "core/sun/body_reach.h"
 #include "core/sun/moment_table.h"
@@ -37,7 +37,7 @@ struct SolarEnvelope {
     double storey_height = 0;
     std::optional<int> built, wished, least_storeys;
     std::optional<double> height_limit;
-    std::optional<Shared<Table>> plates;
+    std::optional<Shared<Table>> plates, building;
     std::optional<bool> is_height_locked;
   };
   struct Out {
@@ -109,7 +109,7 @@ struct SolarEnvelope {
     l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
-    l.reads_if_there(&Ends::plates, End::to, "footprint.plates");
+    l.reads_if_there(&Ends::plates, End::to, "footprint.plates").reads_if_there(&Ends::building, End::to, "footprint.building");
     l.reads_lock_if_there(&Ends::is_height_locked, End::to, "footprint.height_limit");
   }
 
@@ -180,6 +180,8 @@ struct SolarEnvelope {
   }
 
  private:
+  static constexpr double kSameHeight = 1e-6;  // [m] of roofs
+
   // The height up to which the plates stay below the planes. With fewer storeys plates are larger and may be no higher still, so
   // storeys do not come and go.
   static Result<Out> evaluate_standing(const In& in, const Ends& ends, const Planes& planes, const Tick& tick) {
@@ -191,26 +193,41 @@ struct SolarEnvelope {
       above.insert(above.end(), part.begin(), part.end());
     }
     const sun::BodyReach reach = sun::reach_of(geometry::read_body(**ends.plates), above);
-    const demand::StandingVolume volume{*ends.built,        *ends.wished,       *ends.least_storeys,
-                                        ends.storey_height, *ends.height_limit, *ends.is_height_locked};
+    const auto building = demand::building_in(ends.building);
+    const demand::StandingVolume volume = demand::standing_in(
+        {*ends.built, *ends.wished, *ends.least_storeys, ends.storey_height, *ends.height_limit, *ends.is_height_locked},
+        building);
     const double beyond = reach.excess / ends.radius - in.tolerance;
+    if (const std::string stays = demand::why_it_stays(building, ends.id); in.mode == Mode::move && !stays.empty()) {
+      if (beyond > in.play * in.tolerance)
+        remark(tick, LinkRemark::unmet,
+               {ErrorCode::infeasible, "edge",
+                "cannot be met: " + through(ends, reach.excess) + ", and " + stays +
+                    "; lead this link to that one, or let it be shaved"});
+      return Out{};
+    }
     if (in.mode == Mode::move) {
       if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
       return beyond > 0 ? Out{reach.back * (in.gain * beyond * ends.radius), {}, {}} : Out{};
     }
     Out out;
-    out.height_limit = demand::limit_at(volume, reach.allowed, in.least);
+    // What has others above it says nothing of them while it stays below the planes itself.
+    const bool is_covered = building && ends.bottom + ends.height < building->top - kSameHeight;
+    if (is_covered && reach.allowed >= ends.height) return out;
+    const double below = ends.bottom - demand::ground_below(building, ends.bottom);
+    out.height_limit = demand::limit_at(volume, below + reach.allowed, in.least);
     if (reach.allowed < ends.height && demand::is_at_least(volume, in.least))
       remark(tick, LinkRemark::unmet,
              {ErrorCode::infeasible, "edge",
-              "cannot be met: " + through(ends, reach.excess) + ", " + demand::held_at_least(ends.id, volume, in.least) +
+              "cannot be met: " + through(ends, reach.excess) + ", " +
+                  demand::held_at_least(demand::holder_of(building, ends.id), volume, in.least) +
                   "; move the edge or the volume, or " + demand::way_to_fewer(volume, in.least)});
     else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit) &&
              demand::is_in_force(volume, *out.height_limit))
-      remark(
-          tick, LinkRemark::short_of,
-          {ErrorCode::infeasible, "edge",
-           "`" + ends.id + "` has " + demand::storeys_left(volume, *out.height_limit) + " to stay below the planes of the sun"});
+      remark(tick, LinkRemark::short_of,
+             {ErrorCode::infeasible, "edge",
+              demand::named_holder(building, ends.id) + " has " + demand::storeys_left(volume, *out.height_limit) +
+                  " to stay below the planes of the sun"});
     return out;
   }
 

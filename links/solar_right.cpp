@@ -11,7 +11,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 #include "core/sun/loss_table.h"
 
 namespace bl {
@@ -37,6 +37,7 @@ struct SolarRight {
     All<std::optional<double>> height_limits;
     All<bool> are_limits_locked, are_positions_locked;
     All<std::optional<bool>> are_heights_locked;
+    All<std::optional<Shared<Table>>> buildings;
   };
   struct Out {
     All<std::optional<Vector3>> moves;
@@ -106,21 +107,25 @@ struct SolarRight {
     l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
         .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
     l.reads_lock(&Ends::are_limits_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::are_positions_locked, End::to, "node.position");
     l.reads_lock_if_there(&Ends::are_heights_locked, End::to, "footprint.height_limit");
+    l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
+  }
+
+  static std::optional<demand::Building> building_of(const Ends& ends, std::size_t i) {
+    return demand::building_in(ends.buildings.values[i]);
   }
 
   // As one that stands and loses storeys; nothing for a rounded volume, and in the mode `move`.
   static std::optional<demand::StandingVolume> standing(const In& in, const Ends& ends, std::size_t i) {
     if (in.mode == Mode::move || !ends.built.values[i]) return std::nullopt;
-    return demand::StandingVolume{*ends.built.values[i],         *ends.wished.values[i],
-                                  *ends.least_storeys.values[i], ends.storey_heights.values[i],
-                                  *ends.height_limits.values[i], *ends.are_heights_locked.values[i]};
+    return demand::standing_in({*ends.built.values[i], *ends.wished.values[i], *ends.least_storeys.values[i],
+                                ends.storey_heights.values[i], *ends.height_limits.values[i], *ends.are_heights_locked.values[i]},
+                               building_of(ends, i));
   }
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
@@ -172,7 +177,7 @@ struct SolarRight {
       if (!volume) {
         who.push_back(i);
       } else if (demand::is_at_least(*volume, in.least)) {
-        add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
+        add(demand::held_at_least(demand::holder_of(building_of(ends, i), ends.ids.values[i]), *volume, in.least));
         const std::string way = demand::way_to_fewer(*volume, in.least);
         if (ways.find(way) == std::string::npos) ways += ", " + way;
       } else {
@@ -224,8 +229,10 @@ struct SolarRight {
       if (const auto volume = standing(in, ends, i)) {
         const auto own = own_word(tick, "footprint.height_limit", i, volume->limit);
         const auto limit = height_of(in, ends, *volume, own, is_kept, shares[i]);
-        if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit))
-          lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, *limit);
+        const std::string who = demand::named_holder(building_of(ends, i), ends.ids.values[i]);
+        if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit) &&
+            lost.find(who) == std::string::npos)
+          lost += (lost.empty() ? "" : ", ") + who + " has " + demand::storeys_left(*volume, *limit);
         out.height_limits.values[i] = limit;
         continue;
       }

@@ -27,7 +27,7 @@ struct Footprint {
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
     double facade_area = 0, roof_area = 0, cellar_area = 0;
-    Table plates;
+    Table plates, building;
   };
 
   static void declare(TypificationBuilder<Footprint>& t) {
@@ -150,9 +150,9 @@ struct Footprint {
         .soft(0, 100)
         .combine(CombineRule::min)
         .doc(
-            "Greatest height above the ground or roof that it stands on. Links that set limits propose here. A storey that it "
-            "has "
-            "taken away comes back when the limit leaves room for 1.15 storeys.");
+            "Greatest height above the ground or roof that it stands on; of a building that several share, on which they all "
+            "stand, the least of theirs counts. Links that set limits propose here. A storey that it has taken away comes back "
+            "when the limit leaves room for 1.15 storeys.");
     t.in(&In::bases, "bases")
         .collect()
         .doc(
@@ -219,6 +219,24 @@ struct Footprint {
                      "Of each corner: x and y [m], the radius of the arc that begins there or 0, and what is beyond: 0 nothing, "
                      "1 the border of the plot, 2 a neighbour."})
         .doc("The plates: one row for each ring of each stack.");
+    declare_building(t);
+  }
+
+  static void declare_building(TypificationBuilder<Footprint>& t) {
+    t.out(&Out::building, "building")
+        .column({.id = "host", .is_text = true, .default_value = std::string(), .doc = "Id of the volume whose footprint it is."})
+        .column({.id = "storeys", .unit = Unit::count, .doc = "Number of storeys that is wished."})
+        .column({.id = "least", .unit = Unit::count, .doc = "Number of storeys that no height limit goes below."})
+        .column({.id = "held", .unit = Unit::count, .doc = "Number of storeys that height limits hold."})
+        .column(
+            {.id = "storey_height",
+             .unit = Unit::metre,
+             .doc = "Mean height of a storey; the largest of the means that it may have with one storey less or all of them."})
+        .column({.id = "bottom", .unit = Unit::metre, .doc = "Height of its lowest floor above the origin."})
+        .column({.id = "top", .unit = Unit::metre, .doc = "Height of its roof above the origin."})
+        .column({.id = "limit", .unit = Unit::metre, .doc = "The least height limit of the volumes that share it."})
+        .column({.id = "part", .unit = Unit::ratio, .doc = "Part of this volume in the floor area that all of them ask for."})
+        .doc("The building that several volumes share: one row, or none where the volume has a building of its own.");
   }
 };
 

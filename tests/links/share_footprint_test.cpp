@@ -49,7 +49,8 @@ TEST(ShareFootprint, ThreeUsesMakeOneBuilding) {
 }
 
 // The scene with a plot and a link of rules: the building of shops, offices and flats has six storeys.
-World building_on_plot(const std::string& plot, const std::string& shops = R"("aspect": 2, "storeys": 6)") {
+World building_on_plot(const std::string& plot, const std::string& shops = R"("aspect": 2, "storeys": 6)",
+                       const std::string& links = "") {
   std::string text = project_file("scenes/links/share_footprint.json");
   const auto change = [&text](const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
@@ -60,6 +61,7 @@ World building_on_plot(const std::string& plot, const std::string& shops = R"("a
   change(R"("nodes": [)",
          R"("nodes": [{"id": "land", "types": {"plot": {"polygon": [[-40,-25,0],[40,-25,0],[40,25,0],[-40,25,0]], )" + plot +
              "}}},");
+  if (!links.empty()) change(R"("links": [)", R"("links": [)" + links + ",");
   return World::from_text(text);
 }
 
@@ -80,6 +82,46 @@ TEST(ShareFootprint, PlatesWithArcsAreDrawnAboutTheHost) {
     EXPECT_EQ(row.body.centre, (Point3{-14, 0, 0})) << row.id;
     EXPECT_NEAR(enclosed_volume(geometry::mesh_of(row.body, 0.02)), enclosed_volume(*row.mesh), 1e-6 * row.volume) << row.id;
   }
+}
+
+double top_of_building(const World& world) {
+  double top = 0;
+  for (const char* id : {"shops", "offices", "flats"})
+    top = std::max(top, world.number(id, "smart_volume.bottom") + world.number(id, "smart_volume.height"));
+  return top;
+}
+
+// The host is the highest of the three, so that its floor lies where the others end.
+TEST(ShareFootprint, LimitsOfHeightCountFromTheGroundOfTheBuilding) {
+  const std::string rules = R"({"id": "rules", "kind": "plot_rules", "from": "land", "to": {"typification": "smart_volume"}})";
+  World high = building_on_plot(R"("height_max": 24)", R"("aspect": 2, "storeys": 6, "order": 5)", rules);
+  ASSERT_TRUE(high.settle());
+  ASSERT_GT(high.number("shops", "smart_volume.bottom"), 12);
+  EXPECT_EQ(high.number("shops", "footprint.storeys_held"), 6);
+  EXPECT_LT(top_of_building(high), 24);
+  EXPECT_GT(top_of_building(high), 20);
+  EXPECT_EQ(high.link_error("rules"), "");
+  // Storeys go by their mean height, whatever that of the host is; they come back, and do not come and go.
+  ASSERT_EQ(high.submit(command<SetPort>({.node = "land", .port = {"plot.height_max"}, .value = {"19"}})), "");
+  high.tick(20);
+  ASSERT_TRUE(high.settle());
+  EXPECT_EQ(high.number("shops", "footprint.storeys_held"), 5);
+  EXPECT_LE(top_of_building(high), 19);
+  const std::string said = high.link_error("rules");
+  EXPECT_NE(said.find("the building of `shops` has 5 of 6 storeys, because it may be no higher than 19.00 m"), std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("has 5 of 6"), said.rfind("has 5 of 6")) << "once of each building: " << said;
+  EXPECT_NEAR(high.number("flats", "smart_volume.floor_area"), 2200, 14);
+  ASSERT_EQ(high.submit(command<SetPort>({.node = "land", .port = {"plot.height_max"}, .value = {"30"}})), "");
+  high.tick(20);
+  ASSERT_TRUE(high.settle());
+  EXPECT_EQ(high.number("shops", "footprint.storeys_held"), 6);
+  // One set by hand on another one than the host counts from there as well.
+  ASSERT_EQ(high.submit(command<SetPort>({.node = "flats", .port = {"footprint.height_limit"}, .value = {"16"}})), "");
+  high.tick(20);
+  ASSERT_TRUE(high.settle());
+  EXPECT_LE(top_of_building(high), 16);
+  EXPECT_GT(top_of_building(high), 12);
 }
 
 TEST(ShareFootprint, BadHostsAreNamedAndNobodyIsLost) {

@@ -307,6 +307,51 @@ World garden_and_plot(const std::string& height_max, const std::string& more = "
   return World::from_text(text);
 }
 
+// The tower is two volumes, one above the other: together they lose the storeys that one alone loses.
+TEST(SolarRight, VolumesOfOneBuildingGiveWayTogether) {
+  const std::string upper = R"({"id": "upper", "position": [32, 30, 0], "types": {"shadow_caster": {},
+    "smart_volume": {"use": "office"}, "footprint": {"order": 1}}},)";
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, upper);
+  text.insert(text.find("\"links\": [") + 10, R"({"id": "above", "kind": "share_footprint", "from": "tower", "to": "upper"},)");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(400)) << world.link_error("sun");
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 8);
+  EXPECT_NEAR(world.number("upper", "smart_volume.floor_area"), 1200, 0.1);
+  EXPECT_NEAR(world.number("tower", "smart_volume.footprint"), 300, 0.1);
+  EXPECT_LE(world.number("garden", "shadow_receiver.deficit"),
+            0.02 * 1.125 * world.number("garden", "shadow_receiver.required_sun"));
+  EXPECT_NE(world.link_error("sun").find("the building of `tower` has 8 of 10 storeys"), std::string::npos)
+      << world.link_error("sun");
+  for (int tick = 0; tick < 60; ++tick) {
+    world.tick();
+    ASSERT_EQ(world.number("tower", "footprint.storeys_held"), 8) << tick;
+  }
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"3600"}})), "");
+  world.tick(60);
+  ASSERT_TRUE(world.settle(200));
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 10);
+}
+
+// The tower never shades the second garden: what the first one has taken is not held for it.
+TEST(SolarRight, AGardenHoldsWhatItHasTakenAlone) {
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, R"({"id": "garden_2", "position": [32, -70, 0],
+    "types": {"shadow_receiver": {"width": 24, "depth": 12, "required_sun": 34200}}},)");
+  const std::string from = R"("from": "garden")";
+  ASSERT_NE(text.find(from), std::string::npos);
+  text.replace(text.find(from), from.size(), R"("from": {"typification": "shadow_receiver"})");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(400));
+  ASSERT_EQ(world.number("tower", "footprint.storeys_held"), 8);
+  ASSERT_EQ(world.number("garden_2", "shadow_receiver.deficit"), 0);
+  ASSERT_LT(world.number("garden_2", "shadow_receiver.sun_min"), 1.5 * 34200) << "not so much that all could be let go";
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"0"}})), "");
+  world.tick(60);
+  ASSERT_TRUE(world.settle(200));
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 10) << world.link_error("sun");
+}
+
 TEST(SolarRight, WhoTakesTheStoreysAloneIsNamed) {
   // Four storeys of 3.2 m are left by the plot, eight by the garden; then nine and eight.
   World plot = garden_and_plot("13"), sun = garden_and_plot("30");
