@@ -1,5 +1,7 @@
 // Makes the volumes that take most sun from a receiver give way, as long as the receiver has less sun than it needs.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +33,7 @@ struct SolarRight {
     Shared<Table> losses;
     All<std::string> ids;
     All<Point3> positions;
-    All<double> demands, limits, wanted, volumes, radii, bottoms;
+    All<double> demands, limits, wanted, volumes, radii, footprints, bottoms;
     All<double> storey_heights;
     All<std::optional<int>> built, wished, least_storeys;
     All<std::optional<double>> height_limits;
@@ -106,6 +108,7 @@ struct SolarRight {
     l.reads(&Ends::volumes, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
         .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
+    l.reads(&Ends::footprints, End::to, "smart_volume.footprint", Unit::square_metre);
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
     l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
@@ -126,6 +129,17 @@ struct SolarRight {
     return demand::standing_in({*ends.built.values[i], *ends.wished.values[i], *ends.least_storeys.values[i],
                                 ends.storey_heights.values[i], *ends.height_limits.values[i], *ends.are_heights_locked.values[i]},
                                building_of(ends, i));
+  }
+
+  // Weights of volumes that stand may be below 0, and who shares a footprint has none.
+  static double radius_of(const Ends& ends, std::size_t i) {
+    if (!ends.built.values[i]) return ends.radii.values[i];
+    return std::sqrt(std::max(0.0, ends.footprints.values[i]) / std::numbers::pi);
+  }
+
+  // Of who shares the footprint of another, and moves with that one alone.
+  static std::string why_it_stays(const Ends& ends, std::size_t i) {
+    return demand::why_it_stays(building_of(ends, i), ends.ids.values[i]);
   }
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
@@ -192,7 +206,11 @@ struct SolarRight {
     }
     for (const std::size_t i : who) {
       const bool is_locked = ends.are_positions_locked.values[i];
-      if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * ends.radii.values[i])) return "";
+      if (const std::string stays = why_it_stays(ends, i); !stays.empty()) {
+        add(stays);
+        continue;
+      }
+      if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * radius_of(ends, i))) return "";
       add((i == who.front() ? "held by `" : "`") + ends.ids.values[i] +
           (is_locked ? "` (its position is locked)" : "` (it has sunk as far as it can)"));
     }
@@ -239,7 +257,8 @@ struct SolarRight {
       if (in.mode == Mode::lower) {
         if (const double fall = answer * fall_left(ends, i); fall > 0) out.moves.values[i] = Vector3{0, 0, -fall};
       } else if (in.mode == Mode::move) {
-        if (const double way = answer * ends.radii.values[i]; way > 0) out.moves.values[i] = away(ends, i) * way;
+        const double way = answer * radius_of(ends, i);
+        if (way > 0 && why_it_stays(ends, i).empty()) out.moves.values[i] = away(ends, i) * way;
       } else {
         const auto own = own_word(tick, "smart_volume.demand_limit", i, ends.limits.values[i]);
         out.limits.values[i] = limit_of(in, ends, i, own, missing, is_kept ? 0 : answer, shares[i]);

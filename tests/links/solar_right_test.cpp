@@ -1,6 +1,8 @@
 // Solar right: each way to give way by hand, and a garden that gets its sun.
 #include <cmath>
+#include <numbers>
 
+#include "core/demand/shared_storeys.h"
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -194,6 +196,8 @@ LinkCase standing(double built, double height_limit, double deficit = 1800, cons
       .to("footprint.storeys", std::int64_t{8})
       .to("footprint.storeys_min", std::int64_t{1});
   link.to("footprint.storeys_held", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
+  // The weight of what stands may be anything; 10 m are the radius of its footprint.
+  link.to("smart_volume.radius", 0.0).to("smart_volume.footprint", 100 * std::numbers::pi);
   return link;
 }
 
@@ -215,8 +219,15 @@ TEST(SolarRight, WhatStandsGivesWayByStoreys) {
   }
   auto moved = standing(8, 1e6, 1800, "move");
   ASSERT_EQ(moved.run(), "");
-  EXPECT_TRUE(moved.moves(End::to));
+  expect_near(moved.move(End::to), {0, -1, 0});
   EXPECT_FALSE(height(moved).has_value());
+  // Who shares a footprint moves with its host alone.
+  moved.to("footprint.building", Shared<Table>(demand::table_of(demand::Building{"shops", 10, 1, 10, 3, 0, 30, 1e6, 0.5})));
+  ASSERT_EQ(moved.run(), "");
+  EXPECT_FALSE(moved.moves(End::to));
+  EXPECT_NE(moved.remarked(LinkRemark::unmet).find("`tower` stands where `shops` does, whose footprint it shares"),
+            std::string::npos)
+      << moved.remarked(LinkRemark::unmet);
 }
 
 TEST(SolarRight, StoreysRestAndTheLimitIsNamed) {
