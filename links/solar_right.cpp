@@ -31,6 +31,7 @@ struct SolarRight {
     Point3 place;
     double deficit = 0, required = 0, possible = 0, least = 0;
     Shared<Table> losses;
+    std::vector<std::string> held_back;
     All<std::string> ids;
     All<Point3> positions;
     All<double> demands, limits, wanted, volumes, radii, footprints, bottoms;
@@ -44,6 +45,7 @@ struct SolarRight {
   struct Out {
     All<std::optional<Vector3>> moves;
     All<std::optional<double>> limits, height_limits;
+    std::optional<std::vector<std::string>> held_back;
   };
 
   static void declare(LinkBuilder<SolarRight>& l) {
@@ -92,6 +94,7 @@ struct SolarRight {
     l.proposes(&Out::moves, End::to, "node.position", Unit::metre);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.proposes_if_there(&Out::height_limits, End::to, "footprint.height_limit", Unit::metre);
+    l.proposes(&Out::held_back, End::from, "shadow_receiver.held_back");
   }
 
   static void read_ends(LinkBuilder<SolarRight>& l) {
@@ -100,7 +103,7 @@ struct SolarRight {
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
     l.reads(&Ends::possible, End::from, "shadow_receiver.sun_possible", Unit::second);
     l.reads(&Ends::least, End::from, "shadow_receiver.sun_min", Unit::second);
-    l.reads(&Ends::losses, End::from, "shadow_receiver.losses");
+    l.reads(&Ends::losses, End::from, "shadow_receiver.losses").reads(&Ends::held_back, End::from, "shadow_receiver.held_back");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
@@ -238,6 +241,7 @@ struct SolarRight {
     out.limits.values.resize(shares.size());
     out.height_limits.values.resize(shares.size());
     std::string lost;
+    std::vector<std::string> held_back;
     const double missing = shortage(in, ends);
     const bool is_kept = missing <= in.play * in.tolerance;
     if (!is_kept) tell(in, ends, shares, tick);
@@ -245,13 +249,14 @@ struct SolarRight {
       if (ends.ids.values[i] == ends.receiver) continue;
       const double answer = in.gain * std::max(0.0, missing) * shares[i];
       if (const auto volume = standing(in, ends, i)) {
-        const auto own = own_word(tick, "footprint.height_limit", i, volume->limit);
+        const auto own = own_height(ends, i, volume->limit, tick);
         const auto limit = height_of(in, ends, *volume, own, is_kept, shares[i]);
         const std::string who = demand::named_holder(building_of(ends, i), ends.ids.values[i]);
         if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit) &&
             lost.find(who) == std::string::npos)
           lost += (lost.empty() ? "" : ", ") + who + " has " + demand::storeys_left(*volume, *limit);
         out.height_limits.values[i] = limit;
+        if (limit) held_back.push_back(ends.ids.values[i]);
         continue;
       }
       if (in.mode == Mode::lower) {
@@ -264,9 +269,19 @@ struct SolarRight {
         out.limits.values[i] = limit_of(in, ends, i, own, missing, is_kept ? 0 : answer, shares[i]);
       }
     }
+    if (!held_back.empty()) out.held_back = std::move(held_back);
     if (is_kept && !lost.empty())
       remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", so that `" + ends.receiver + "` keeps its sun"});
     return out;
+  }
+
+  // What the link holds for this receiver: of several receivers the tightest word counts, and one that has taken nothing would
+  // hold on what another lets go.
+  static std::optional<double> own_height(const Ends& ends, std::size_t i, double in_force, const Tick& tick) {
+    const auto own = own_word(tick, "footprint.height_limit", i, in_force);
+    const bool is_its_own = !has_last_word(tick) ||
+                            std::find(ends.held_back.begin(), ends.held_back.end(), ends.ids.values[i]) != ends.held_back.end();
+    return is_its_own ? own : std::nullopt;
   }
 
   // Nobody knows beforehand how much sun a storey takes: it comes back only where there is much more than enough. The limit falls
