@@ -209,7 +209,9 @@ struct Footprint {
         .column({.id = "bottom", .unit = Unit::metre, .doc = "Height of its lowest floor."})
         .column({.id = "storey_height", .unit = Unit::metre, .doc = "Height from floor to floor."})
         .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of one of its plates."})
-        .column({.id = "courtyard", .doc = "1 where the ring bounds a courtyard, 0 where it bounds the plate."})
+        .column({.id = "courtyard",
+                 .doc = "0 where the ring bounds the plate, 1 where it bounds a courtyard, 2 where it bounds a part of a shared "
+                        "plate with its part of the courtyard, as its cellar."})
         .column({.id = "centre_x", .unit = Unit::metre, .doc = "East coordinate of the centre of the ring's arcs."})
         .column({.id = "centre_y", .unit = Unit::metre, .doc = "North coordinate of that centre."})
         .column({.id = "corners",

@@ -34,6 +34,7 @@ struct PlateStack {
   double area = 0;                       ///< of one plate [m²]
   std::vector<PlateRing> outlines;       ///< of the footprint; several where the plot is not convex
   std::vector<PlateRing> courtyards;     ///< what is not built of it
+  std::vector<PlateRing> enclosed = {};  ///< of a part of a plate with courtyards: its outlines with what it has of these
   double top() const { return bottom + storeys * storey_height; }
   bool operator==(const PlateStack&) const = default;
 };

@@ -12,6 +12,9 @@ namespace bl::geometry {
 /// In the column `corners`: what is beyond a side.
 enum class PlateSide : int { free = 0, plot = 1, neighbour = 2 };
 
+/// In the column `courtyard`: which line of its stack a ring is.
+enum class PlateLine : int { outline = 0, courtyard = 1, enclosed = 2 };
+
 /// One row for each ring: the stack that it belongs to, the centre of its arcs, and of each corner x, y, the radius of the arc
 /// that begins there (0: a straight side) and what is beyond that side (PlateSide), one after the other.
 template <class Table>
@@ -20,7 +23,7 @@ void write_body(const StandingBody& body, Table& table) {
   table.rows.clear();
   for (std::size_t s = 0; s < body.stacks.size(); ++s) {
     const PlateStack& stack = body.stacks[s];
-    const auto add = [&](const PlateRing& ring, double courtyard) {
+    const auto add = [&](const PlateRing& ring, PlateLine line) {
       std::vector<double> corners;
       for (const PlateRing::Corner& c : ring.corners) {
         const PlateSide side = c.beyond >= 0                  ? PlateSide::neighbour
@@ -30,12 +33,13 @@ void write_body(const StandingBody& body, Table& table) {
       }
       auto& row = table.rows.emplace_back();
       for (const double number : {static_cast<double>(s), static_cast<double>(stack.storeys), stack.bottom, stack.storey_height,
-                                  stack.area, courtyard, body.centre.x, body.centre.y})
+                                  stack.area, static_cast<double>(line), body.centre.x, body.centre.y})
         row.emplace_back(number);
       row.emplace_back(std::move(corners));
     };
-    for (const PlateRing& ring : stack.outlines) add(ring, 0);
-    for (const PlateRing& ring : stack.courtyards) add(ring, 1);
+    for (const PlateRing& ring : stack.outlines) add(ring, PlateLine::outline);
+    for (const PlateRing& ring : stack.courtyards) add(ring, PlateLine::courtyard);
+    for (const PlateRing& ring : stack.enclosed) add(ring, PlateLine::enclosed);
   }
 }
 
@@ -68,7 +72,11 @@ StandingBody read_body(const Table& table) {
                               numbers[k + 2] > 0});
     }
     PlateStack& stack = body.stacks.back();
-    (table.number(row, "courtyard") > 0 ? stack.courtyards : stack.outlines).push_back(std::move(ring));
+    const int line = static_cast<int>(table.number(row, "courtyard"));
+    (line == static_cast<int>(PlateLine::courtyard)  ? stack.courtyards
+     : line == static_cast<int>(PlateLine::enclosed) ? stack.enclosed
+                                                     : stack.outlines)
+        .push_back(std::move(ring));
   }
   return body;
 }
