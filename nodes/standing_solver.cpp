@@ -11,6 +11,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/fit_text.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/plot_measure.h"
 #include "core/geometry/standing_text.h"
 #include "core/geometry/standing_tick.h"
 #include "core/traffic/street_line.h"
@@ -231,7 +232,7 @@ struct StandingSolver {
             .state = std::string(name_of(result.state)),
             .reason = geometry::missing_text(wish, result, names),
             .stands_on = !(result.floor_area > 0) ? ""
-                         : result.stands_on < 0   ? "the ground"
+                         : result.stands_on < 0   ? std::string(geometry::kTheGround)
                                                   : names[static_cast<std::size_t>(result.stands_on)],
             .neighbours = std::move(neighbours),
             .plates = std::move(plates),

@@ -2,14 +2,13 @@
 #include "core/reading/plot_problems.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/demand/demand_limit.h"
 #include "core/geometry/plan_ring.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/plot_measure.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/volume.h"
@@ -37,15 +36,13 @@ struct VolumeThere {
 // As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint.
 void measure_clearance(const State& state, std::uint32_t node, const PlotFigures& figures, VolumeThere& volume) {
   constexpr double kChords = 1e-3;  // [m]
-  if (const auto footprint = row_of<FootprintFigures>(state, node)) {
+  if (const auto footprint = row_of<FootprintFigures>(state, node); footprint && !footprint->plates.rows.empty()) {
     volume.is_standing = true;
     const geometry::StandingBody body = geometry::read_body(footprint->plates);
     volume.clearance = geometry::clearance_of(body, figures.polygon, kChords);
     return;
   }
-  const Point3 flat{volume.figures.centroid.x, volume.figures.centroid.y, 0};
-  const Point3 side = geometry::nearest_on_ring(figures.polygon, flat);
-  volume.clearance = distance({side.x, side.y, 0}, flat) - std::sqrt(volume.figures.footprint / std::numbers::pi);
+  volume.clearance = geometry::clearance_of_disc(figures.polygon, volume.figures.centroid, volume.figures.footprint);
 }
 
 // The volumes that the plot counts: those of its selection whose centre of gravity lies within it.
@@ -149,8 +146,7 @@ class Rules {
     at_most("fsi_max", "FSI ", figures_.fsi, figures_.fsi_max, 2, "",
             breakers(volumes_, [](const VolumeThere& v) { return v.figures.floor_area; }), Unit::square_metre);
     at_most("gsi_max", "GSI ", figures_.gsi, figures_.gsi_max, 2, "",
-            breakers(volumes_, [&](const VolumeThere& v) { return is_on_ground(v.figures) ? v.figures.footprint : 0; }),
-            Unit::square_metre);
+            breakers(volumes_, [&](const VolumeThere& v) { return built_ground(v); }), Unit::square_metre);
     at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
             breakers(volumes_,
                      [&](const VolumeThere& v) {
@@ -175,7 +171,10 @@ class Rules {
     const double lack = figures_.setback - volume.clearance;
     return lack < kSetbackRounding ? 0 : lack;
   }
-  bool is_on_ground(const PlotVolume& volume) const { return volume.bottom < figures_.ground + volume.storey_height; }
+  double built_ground(const VolumeThere& volume) const {
+    const PlotVolume& v = volume.figures;
+    return v.footprint * geometry::built_share(volume.is_standing, v.stands_on, v.bottom, v.storey_height, figures_.ground);
+  }
 
   void at_most(const char* port, const std::string& what, double found, double allowed, int decimals, const char* unit,
                const std::vector<Breaker>& by, Unit amounts) {

@@ -30,6 +30,7 @@ void PlotVolume::declare(ViewBuilder<PlotVolume>& v) {
   v.reads(&PlotVolume::bottom, "smart_volume.bottom", Unit::metre);
   v.reads(&PlotVolume::height, "smart_volume.height", Unit::metre);
   v.reads(&PlotVolume::storey_height, "smart_volume.storey_height", Unit::metre);
+  v.reads(&PlotVolume::stands_on, "smart_volume.stands_on");
 }
 BL_VIEW(PlotVolume)
 

@@ -34,6 +34,7 @@ struct PlotVolume {
   double bottom = 0;         ///< height of its lowest point above the origin [m]
   double height = 0;         ///< from its lowest to its highest point [m]
   double storey_height = 0;  ///< [m]
+  std::string stands_on;     ///< what carries it
 
   static void declare(ViewBuilder<PlotVolume>& v);
   static const ViewDefinition& view();
