@@ -34,6 +34,7 @@ struct PlotRules {
     All<std::optional<double>> height_limits;
     All<std::optional<bool>> heights_locked;
     All<std::optional<Shared<Table>>> buildings;
+    All<std::optional<Point3>> places;
   };
   struct Out {
     All<std::optional<double>> limits, height_limits, border_distances, street_distances;
@@ -105,6 +106,7 @@ struct PlotRules {
     l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
     l.reads_lock_if_there(&Ends::heights_locked, End::to, "footprint.height_limit");
     l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
+    l.reads_if_there(&Ends::places, End::to, "footprint.stands_at", Unit::metre);
   }
 
   // One that keeps the largest height by its storeys, or by those of the building that it shares.
@@ -132,7 +134,7 @@ struct PlotRules {
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
-      if (geometry::ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
+      if (geometry::ring_contains(ends.polygon, ends.places.values[i].value_or(ends.centroids.values[i]))) on_plot.push_back(i);
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};
     double room = 2;

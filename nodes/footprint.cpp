@@ -28,6 +28,7 @@ struct Footprint {
     bool is_limited = false;
     double facade_area = 0, roof_area = 0, cellar_area = 0;
     Table plates, building;
+    Point3 stands_at;
   };
 
   static void declare(TypificationBuilder<Footprint>& t) {
@@ -195,6 +196,12 @@ struct Footprint {
             "Number of storeys that height limits hold: its own, or those of the whole building where others share its "
             "footprint.");
     t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
+    t.out(&Out::stands_at, "stands_at")
+        .unit(Unit::metre)
+        .doc(
+            "Where the volume stands: the place of its lowest plate that is nearest to its position; of a building that several "
+            "share, nearest to the host's. Plots count the volumes that stand on them by it. Unlike its middle it does not move "
+            "with the distance that a footprint keeps from a border.");
     t.out(&Out::facade_area, "facade_area")
         .unit(Unit::square_metre)
         .doc("Area of all walls, towards courtyards and neighbours too.");

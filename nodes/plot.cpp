@@ -27,6 +27,7 @@ struct Plot {
   struct Standing {
     std::string id;
     Table plates;
+    Point3 stands_at;
   };
   struct Sets {
     std::vector<Member> volumes;
@@ -42,8 +43,8 @@ struct Plot {
   static void declare(TypificationBuilder<Plot>& t) {
     t.id("plot").label("Plot");
     t.doc(
-        "A piece of land with the rules for building on it. It counts the volumes whose centre of gravity lies within its "
-        "polygon. "
+        "A piece of land with the rules for building on it. It counts the volumes that stand within its polygon, and the rounded "
+        "ones whose centre of gravity lies there. "
         "FSI is floor area over land, GSI built ground over land, OSR open ground over floor area, L floor area over built "
         "ground "
         "(Berghauser Pont and Haupt 2010).");
@@ -80,6 +81,7 @@ struct Plot {
     set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre).reads(&Member::stands_on, "smart_volume.stands_on");
     auto standing = t.set("volumes", &Sets::standing);  // those of the volumes that have plates
     standing.reads(&Standing::id, "node.id").reads(&Standing::plates, "footprint.plates");
+    standing.reads(&Standing::stands_at, "footprint.stands_at", Unit::metre);
   }
 
   static void declare_results(TypificationBuilder<Plot>& t) {
@@ -156,7 +158,8 @@ struct Plot {
     if (!(out.area > 0)) return Error{ErrorCode::geometry, "polygon", "the polygon encloses no area"};
     for (const Member& member : sets.volumes) {
       const Standing* standing = standing_of(sets, member);
-      if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, member.centroid)) continue;
+      const Point3& place = standing != nullptr ? standing->stands_at : member.centroid;
+      if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, place)) continue;
       ++out.count;
       out.floor_area += member.floor_area;
       out.footprint += member.footprint * geometry::built_share(standing != nullptr, member.stands_on, member.bottom,

@@ -19,6 +19,7 @@
 namespace bl {
 namespace {
 
+constexpr double kChords = 1e-3;                          // [m] between arcs of plates and their chords
 constexpr double kDegree = 3.14159265358979323846 / 180;  // [rad]
 
 struct StandingSolver {
@@ -63,7 +64,7 @@ struct StandingSolver {
     double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0;
     std::string state, reason, stands_on;
     Shared<Table> neighbours, plates, building;
-    Point3 centroid;
+    Point3 centroid, stands_at;
     MeshPointer mesh;
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
@@ -166,7 +167,7 @@ struct StandingSolver {
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
     set.writes(&Reply::stands_on, "smart_volume.stands_on").writes(&Reply::hang, "smart_volume.hang");
     set.writes(&Reply::drop, "smart_volume.drop").writes(&Reply::plates, "footprint.plates");
-    set.writes(&Reply::building, "footprint.building");
+    set.writes(&Reply::building, "footprint.building").writes(&Reply::stands_at, "footprint.stands_at");
     set.writes(&Reply::facade_area, "footprint.facade_area").writes(&Reply::roof_area, "footprint.roof_area");
   }
 
@@ -439,6 +440,9 @@ struct StandingSolver {
       out.replies.replies.push_back(
           reply_of(kept.wishes[i], done->results[i], cellar_of(kept.cellars[i], done->results[i]), kept.names));
       out.replies.replies.back().building = building_of(i, sets.members.all, kept);
+      const std::size_t host = host_of(kept, i).value_or(i);
+      out.replies.replies.back().stands_at =
+          geometry::nearest_place(*kept.cache.results[host].body, sets.members.all[host].position, kChords);
     }
     out.message = done->message;
     for (const auto& [base, text] : done->on_roofs) {

@@ -2,6 +2,7 @@
 #include "core/reading/plot_problems.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/text.h"
@@ -11,7 +12,6 @@
 #include "core/geometry/plot_measure.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/plot.h"
-#include "core/reading/views/volume.h"
 
 namespace bl::reading {
 
@@ -33,29 +33,27 @@ struct VolumeThere {
   bool is_standing = false;
 };
 
-// As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint.
-void measure_clearance(const State& state, std::uint32_t node, const PlotFigures& figures, VolumeThere& volume) {
+// As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint. Nothing of a volume that
+// it does not count.
+std::optional<VolumeThere> volume_on(const State& state, std::uint32_t node, const PlotFigures& figures) {
   constexpr double kChords = 1e-3;  // [m]
-  if (const auto footprint = row_of<FootprintFigures>(state, node); footprint && !footprint->plates.rows.empty()) {
-    volume.is_standing = true;
-    const geometry::StandingBody body = geometry::read_body(footprint->plates);
-    volume.clearance = geometry::clearance_of(body, figures.polygon, kChords);
-    return;
-  }
-  volume.clearance = geometry::clearance_of_disc(figures.polygon, volume.figures.centroid, volume.figures.footprint);
+  auto volume = row_of<PlotVolume>(state, node);
+  if (!volume || !(volume->volume > 0)) return std::nullopt;
+  const auto standing = row_of<PlotStanding>(state, node);
+  const bool is_standing = standing && !standing->plates.rows.empty();
+  if (!geometry::ring_contains(figures.polygon, is_standing ? standing->stands_at : volume->centroid)) return std::nullopt;
+  const double clearance = is_standing ? geometry::clearance_of(geometry::read_body(standing->plates), figures.polygon, kChords)
+                                       : geometry::clearance_of_disc(figures.polygon, volume->centroid, volume->footprint);
+  return VolumeThere{state.plan->nodes[node].id, std::move(*volume), clearance, is_standing};
 }
 
-// The volumes that the plot counts: those of its selection whose centre of gravity lies within it.
+// The volumes of its selection that the plot counts.
 std::vector<VolumeThere> volumes_on(const State& state, std::uint32_t plot, const PlotFigures& figures) {
   std::vector<VolumeThere> volumes;
   for (const SetPlan& set : state.plan->sets) {
     if (set.node != plot || state.plan->nodes[plot].types[set.type].definition->id != type_of<PlotFigures>()) continue;
-    for (const std::uint32_t member : set.members) {
-      auto volume = row_of<PlotVolume>(state, member);
-      if (!volume || !(volume->volume > 0) || !geometry::ring_contains(figures.polygon, volume->centroid)) continue;
-      measure_clearance(state, member, figures,
-                        volumes.emplace_back(VolumeThere{state.plan->nodes[member].id, std::move(*volume)}));
-    }
+    for (const std::uint32_t member : set.members)
+      if (auto volume = volume_on(state, member, figures)) volumes.push_back(std::move(*volume));
     break;  // the other sets of a plot hold the same volumes
   }
   return volumes;

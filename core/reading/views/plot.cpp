@@ -34,6 +34,13 @@ void PlotVolume::declare(ViewBuilder<PlotVolume>& v) {
 }
 BL_VIEW(PlotVolume)
 
+void PlotStanding::declare(ViewBuilder<PlotStanding>& v) {
+  v.of("footprint");
+  v.reads(&PlotStanding::plates, "footprint.plates");
+  v.reads(&PlotStanding::stands_at, "footprint.stands_at", Unit::metre);
+}
+BL_VIEW(PlotStanding)
+
 void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
   v.of_links("plot_rules");
   v.reads(&PlotRuleParameters::hold_fsi, "plot_rules.hold_fsi");
@@ -43,6 +50,6 @@ void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
 }
 BL_VIEW(PlotRuleParameters)
 
-BL_VIEWS(plot, PlotFigures, PlotVolume, PlotRuleParameters)
+BL_VIEWS(plot, PlotFigures, PlotVolume, PlotStanding, PlotRuleParameters)
 
 }  // namespace bl::reading

@@ -40,6 +40,15 @@ struct PlotVolume {
   static const ViewDefinition& view();
 };
 
+/// And of one that stands.
+struct PlotStanding {
+  Table plates;      ///< see core/geometry/plates_table.h
+  Point3 stands_at;  ///< [m]
+
+  static void declare(ViewBuilder<PlotStanding>& v);
+  static const ViewDefinition& view();
+};
+
 /// Which of its rules a link holds.
 struct PlotRuleParameters {
   bool hold_fsi = false;
