@@ -233,7 +233,7 @@ struct SolarEnvelope {
               "cannot be met: " + through(ends, reach.excess) + ", " +
                   demand::held_at_least(demand::holder_of(building, ends.id), volume, in.least) +
                   "; move the edge or the volume, or " + demand::way_to_fewer(volume, in.least)});
-    else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit) &&
+    else if (out.height_limit && volume.built < volume.wished && demand::takes_storeys(volume, *out.height_limit) &&
              demand::is_in_force(volume, *out.height_limit))
       remark(tick, LinkRemark::short_of,
              {ErrorCode::infeasible, "edge",

@@ -252,8 +252,8 @@ struct SolarRight {
         const auto own = own_height(ends, i, volume->limit, tick);
         const auto limit = height_of(in, ends, *volume, own, is_kept, shares[i]);
         const std::string who = demand::named_holder(building_of(ends, i), ends.ids.values[i]);
-        if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit) &&
-            lost.find(who) == std::string::npos)
+        if (own && limit && volume->built < volume->wished && demand::is_in_force(*volume, *own) &&
+            demand::takes_storeys(*volume, *limit) && lost.find(who) == std::string::npos)
           lost += (lost.empty() ? "" : ", ") + who + " has " + demand::storeys_left(*volume, *limit);
         out.height_limits.values[i] = limit;
         if (limit) held_back.push_back(ends.ids.values[i]);

@@ -19,7 +19,7 @@
 namespace bl {
 namespace {
 
-constexpr double kChords = 1e-3;                          // [m] between arcs of plates and their chords
+constexpr double kPlaceChords = 0.02;                     // [m] between arcs and their chords, for the place of a volume
 constexpr double kDegree = 3.14159265358979323846 / 180;  // [rad]
 
 struct StandingSolver {
@@ -442,7 +442,7 @@ struct StandingSolver {
       out.replies.replies.back().building = building_of(i, sets.members.all, kept);
       const std::size_t host = host_of(kept, i).value_or(i);
       out.replies.replies.back().stands_at =
-          geometry::nearest_place(*kept.cache.results[host].body, sets.members.all[host].position, kChords);
+          geometry::nearest_place(*kept.cache.results[host].body, sets.members.all[host].position, kPlaceChords);
     }
     out.message = done->message;
     for (const auto& [base, text] : done->on_roofs) {
