@@ -34,8 +34,7 @@ VolumeRow read_volume(const State& state, const VolumeAccount& account, bool wit
   row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
   if (row.mesh) row.exact = exact_shape(state, account.node, account.figures);
-  if (const auto footprint = row_of<FootprintFigures>(state, account.node))
-    row.body = geometry::read_body(footprint->plates, account.figures.position);
+  if (const auto footprint = row_of<FootprintFigures>(state, account.node)) row.body = geometry::read_body(footprint->plates);
   row.group = group_of(*state.plan, account.node);
   return row;
 }

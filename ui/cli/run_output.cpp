@@ -196,7 +196,7 @@ void add_footprint(const State& state, Json& volume) {
   volume["storeys_wished"] = found->storeys;
   volume["why_lower"] = reading::why_lower(state, node);
   Json plates = Json::array();
-  const geometry::StandingBody body = geometry::read_body(found->plates, {});
+  const geometry::StandingBody body = geometry::read_body(found->plates);
   // From the ground up; those below it first, from the lowest up, which are no part of the floor area.
   const auto cellars = reading::row_of<reading::CellarFigures>(state, node);
   for (std::int64_t storey = cellars->storeys; storey > 0 && !body.stacks.empty(); --storey)

@@ -192,7 +192,7 @@ void SceneView::draw_dimensions() {
     if (volume == nullptr || ++drawn > kMostPlans) continue;
     const auto figures = reading::row_of<reading::FootprintFigures>(*facts_->state, volume->node);
     if (!figures || figures->plates.rows.empty()) continue;
-    const geometry::StandingBody body = geometry::read_body(figures->plates, volume->figures.position);
+    const geometry::StandingBody body = geometry::read_body(figures->plates);
     const PlanFloor floor =
         highest_floor(body, storeys_shown_ == 0 ? storeys_of(*volume) : storeys_shown_ - storeys_below(*volume, facts_->ground));
     const geometry::PlateStack* stack = floor.stack;

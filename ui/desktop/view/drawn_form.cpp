@@ -26,7 +26,7 @@ constexpr double kJointShare = 0.1, kMostJoint = 0.3;
 
 geometry::StandingBody body_of(const SceneFacts& facts, const VolumeFacts& volume) {
   const auto figures = reading::row_of<reading::FootprintFigures>(*facts.state, volume.node);
-  return figures ? geometry::read_body(figures->plates, volume.figures.position) : geometry::StandingBody{};
+  return figures ? geometry::read_body(figures->plates) : geometry::StandingBody{};
 }
 
 // The lowest `storeys` of it; 0: all.
