@@ -91,7 +91,7 @@ TEST(PlanPlot, DistancesThatNobodyHasAnyMoreAreForgotten) {
   ASSERT_TRUE(diagram.set_domain(test::plot_of(test::PlotShape::with_hole)));
   std::vector<StandingSite> sites = test::random_standing(5, 3);
   for (StandingSite& site : sites) site.form = FootprintForm::cell, site.runs = {{2, 0}, {2, 1.5}};
-  for (int frame = 0; frame < 300; ++frame) {
+  for (int frame = 0; frame < 60; ++frame) {
     sites[0].depth = 4 + 0.01 * frame;
     ASSERT_TRUE(diagram.update(sites));
     EXPECT_LE(diagram.workshop().plot.kept(), FootprintDiagram::Workshop::kMostUnused + 4);
