@@ -3,12 +3,21 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/base/plural.h"
 #include "core/base/text.h"
 
 namespace bl::geometry {
+
+Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) {
+  constexpr std::string_view kSites = "sites/";
+  const auto site = error.place.starts_with(kSites) ? parse_number(error.place.substr(kSites.size())) : std::nullopt;
+  if (!site || !(*site < static_cast<double>(members.size()))) return error;
+  return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
+}
 
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names) {
   if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";

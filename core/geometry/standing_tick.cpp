@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <string_view>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/geometry/domain_makers.h"
+#include "core/geometry/standing_text.h"
 
 namespace bl::geometry {
 
@@ -33,7 +31,8 @@ void measure_body(StandingResult& result) {
   double last_area = 0;
   for (const PlateStack& stack : result.body->stacks) {
     const double height = stack.top() - stack.bottom;
-    const auto add_sides = [&](const PlateRing& ring) {
+    // The sides of a courtyard have the courtyard beyond them, whatever moved them there.
+    const auto add_sides = [&](const PlateRing& ring, bool is_courtyard) {
       const std::size_t count = ring.corners.size();
       const double free =
           length_of(ring, result.body->centre, PlateRing::kFree) + length_of(ring, result.body->centre, PlateRing::kPlot);
@@ -42,6 +41,10 @@ void measure_body(StandingResult& result) {
         const PlateRing::Corner& c = ring.corners[k];
         if (c.beyond < 0) continue;
         const double area = height * distance(c.at, ring.corners[(k + 1) % count].at);
+        if (is_courtyard) {
+          result.free_facade_area += area;
+          continue;
+        }
         const auto site = static_cast<std::uint32_t>(c.beyond);
         const auto known =
             std::find_if(result.walls.begin(), result.walls.end(), [site](const auto& wall) { return wall.first == site; });
@@ -50,8 +53,8 @@ void measure_body(StandingResult& result) {
         result.facade_area += area;
       }
     };
-    for (const PlateRing& ring : stack.outlines) add_sides(ring);
-    for (const PlateRing& ring : stack.courtyards) add_sides(ring);
+    for (const PlateRing& ring : stack.outlines) add_sides(ring, false);
+    for (const PlateRing& ring : stack.courtyards) add_sides(ring, true);
     // What a smaller plate leaves free of the one below is roof.
     result.roof_area += std::max(0.0, last_area - stack.area);
     last_area = stack.area;
@@ -247,14 +250,6 @@ Result<Domain> roof_of(const StandingBody& body, double top) {
   }
   if (parts.size() == 1) return std::move(parts.front());
   return unite(parts);
-}
-
-// What is wrong with a site, which its level counts by itself, gets the number of its wish.
-Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) {
-  constexpr std::string_view kSites = "sites/";
-  const auto site = error.place.starts_with(kSites) ? parse_number(error.place.substr(kSites.size())) : std::nullopt;
-  if (!site || !(*site < static_cast<double>(members.size()))) return error;
-  return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
 }
 
 // At the edge of a roof there is air, not the border of the plot.

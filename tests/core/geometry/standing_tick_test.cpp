@@ -117,6 +117,26 @@ TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
   EXPECT_DOUBLE_EQ(moved.results[1].bottom, 2.5);
 }
 
+// Two cells of 40 by 80 m, with wings of 10 m: they share 80 m of wall, and the courtyards of 20 by 60 m have walls of their own.
+TEST(StandingTick, WallsOfCourtyardsAreSharedWithNobody) {
+  std::vector<StandingWish> wishes;
+  for (const double x : {20.0, 60.0}) {
+    wishes.push_back(wish(FootprintForm::cell, {x, 40, 0}, 2, 2 * (40 * 80 - 20 * 60)));
+    wishes.back().site.depth = 10;
+    wishes.back().site.has_party_walls = true;
+  }
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(80, 80), wishes, kept);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const StandingResult& house = outcome.results[i];
+    EXPECT_NEAR(house.footprint, 40 * 80 - 20 * 60, 1e-6);
+    ASSERT_EQ(house.walls.size(), 1u);
+    EXPECT_NEAR(house.walls[0].second, 6 * 80, 1e-4);
+    EXPECT_NEAR(house.free_facade_area, 6 * (80 + 2 * 40 + 2 * (20 + 60)), 1e-4);
+    EXPECT_NEAR(house.facade_area, 6 * (2 * 40 + 2 * 80 + 2 * (20 + 60)), 1e-4);
+  }
+}
+
 // A cell fills the roof: where it is clipped, half of it is beyond the edge, and the rest is what the roof has.
 TEST(StandingTick, FootprintsOnARoofAreClippedToIt) {
   std::vector<StandingWish> wishes{wish(FootprintForm::block, {30, 20, 0}, 1, 400),
