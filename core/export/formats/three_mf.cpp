@@ -5,6 +5,7 @@
 #include "core/drawing/markup.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/mesh_options.h"
 #include "core/export/solids.h"
 #include "core/export/zip_archive.h"
 
@@ -16,7 +17,8 @@ namespace {
 constexpr const char* kThreeMfEnd = "BehaviourLinks 3mf";
 
 struct ThreeMfFormat {
-  struct Options : FormOptions {
+  // A print stands on its plate, so cellars would lift the houses off it.
+  struct Options : MeshOptions {
     double scale = 500;
     bool surroundings = false;
   };
@@ -29,7 +31,7 @@ struct ThreeMfFormat {
     f.ending(".3mf").marked({"PK\x03\x04", "", kThreeMfEnd});
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
-    declare_form_option(f);
+    declare_mesh_options(f);
   }
 
   static constexpr const char* kTypes =
@@ -88,7 +90,8 @@ struct ThreeMfFormat {
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
     ExportFiles made;
-    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, made.notes);
+    made.notes = left_out_cellars(proposal, options.cellars);
+    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, options.cellars, made.notes);
     const ModelScale scale(solids, options.scale);
     auto archive = zip_archive({{"[Content_Types].xml", kTypes},
                                 {"_rels/.rels", kRelations},
