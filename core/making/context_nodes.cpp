@@ -311,7 +311,7 @@ std::string ContextNodes::add_junction(const importing::ContextJunction& junctio
   const std::string id = id_of("junction", "junction_" + junction.id, junction.id, junction.position);
   Json types = {{"junction", Json::object()}};
   if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
-  Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  Json node = {{"position", position_json(junction.position)}, {"types", types}};
   add_node("junction", id, junction.id, node);
   return id;
 }

@@ -148,8 +148,12 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
   const VolumeColumns& columns = facts_->columns;
   for (std::size_t k = 0; k < volumes; ++k)
     consider(columns.node[k], columns.radius[k] / lens.metres_per_pixel(columns.position[k]), order++);
-  for (std::size_t k = 0; k < marks; ++k)
-    if (!hides(choices_.section, place_of(facts_->marks[k].node))) consider(facts_->marks[k].node, of_marks, order++);
+  // Who has no name has an id for programs, such as each junction of a map: that is told where people point.
+  for (std::size_t k = 0; k < marks; ++k, ++order) {
+    const MarkFacts& mark = facts_->marks[k];
+    const bool is_nameless = mark.name == mark.id && !chosen.contains(mark.node) && mark.node != hovered;
+    if (!is_nameless && !hides(choices_.section, place_of(mark.node))) consider(mark.node, of_marks, order);
+  }
   const std::size_t count = std::min(kMostLabels, candidates.size());
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
   std::vector<LabelRequest> wishes;
