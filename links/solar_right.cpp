@@ -71,7 +71,7 @@ struct SolarRight {
         .unit(Unit::ratio)
         .range(0.001, 1)
         .soft(0.005, 0.1)
-        .doc("The sun that may be missing as the mean over all points, as a share of the required sun.");
+        .doc("The sun that may be missing as the mean over the points that count, as a share of the required sun.");
     l.param(&In::play, "play")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -82,8 +82,8 @@ struct SolarRight {
         .range(0, 10)
         .soft(0, 2)
         .doc(
-            "A storey comes back when the worst point of the receiver has this share of the required sun beyond it. Smaller than "
-            "what a storey takes, storeys would come and go.");
+            "A storey comes back when the worst point of the receiver, within its required share, has this share of the required "
+            "sun beyond it. Smaller than what a storey takes, storeys would come and go.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
@@ -102,7 +102,7 @@ struct SolarRight {
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
     l.reads(&Ends::possible, End::from, "shadow_receiver.sun_possible", Unit::second);
-    l.reads(&Ends::least, End::from, "shadow_receiver.sun_min", Unit::second);
+    l.reads(&Ends::least, End::from, "shadow_receiver.sun_of_share", Unit::second);
     l.reads(&Ends::losses, End::from, "shadow_receiver.losses").reads(&Ends::held_back, End::from, "shadow_receiver.held_back");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
@@ -153,7 +153,7 @@ struct SolarRight {
     return std::clamp((ends.deficit - unavoidable) / ends.required, 0.0, 1.0) - in.tolerance;
   }
 
-  // What the worst point has beyond its need, as a share of the need.
+  // What the worst point of the required share has beyond its need, as a share of the need.
   static double surplus_of(const Ends& ends) { return std::max(0.0, (ends.least - ends.required) / ends.required); }
 
   // Direction in plan away from the receiver. Where both lie on one point, their ids give the direction.
@@ -269,6 +269,12 @@ struct SolarRight {
         out.limits.values[i] = limit_of(in, ends, i, own, missing, is_kept ? 0 : answer, shares[i]);
       }
     }
+    if (const double beyond = ends.required - ends.possible; is_kept && ends.deficit > 0 && beyond > in.tolerance * ends.required)
+      remark(tick, LinkRemark::unmet,
+             {ErrorCode::infeasible, "from",
+              "cannot be met: `" + ends.receiver + "` can have " + fixed(ends.possible / 3600, 2) + " h of its " +
+                  fixed(ends.required / 3600, 2) +
+                  " h of sun where nobody takes any; lower `required_sun`, or choose another period at the sun"});
     if (!held_back.empty()) out.held_back = std::move(held_back);
     if (is_kept && !lost.empty())
       remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", so that `" + ends.receiver + "` keeps its sun"});

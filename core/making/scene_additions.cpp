@@ -356,6 +356,7 @@ namespace {
 // Is it said where the garden is, in one way only?
 Result<void> check_garden(const Scene& scene, const GardenAddition& garden) {
   if (auto sound = within("--hours", garden.hours, 0, 24, " h"); !sound) return sound.error();
+  if (auto sound = within("--share", garden.share, 0.01, 1, ""); !sound) return sound.error();
   if (garden.id.empty() && garden.corners.empty())
     return Error{ErrorCode::missing, "--corners", "say where the garden is: by --corners X,Y X,Y X,Y ..., or by --id of a node"};
   const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
@@ -383,10 +384,11 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
   Adding adding(scene, registry);
   if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.is_given())
     if (auto added = adding.sun(garden.sun); !added) return added.error();
-  const double hours = garden.hours.value_or(2);
+  const double hours = garden.hours.value_or(2), share = garden.share.value_or(0.5);
   std::string id = garden.id;
   if (garden.corners.empty() && node->second.types.contains("shadow_receiver")) {
     if (garden.hours) adding.set(id, "shadow_receiver.required_sun", hours * 3600);
+    if (garden.share) adding.set(id, "shadow_receiver.required_share", share);
   } else {
     std::vector<Point3> corners;
     if (garden.corners.empty()) {
@@ -409,9 +411,10 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
                         {{"width", to_millimetres(box.width)},
                          {"depth", to_millimetres(box.depth)},
                          {"rotation", to_millimetres(box.rotation)},
-                         {"required_sun", hours * 3600}}}}}});
+                         {"required_sun", hours * 3600},
+                         {"required_share", share}}}}}});
     adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
-               shortest(hours) + " h of sun a day.");
+               shortest(hours) + " h of sun a day on " + shortest(100 * share) + " % of its area.");
     if (garden.is_open)
       if (auto open = adding.leave_out(id, garden.use, corners); !open) return open.error();
     if (box.beyond > kRectangle)

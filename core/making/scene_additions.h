@@ -31,6 +31,7 @@ struct GardenAddition {
   std::string id;                    ///< of a node that is a garden or becomes one; empty: a new node
   std::vector<std::string> corners;  ///< each "X,Y" [m]; three or more
   std::optional<double> hours;       ///< of sun a day
+  std::optional<double> share;       ///< of its area that has them; of a new garden a half (BRE report 209)
   bool is_open = false;              ///< boundaries leave its ground out: open space that nobody builds on
   std::string use = "garden";        ///< of that open space
   SunAddition sun;                   ///< used where something of it is given, or the scene has no sun study

@@ -200,6 +200,7 @@ void declare_add(CLI::App& app, AddOptions& o) {
   option("--use", o.garden.use,
          "garden: with --open, the use of the ground, as a row of the programme names it. Default: garden.", "USE", "garden");
   option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
+  option("--share", o.garden.share, "garden: share of its area that needs them. Default of a new one: 0.5.", "RATIO", "garden");
   c.footer(
       "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExample:\n"
       "  behaviourlinks add scene.json rules --fsi 2.5 --gsi 0.5 --height 24\n"
