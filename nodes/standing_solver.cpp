@@ -64,8 +64,8 @@ struct StandingSolver {
     double wanted = 0, fitted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0;
     double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0;
     std::string state, reason, stands_on;
-    Shared<Table> neighbours, plates, building;
-    Point3 centroid, stands_at;
+    Shared<Table> neighbours, plates, building = {};
+    Point3 centroid, stands_at = {};
     MeshPointer mesh;
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;

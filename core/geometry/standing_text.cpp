@@ -29,6 +29,26 @@ std::string missing_text(const StandingWish& wish, const StandingResult& result,
   return "has no footprint: its neighbours, its set-backs and the plot leave it nothing where it stands";
 }
 
+namespace {
+
+// Of a footprint that streets, water or its neighbours part.
+std::string pieces_text(const StandingBody& body, const std::string& name) {
+  if (body.stacks.empty() || body.stacks.front().outlines.size() < 2) return "";
+  constexpr double kChords = 0.01;  // [m] between arcs and their chords
+  double least = 0, most = 0;
+  const std::vector<PlateFace> pieces = faces_of(body.stacks.front(), body.centre, kChords);
+  for (const PlateFace& piece : pieces) {
+    const double area = area_of(std::span(&piece, 1));
+    least = least == 0 ? area : std::min(least, area);
+    most = std::max(most, area);
+  }
+  if (pieces.size() < 2) return "";
+  return "; `" + name + "` stands in " + std::to_string(pieces.size()) + " pieces of " + fixed(least, 0) + " to " +
+         fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in one";
+}
+
+}  // namespace
+
 std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
                                std::span<const StandingResult> buildings, double top, double tolerance,
                                std::span<const std::string> names) {
@@ -53,6 +73,7 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
       words += "; `" + names[i] + "` reaches out of the boundary from storey " + std::to_string(whole.outside.storey) + " on, " +
                fixed(whole.outside.height, 1) + " m high, by up to " + fixed(whole.outside.area, 1) +
                " m² of a plate: lower its `storeys`, or move it";
+    if (whole.body) words += pieces_text(*whole.body, names[i]);
     // On their way to what they want, volumes are smaller.
     if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
     int with_area = 0;
