@@ -102,7 +102,7 @@ class Import {
     tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
     // A site that was to be cleared and had all of a file's buildings is cleared: nothing is missing then.
-    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared() && !nodes_.is_again() &&
+    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared() && !nodes_.is_again() && !sites_.is_again() &&
         sites_.exclusions().empty()) {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
       return std::move(result_);
@@ -286,7 +286,8 @@ class Import {
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
-    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets);
+    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets,
+                         {making_.source, making_.has_lasting_ids});
     take(file, context->report, context->notes, context->reference);
     nodes_.begin(making_);
     nodes_.add(*context, making_, sites_, result_.reports.back().second);
