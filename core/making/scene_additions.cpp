@@ -10,8 +10,8 @@
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
-#include "core/geometry/domain_table.h"
 #include "core/geometry/plan_ring.h"
+#include "core/making/site.h"
 #include "core/making/use_rates.h"
 #include "core/session/commands.h"
 
@@ -23,6 +23,8 @@ constexpr double kHighestRule = 10000;  // [m]
 constexpr double kHalfTurn = 3.14159265358979323846;
 // A garden whose corners leave out less of its rectangle is said to be one.
 constexpr double kRectangle = 0.02;  // [ratio]
+// A garden of which less lies in a boundary touches it only.
+constexpr double kTouch = 1e-6;  // [ratio]
 
 Error refused(const std::string& place, const std::string& sentence) { return {ErrorCode::out_of_range, place, sentence}; }
 
@@ -82,9 +84,6 @@ class Adding {
   }
   void role(const std::string& node, const char* type, const Json& values = Json::object()) {
     add(command<Typify>({node, type, JsonValue::of(values)}));
-  }
-  void row(const std::string& node, const std::string& port, const Json& row) {
-    add(command<AddRow>({node, {port}, JsonValue::of(row)}));
   }
   Result<void> leave_out(const std::string& name, const std::string& use, const std::vector<Point3>& corners);
   void say(const std::string& sentence) { result_.said.push_back(sentence); }
@@ -213,26 +212,28 @@ Result<void> Adding::open_use(const std::string& use) {
   return {};
 }
 
-// From the underside of a boundary to its top, so that nothing hangs above open space.
+// From the underside of a boundary to its top, so that nothing hangs above open space. Rows of a garden that has gone give way.
 Result<void> Adding::leave_out(const std::string& name, const std::string& use, const std::vector<Point3>& corners) {
   if (auto known = open_use(use); !known) return known;
-  bool is_inside_any = false;
-  for (const auto& [id, node] : scene_.nodes) {
-    const std::vector<Point3> plan = plan_of(scene_, registry_, node);
-    if (plan.empty() ||
-        std::none_of(corners.begin(), corners.end(), [&](const Point3& corner) { return geometry::ring_contains(plan, corner); }))
-      continue;
-    is_inside_any = true;
-    const TypificationDefinition& type = *registry_.typification("boundary");
-    const double bottom = as_number(set_value(scene_, node, type, *type.find_port("bottom"))),
-                 height = as_number(set_value(scene_, node, type, *type.find_port("height")));
-    for (const Point3& corner : corners)
-      row(id, "boundary.exclusions",
-          {{"name", name}, {"x", corner.x}, {"y", corner.y}, {"bottom", bottom}, {"top", bottom + height}, {"use", use}});
-    say("The boundary `" + id + "` leaves out its " + fixed(std::abs(geometry::signed_area(corners)), 1) +
-        " m²: open space, which plots count as not built.");
+  const double whole = std::abs(geometry::signed_area(corners));
+  bool reaches_any = false;
+  for (Site& site : sites_of(scene_, registry_)) {
+    double common = 0;
+    for (const std::vector<geometry::Ring>& ground : site.grounds) common += area_on(ground, {&corners});
+    common = std::min(common, whole);
+    if (!(common > kTouch * whole)) continue;
+    reaches_any = true;
+    const bool had_some = site.replace(name, {{name, use, corners, site.bottom, site.top}});
+    const PortDefinition& port = *registry_.typification("boundary")->find_port("exclusions");
+    set(site.id, "boundary.exclusions", value_to_json(Shared<Table>(site.rows), port));
+    say("The boundary `" + site.id + "` leaves out " +
+        (whole - common <= kTouch * whole
+             ? "its " + fixed(whole, 1) + " m²"
+             : "the " + fixed(common, 1) + " m² of it that lie inside, of " + fixed(whole, 1) + " m²") +
+        ": open space, which plots count as not built." +
+        (had_some ? " What it left out as `" + name + "` before is replaced." : ""));
   }
-  if (!is_inside_any) say("No boundary reaches it, so that none leaves its ground out.");
+  if (!reaches_any) say("No boundary reaches it, so that none leaves its ground out.");
   return {};
 }
 

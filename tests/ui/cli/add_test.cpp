@@ -108,6 +108,52 @@ TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   EXPECT_EQ(add({"garden", "--id", "garden", "--open"}).code, 2);
 }
 
+// A garden is left out wherever it lies in a boundary, whatever its corners and the boundary's form are.
+TEST_F(Add, AnOpenGardenIsLeftOutWhereverItReachesIn) {
+  const auto ground = [&] {
+    (void)place.run({"run", "s.json", "--ticks", "2", "--save", "after.json"});
+    return place.json("after.json")["state"]["nodes"]["site"].value("boundary.ground_area", 0.0);
+  };
+  // Across the plot, with no corner in it.
+  const Outcome across = add({"garden", "--corners", "-60,-5", "60,-5", "60,5", "-60,5", "--open"});
+  ASSERT_EQ(across.code, 0) << across.err;
+  EXPECT_NE(across.out.find("The boundary `site` leaves out the 800.0 m² of it that lie inside, of 1200.0 m²: open space"),
+            std::string::npos)
+      << across.out;
+  EXPECT_NEAR(ground(), 80 * 44 - 800, 1e-6);
+  // Beside it, with a side in common.
+  const Outcome beside = add({"garden", "--corners", "40,0", "60,0", "60,10", "40,10", "--open"});
+  EXPECT_NE(beside.out.find("No boundary reaches it"), std::string::npos) << beside.out;
+  // The node of the first is removed, its rows are not: the next one of the same name has its own ground alone.
+  nlohmann::json scene = place.json("s.json");
+  for (std::size_t i = 0; i < scene["nodes"].size(); ++i)
+    if (scene["nodes"][i]["id"] == "garden") scene["nodes"].erase(i--);
+  for (std::size_t i = 0; i < scene["links"].size(); ++i)
+    if (scene["links"][i]["from"] == "garden") scene["links"].erase(i--);
+  place.write("s.json", scene.dump());
+  const Outcome again = add({"garden", "--corners", "0,0", "20,0", "20,10", "0,10", "--open"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("What it left out as `garden` before is replaced."), std::string::npos) << again.out;
+  EXPECT_NEAR(ground(), 80 * 44 - 200, 1e-6);
+}
+
+TEST_F(Add, OpenGardensReachUpToTheTopOfBoundariesOfAllForms) {
+  place.write("hull.json", scene_text("", "", R"({"form": "hull", "points": [[0, 0, 0], [50, 0, 0], [50, 40, 0], [0, 40, 0],
+    [0, 0, 30], [50, 0, 30], [50, 40, 30], [0, 40, 30]]})"));
+  place.write("steps.json", scene_text("", "", R"({"form": "plan", "height": 10, "plan": [[0, 0, 0], [50, 0, 0], [50, 40, 0],
+    [0, 40, 0]], "steps": [{"name": "tower", "x": 0, "y": 0, "top": 60}, {"name": "tower", "x": 50, "y": 0},
+    {"name": "tower", "x": 50, "y": 40}, {"name": "tower", "x": 0, "y": 40}]})"));
+  for (const char* scene : {"hull.json", "steps.json"}) {
+    const Outcome done = place.run({"add", scene, "garden", "--corners", "10,10", "20,10", "20,20", "10,20", "--open",
+                                    "--latitude", "52", "--longitude", "5"});
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.out.find("The boundary `site` leaves out its 100.0 m²"), std::string::npos) << done.out;
+    (void)place.run({"run", scene, "--ticks", "2", "--save", "after.json"});
+    const nlohmann::json site = place.json("after.json")["state"]["nodes"]["site"];
+    EXPECT_NEAR(site.value("boundary.ground_area", 0.0), 50 * 40 - 100, 1e-6) << scene << ": nothing hangs above the garden";
+  }
+}
+
 TEST_F(Add, WhatIsWrongIsRefusedInASentenceAndNothingIsWritten) {
   const std::string before = place.text("s.json");
   const auto said = [&](std::vector<std::string> arguments) {
