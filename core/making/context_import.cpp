@@ -75,6 +75,15 @@ std::string where(const importing::GeoReference& place) {
   return "at latitude " + shortest(place.latitude) + "°, longitude " + shortest(place.longitude) + "°";
 }
 
+std::set<std::string> elements_of(const importing::Context& context) {
+  std::set<std::string> ids;
+  for (const auto& one : context.buildings) ids.insert(one.id);
+  for (const auto& one : context.junctions) ids.insert(one.id);
+  for (const auto& one : context.streets) ids.insert(one.id);
+  for (const auto& one : context.areas) ids.insert(one.id);
+  return ids;
+}
+
 class Import {
  public:
   Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
@@ -91,6 +100,9 @@ class Import {
       for (std::size_t i = 0; i < o_.files.size() && !is_stopped(); ++i) {
         if (context_.watch != nullptr) context_.watch->file = i;
         (void)goes_on(context_.watch, "reading", 0, 0);
+        is_last_of_source_ = true;
+        for (std::size_t later = i + 1; later < o_.files.size(); ++later)
+          if (source_of(o_.files[later]) == source_of(o_.files[i])) is_last_of_source_ = false;
         read(o_.files[i]);
       }
     if (is_stopped() && result_.errors.empty()) fail("", importing::stopped_error());
@@ -244,6 +256,11 @@ class Import {
                               " at 0, and the terrain, whose heights count from the sea, lies above or below.");
   }
 
+  // By its source an import knows again what it brought before.
+  std::string source_of(const std::string& file) const {
+    return o_.source.empty() ? file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1) : o_.source;
+  }
+
   template <class Read>
   bool told(const std::string& file, const Read& read) {
     if (read) return true;
@@ -256,15 +273,8 @@ class Import {
     if (!bytes) return fail(file, bytes.error());
     auto text = importing::unpacked(*bytes);
     if (!text) return fail(file, text.error());
-    const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
     const Format format = format_of(file, *text);
-    making_ = {o_.source.empty() ? name : o_.source,
-               o_.licence,
-               o_.unit,
-               o_.is_extruded,
-               o_.takes_all_streets,
-               format == Format::osm,
-               context_.watch};
+    making_ = {source_of(file), o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, format == Format::osm, context_.watch};
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
       return fail(
           file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
@@ -289,9 +299,9 @@ class Import {
     sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets,
                          {making_.source, making_.has_lasting_ids});
     take(file, context->report, context->notes, context->reference);
-    nodes_.begin(making_);
+    nodes_.begin(making_, elements_of(*context));
     nodes_.add(*context, making_, sites_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -305,7 +315,7 @@ class Import {
     take(file, terrain->report, notes, terrain->reference);
     nodes_.begin(making_);
     nodes_.add(*terrain, making_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   void read_layer(const std::string& file, const std::string& text, Format format) {
@@ -321,7 +331,7 @@ class Import {
     take(file, layer->report, layer->notes, layer->reference);
     nodes_.begin(making_);
     nodes_.add(*layer, making_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   const Scene& scene_;
@@ -331,6 +341,7 @@ class Import {
   ContextNodes nodes_;
   SiteBuildings sites_;
   std::set<std::string> properties_;  // of all features
+  bool is_last_of_source_ = true;     // no file after it has the same source
   bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
   NodeMaking making_;
   std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
