@@ -169,28 +169,31 @@ void SiteBuildings::clear_grounds(const importing::Context& context, const std::
       had.insert(name);
       is_again_ = is_again_ || name.find(kOf + from.name) != std::string::npos;
     }
-    // What is wanted now, and what an import before has left out: that may have moved.
-    const auto is_meant = [&](const Ground& ground) {
-      const std::string name = ground.name + kOf + from.name;
-      site.brought.try_emplace(name, 0);
-      if (kinds.contains(ground.kind)) return true;
-      const std::string prefix = from.has_lasting_ids ? ground.name + kOf : name;
+    // An import before has left it out, or an import of another source the same element.
+    const auto is_known = [&](const std::string& ground) {
+      const std::string name = ground + kOf + from.name, prefix = from.has_lasting_ids ? ground + kOf : name;
       for (auto other = had.lower_bound(prefix); other != had.end() && other->starts_with(prefix); ++other)
         if (from.has_lasting_ids || is_named(*other, name)) return true;
       return false;
     };
-    for (const importing::ContextStreet& street : context.streets) {
-      const Ground ground{"streets", "street " + street.id};
-      if ((!street.for_cars && !takes_all_streets) || !is_meant(ground)) continue;
-      put(site, ground, left_out(site, ground.name, "", street_ground(street)), from);
-    }
+    // What is wanted now, and what is known: that may have moved.
+    const auto take = [&](const Ground& ground, const std::string& use, const auto& rings) {
+      site.brought.try_emplace(ground.name + kOf + from.name, 0);
+      const bool was_left_out = is_known(ground.name);
+      if (!was_left_out && !kinds.contains(ground.kind)) return false;
+      std::vector<Exclusion> exclusions = left_out(site, ground.name, use, rings());
+      const bool is_left_out = !exclusions.empty();
+      if (is_left_out || was_left_out) put(site, ground, std::move(exclusions), from);
+      return is_left_out;
+    };
+    for (const importing::ContextStreet& street : context.streets)
+      if (street.for_cars || takes_all_streets)
+        (void)take({"streets", "street " + street.id}, "", [&] { return street_ground(street); });
     for (const importing::ContextArea& area : context.areas) {
       const std::string kind(ground_kind(area.use));
-      const Ground ground{kind, kind + " " + area.id};
-      if (area.is_plot || kind.empty() || !is_meant(ground)) continue;
-      std::vector<Exclusion> exclusions = left_out(site, ground.name, open_use_of(area.use), {area.outer});
-      if (!exclusions.empty()) left_out_[{area.row, area.id}] = site.id;
-      put(site, ground, std::move(exclusions), from);
+      if (area.is_plot || kind.empty()) continue;
+      if (take({kind, kind + " " + area.id}, open_use_of(area.use), [&] { return std::vector<geometry::Ring>{area.outer}; }))
+        left_out_[{area.row, area.id}] = site.id;
     }
   }
 }

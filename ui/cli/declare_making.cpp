@@ -134,7 +134,8 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
              "Keeps buildings inside a site of the scene; the site leaves out their ground up to their roofs. Default: asks; "
              "without a terminal, keeps them.");
   c.add_flag("--clear", o.clears,
-             "Leaves out buildings inside a site of the scene. A building with less than half of its ground inside is kept.");
+             "Leaves out buildings inside a site of the scene, also those that an import before has kept. A building with less "
+             "than half of its ground inside is kept.");
   const std::vector<std::string> grounds(making::kClearGrounds.begin(), making::kClearGrounds.end());
   c.add_option("--keep-clear", o.keep_clear,
                "Kinds of ground that are kept clear: " + in_one_line(grounds) + ". " + making::kKeepClearDoc +
