@@ -110,9 +110,22 @@ Ring grid_ring(const Path& path, double step) {
   return ring;
 }
 
+Paths tree_paths(const ClipperLib::PolyTree& tree) {
+  Paths paths;
+  ClipperLib::PolyTreeToPaths(tree, paths);
+  return paths;
+}
+
+// With all corners on their sides. A hole that a corner moves onto the outer side becomes a part of that side: two sides at one
+// place, to and fro, would be walls of no thickness.
 std::vector<PlateFace> tree_faces(const ClipperLib::PolyTree& tree, const PartCorners& corners, double step) {
+  ClipperLib::Clipper clipper;
+  for (const Path& path : tree_paths(tree))
+    if (const Path fine = corners.refined(path); fine.size() >= 3) clipper.AddPath(fine, ClipperLib::ptSubject, true);
+  ClipperLib::PolyTree clean;
+  clipper.Execute(ClipperLib::ctUnion, clean, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   std::vector<PlateFace> faces;
-  for (const ClipperLib::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
+  for (const ClipperLib::PolyNode* node = clean.GetFirst(); node != nullptr; node = node->GetNext()) {
     if (node->IsHole()) continue;
     const Path outer = corners.refined(node->Contour);
     if (outer.size() < 3) continue;
@@ -121,12 +134,6 @@ std::vector<PlateFace> tree_faces(const ClipperLib::PolyTree& tree, const PartCo
       if (const Path inner = corners.refined(hole->Contour); inner.size() >= 3) face.holes.push_back(grid_ring(inner, step));
   }
   return faces;
-}
-
-Paths tree_paths(const ClipperLib::PolyTree& tree) {
-  Paths paths;
-  ClipperLib::PolyTreeToPaths(tree, paths);
-  return paths;
 }
 
 }  // namespace

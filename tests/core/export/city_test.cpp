@@ -145,6 +145,27 @@ TEST(CityModel, WhatStandsOnAnotherBuildingCoversItsRoof) {
   EXPECT_NEAR(tower.areas["RoofSurface"], all, 0.02);
 }
 
+// Of the standing quarter: the upper plate ends at the same slanted side, but for a hundredth of a millimetre.
+TEST(CityModel, PartsThatEndAtTheSameSlantedSideStayClosed) {
+  const geometry::Ring low = {{107.2359, 7.9701, 0},
+                              {107.2359, 40.0299, 0},
+                              {76.5891, 40.0299, 0},
+                              {68.7641, 31.4935, 0},
+                              {68.7641, 7.9701, 0}},
+                       high = {{103, 36.5, 0}, {73.3534, 36.5, 0}, {73, 36.1145, 0}, {73, 11.5, 0}, {103, 11.5, 0}};
+  Proposal proposal;
+  proposal.reference.crs = "EPSG:28992";
+  proposal.buildings = {building_of("shops", {{low, 4.5}}, 0), building_of("flats", {{high, 3}}, 4.5)};
+  const ExportFiles made = files_of(proposal, "cityjson");
+  EXPECT_TRUE(made.notes.empty());
+  const auto document = nlohmann::json::parse(made.files.front().content);
+  CitySums shops = sums_of(document, "building/shops"), flats = sums_of(document, "building/flats");
+  EXPECT_TRUE(shops.is_closed && flats.is_closed);
+  EXPECT_NEAR(flats.areas["ClosureSurface"], geometry::signed_area(high), 0.02);
+  EXPECT_NEAR(shops.areas["ClosureSurface"], geometry::signed_area(high), 0.02);
+  EXPECT_NEAR(shops.areas["RoofSurface"], geometry::signed_area(low) - geometry::signed_area(high), 0.02);
+}
+
 class CityScene : public ::testing::TestWithParam<const char*> {};
 
 // What the solver says of a volume's roofs, with what is open of the roof of a podium.
