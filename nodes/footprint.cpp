@@ -26,7 +26,7 @@ struct Footprint {
   struct Out {
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0;
+    double least_room = 0, facade_area = 0, roof_area = 0, cellar_area = 0;
     Table plates, building;
     Point3 stands_at;
   };
@@ -112,7 +112,8 @@ struct Footprint {
         .doc(
             "Greatest depth along walls that touch neighbours or the border of the plot, where it is less than `depth`: such "
             "walls "
-            "have no windows. Without effect where no walls touch.");
+            "have no windows. Without effect where no walls touch. A side of the form that lies behind such a wall still keeps "
+            "`depth`, so that floor areas change without a jump where walls come to touch.");
     t.in(&In::has_party_walls, "party_walls").doc("Set-backs do not hold towards neighbours: their walls touch in all storeys.");
     t.in(&In::has_border_walls, "border_walls")
         .doc("Set-backs do not hold towards the border of the plot either, but for its sides along streets: fire walls.");
@@ -153,7 +154,8 @@ struct Footprint {
         .doc(
             "Greatest height above the ground or roof that it stands on; of a building that several share, on which they all "
             "stand, the least of theirs counts. Links that set limits propose here. A storey that it has taken away comes back "
-            "when the limit leaves room for 1.15 storeys.");
+            "when the limit leaves room for it and has risen by 0.15 storeys since it was least; else when it leaves room for "
+            "1.15 storeys.");
     t.in(&In::bases, "bases")
         .collect()
         .doc(
@@ -196,6 +198,12 @@ struct Footprint {
             "Number of storeys that height limits hold: its own, or those of the whole building where others share its "
             "footprint.");
     t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
+    t.out(&Out::least_room, "least_room")
+        .means()
+        .unit(Unit::ratio)
+        .doc(
+            "Where there are fewer storeys than are wished: the least room for storeys since there have been as many as now, in "
+            "storeys; else 0. More come back when the room has grown by 0.15 since.");
     t.out(&Out::stands_at, "stands_at")
         .unit(Unit::metre)
         .doc(

@@ -37,13 +37,14 @@ struct StandingSolver {
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
     double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0, order = 0, cellar_storeys = 0;
-    double cellar_height = 3;
-    bool has_party_walls = true, has_border_walls = false, was_limited = false;
+    double cellar_height = 3, least_room = 0;  // the last one as it came out of the last tick
+    bool has_party_walls = true, has_border_walls = false;
     std::vector<std::string> bases, shares;
   };
   struct Plot {
     std::string id;
     std::shared_ptr<const geometry::Domain> domain;
+    double open_area = 0;  // kept open beside the domain [m²]
   };
   struct Street {
     Selection start, end;
@@ -68,11 +69,12 @@ struct StandingSolver {
     MeshPointer mesh;
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0;
+    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0, least_room = 0;
   };
   struct Out {
     std::int64_t count = 0;
-    double total_floor_area = 0, plot_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0, largest_error = 0;
+    double total_floor_area = 0, plot_area = 0, open_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0,
+           largest_error = 0;
     std::string worst, message;
     SomeReplies<Reply> replies;
   };
@@ -111,7 +113,10 @@ struct StandingSolver {
         .doc("The weights stay as they are while the error of every volume is within this share of what it wants.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
     t.out(&Out::total_floor_area, "total_floor_area").shown_first().unit(Unit::square_metre).doc("Sum of all plates.");
-    t.out(&Out::plot_area, "plot_area").unit(Unit::square_metre).doc("Area of the ground inside the boundary.");
+    t.out(&Out::plot_area, "plot_area")
+        .unit(Unit::square_metre)
+        .doc("Area of the ground inside the boundary, with what it keeps open.");
+    t.out(&Out::open_area, "open_area").unit(Unit::square_metre).doc("The part of it that the boundary keeps open.");
     t.out(&Out::covered, "covered").unit(Unit::square_metre).doc("Sum of the footprints.");
     t.out(&Out::fsi, "fsi").shown_first().unit(Unit::ratio).doc("Floor space index: floor area / plot area.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).doc("Ground space index: covered area / plot area.");
@@ -134,7 +139,10 @@ struct StandingSolver {
         .reads(&Street::end, "street.end")
         .reads(&Street::course, "street.course", Unit::metre);
     t.set("junctions", &Sets::junctions).reads(&Junction::id, "node.id").reads(&Junction::position, "node.position", Unit::metre);
-    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::domain, "boundary.domain");
+    t.set("boundary", &Sets::plots)
+        .reads(&Plot::id, "node.id")
+        .reads(&Plot::domain, "boundary.domain")
+        .reads(&Plot::open_area, "boundary.open_area");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
     set.reads(&Member::demand, "smart_volume.demand").reads(&Member::limit, "smart_volume.demand_limit");
@@ -155,7 +163,8 @@ struct StandingSolver {
     set.reads(&Member::shares, "footprint.shares").reads(&Member::order, "footprint.order");
     set.reads(&Member::cellar_storeys, "footprint.cellar_storeys").reads(&Member::cellar_height, "footprint.cellar_height");
     set.writes(&Reply::cellars_built, "footprint.cellars_built").writes(&Reply::cellar_area, "footprint.cellar_area");
-    set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
+    set.reads(&Member::least_room, "footprint.least_room").writes(&Reply::least_room, "footprint.least_room");
+    set.writes(&Reply::is_limited, "footprint.is_limited");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::fitted, "smart_volume.fitted");
     set.writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
@@ -196,7 +205,7 @@ struct StandingSolver {
     wish.least = m.storeys_min;
     wish.height_limit = m.height_limit;
     wish.built = m.built;
-    wish.was_limited = m.was_limited;
+    wish.least_room = m.least_room;
     wish.setback = m.setback;
     wish.courtyard_setback = m.courtyard_setback;
     wish.full_storeys = m.full_storeys;
@@ -245,7 +254,8 @@ struct StandingSolver {
             .is_limited = result.storeys.is_limited,
             .facade_area = result.facade_area,
             .roof_area = result.roof_area,
-            .cellar_area = cellar.storeys * cellar.area};
+            .cellar_area = cellar.storeys * cellar.area,
+            .least_room = result.storeys.least_room};
   }
 
   // On whom each volume stands. Returns what is wrong with that, sentences after semicolons.
@@ -425,7 +435,8 @@ struct StandingSolver {
       for (std::uint32_t i = 0; i < kept.names.size(); ++i) answered.push_back(i);
     }
     add_sharers(kept, answered);
-    out.plot_area = kept.cache.plot_area;
+    out.open_area = sets.plots.front().open_area;
+    out.plot_area = kept.cache.plot_area + out.open_area;
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] +

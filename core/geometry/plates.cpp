@@ -8,6 +8,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/geometry/inside/footprint_workshop.h"
+#include "core/geometry/inside/open_courtyards.h"
 #include "core/geometry/polygon_triangles.h"
 
 namespace bl::geometry {
@@ -122,6 +123,12 @@ double angle_of(const Point3& from, const Point3& to, const Point3& centre) {
   return angle;
 }
 
+// Can a courtyard have sides on those of the plate?
+bool may_meet(const PlateOffset& outer, const PlateOffset& court) {
+  return court.neighbour - outer.neighbour < kSame || court.plot.border - outer.plot.border < kSame ||
+         court.plot.street - outer.plot.street < kSame;
+}
+
 // A place a millimetre inside of a line that has what it encloses, or the rest around a hole, on its left.
 Point3 inside_of(const Ring& line, const Point3& at) {
   constexpr double kInside = 1e-3;  // [m]
@@ -162,8 +169,10 @@ StandingBody body_of(const FootprintDiagram& diagram, std::uint32_t site) {
     PlateStack stack{run.storeys, bottom, own.storey_height, measure.plates[r], {}, {}};
     bottom = stack.top();
     if (!(stack.area > 0)) continue;
-    stack.outlines = rings(outer_offset(own, run));
-    if (std::isfinite(own.depth)) stack.courtyards = rings(courtyard_offset(own, run));
+    const PlateOffset outer = outer_offset(own, run), court = courtyard_offset(own, run);
+    stack.outlines = rings(outer);
+    if (std::isfinite(own.depth)) stack.courtyards = rings(court);
+    if (!stack.courtyards.empty() && may_meet(outer, court)) open_courtyards(stack, body.centre);
     body.stacks.push_back(std::move(stack));
   }
   return body;
@@ -199,6 +208,15 @@ double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyon
     sum += ring.corners[k].is_arc ? ring.radius * angle_of(from, to, centre) : distance(from, to);
   }
   return sum;
+}
+
+double area_of(std::span<const PlateFace> faces) {
+  double area = 0;
+  for (const PlateFace& face : faces) {
+    area += std::abs(signed_area(face.outer));
+    for (const Ring& hole : face.holes) area -= std::abs(signed_area(hole));
+  }
+  return area;
 }
 
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance) {

@@ -33,7 +33,7 @@ struct PlateStack {
   double bottom = 0, storey_height = 3;  ///< [m]
   double area = 0;                       ///< of one plate [m²]
   std::vector<PlateRing> outlines;       ///< of the footprint; several where the plot is not convex
-  std::vector<PlateRing> courtyards;     ///< what is not built of it
+  std::vector<PlateRing> courtyards;     ///< what is not built of it, where that does not reach an outer wall
   std::vector<PlateRing> enclosed = {};  ///< of a part of a plate with courtyards: its outlines with what it has of these
   double top() const { return bottom + storeys * storey_height; }
   bool operator==(const PlateStack&) const = default;
@@ -54,6 +54,8 @@ struct PlateFace {
   Ring outer;               ///< counter-clockwise
   std::vector<Ring> holes;  ///< clockwise
 };
+/// The area of parts without their holes, whichever way their rings turn [m²].
+double area_of(std::span<const PlateFace> faces);
 /// The parts of a plate, with arcs as chords that stay within `tolerance` of them [m].
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance);
 /// The ring with its arcs as chords that stay within `tolerance` of them [m].

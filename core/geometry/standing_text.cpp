@@ -3,12 +3,21 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/base/plural.h"
 #include "core/base/text.h"
 
 namespace bl::geometry {
+
+Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) {
+  constexpr std::string_view kSites = "sites/";
+  const auto site = error.place.starts_with(kSites) ? parse_number(error.place.substr(kSites.size())) : std::nullopt;
+  if (!site || !(*site < static_cast<double>(members.size()))) return error;
+  return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
+}
 
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names) {
   if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
@@ -40,6 +49,10 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
     if (whole.body && whole.bottom + whole.height > top + 1e-6)
       words += "; `" + names[i] + "` reaches " + fixed(whole.bottom + whole.height, 1) + " m, and the boundary " + fixed(top, 1) +
                " m: the least of its storeys need more height than there is";
+    else if (whole.outside.storey > 0)
+      words += "; `" + names[i] + "` reaches out of the boundary from storey " + std::to_string(whole.outside.storey) + " on, " +
+               fixed(whole.outside.height, 1) + " m high, by up to " + fixed(whole.outside.area, 1) +
+               " m² of a plate: lower its `storeys`, or move it";
     // On their way to what they want, volumes are smaller.
     if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
     int with_area = 0;
@@ -48,8 +61,7 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
     const bool is_by_courtyard = !(wish.setback > 0) || wish.courtyard_setback >= wish.site.depth;
     if (with_area < whole.storeys.count)
       words += (is_by_courtyard ? "; the `courtyard_setback` of `" : "; the set-back of `") + names[i] +
-               "` leaves nothing of its upper " +
-               how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
+               "` leaves nothing of its upper " + how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
                ": lower it, or the number of storeys";
   }
   return words;

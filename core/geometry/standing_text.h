@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
 #include "core/geometry/standing_tick.h"
 
 namespace bl::geometry {
+
+/// An error of a site, which its level counts by itself, with the number of its wish: "site 3 cannot stand: ...". `members`: the
+/// wishes of the level.
+Error error_of_wish(const Error& error, std::span<const std::uint32_t> members);
 
 /// Why a volume has no footprint; empty where it has one. Lists are in the order of the wishes.
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names);

@@ -44,6 +44,7 @@ SiteRow site_of(const State& state, const reading::Row<reading::BoundaryFigures>
   site.name = state.plan->nodes[row.node].name;
   site.volume = row.figures.volume;
   site.ground_area = row.figures.ground_area;
+  site.open_area = row.figures.open_area;
   site.shape = row.figures.shape;
   if (!site.shape || site.shape->triangles.empty()) {
     site.shape = nullptr;
@@ -100,7 +101,7 @@ void add_totals(const State& state, ReportModel& model) {
   model.shapes = 0;
   model.worst = nullptr;
   for (const SiteRow& site : model.sites) {
-    model.plan_area += site.ground_area;
+    model.plan_area += site.ground_area + site.open_area;
     model.site_volume += site.volume;
   }
   for (const VolumeRow& volume : model.volumes) {

@@ -69,7 +69,8 @@ TEST(Plot, AFootprintFadesInTheUpperHalfOfTheLowestStorey) {
       else if (read.kind == ValueKind::text) set.reads.emplace_back(std::string("it"));
       else set.reads.emplace_back(port == "bottom" ? bottom : port == "storey_height" ? 4.0 : 100.0);
     }
-    std::vector<SetValues> sets{set};
+    std::vector<SetValues> sets(plot.sets.size());  // nothing stands
+    sets.front() = std::move(set);
     EXPECT_TRUE(plot.evaluate(values, sets, Tick{}).ok());
     return as_number(values[plot.port_index("footprint")]);
   };

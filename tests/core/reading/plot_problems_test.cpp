@@ -76,8 +76,10 @@ TEST(PlotProblems, WhoKeepsASetBackToTheGridIsNotNamed) {
   std::string text = R"({"format": "behaviourlinks", "version": 1, "nodes": [
     {"id": "breaker", "position": [6, 9, 0],
      "types": {"smart_volume": {"demand": 900, "storey_height": 3}, "footprint": {"storeys": 3}}},
-    {"id": "plot", "types": {"plot": {"polygon": )" + outline + R"(, "setback": 3}}},
-    {"id": "site", "types": {"boundary": {"form": "plan", "plan": )" + outline + R"(, "height": 40}}},
+    {"id": "plot", "types": {"plot": {"polygon": )" +
+                     outline + R"(, "setback": 3}}},
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": )" +
+                     outline + R"(, "height": 40}}},
     {"id": "solver", "types": {"standing_solver": {}}})";
   for (const char* place : {"40, 12", "43, 30", "8, 30", "22, 13"})
     text += R"(, {"id": "keeper_)" + std::to_string(text.size()) + R"(", "position": [)" + place +
