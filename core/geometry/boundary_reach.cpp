@@ -11,7 +11,7 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr double kReachChords = 1e-3;  // between arcs of plates and their chords [m]
+constexpr double kReachChords = 0.01;  // between arcs of plates and their chords [m]
 constexpr double kLeastReach = 0.01;   // of a plate that counts as outside [m²]
 constexpr double kBelowTop = 1e-6;     // under the top of a storey its plate is compared [m]
 
@@ -27,6 +27,19 @@ double area_within(const Ring& ring, const PlanPolygon& section) {
     if (length > 0) clip(rest, {x / length, y / length, (x * a.x + y * a.y) / length}, PlanSide::kPlot, spare);
   }
   return area_of(rest);
+}
+
+struct Box {
+  PlanPoint low{1e300, 1e300}, high{-1e300, -1e300};
+};
+Box box_of(const std::vector<PlateFace>& faces) {
+  Box box;
+  for (const PlateFace& face : faces)
+    for (const Point3& p : face.outer) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  return box;
 }
 
 }  // namespace
@@ -48,11 +61,12 @@ BoundaryReach reach_out_of(const Domain& domain, const StandingBody& body) {
   int storey = 0;
   for (const PlateStack& stack : body.stacks) {
     const std::vector<PlateFace> faces = faces_of(stack, body.centre, kReachChords);
+    const Box box = box_of(faces);
     for (int k = 1; k <= stack.storeys; ++k) {
       ++storey;
       const double top = stack.bottom + k * stack.storey_height;
       if (top > domain.maximum.z + kBelowTop) return reach;
-      const std::vector<PlanPolygon> sections = sections_at(domain, top - kBelowTop);
+      const std::vector<PlanPolygon> sections = sections_at(domain, top - kBelowTop, box.low, box.high);
       double outside = 0;
       for (const PlateFace& face : faces) {
         const auto add = [&](const Ring& ring) {
