@@ -29,11 +29,11 @@ double area_within(const Ring& ring, const PlanPolygon& section) {
   return area_of(rest);
 }
 
-struct Box {
+struct PlateBox {
   PlanPoint low{1e300, 1e300}, high{-1e300, -1e300};
 };
-Box box_of(const std::vector<PlateFace>& faces) {
-  Box box;
+PlateBox plate_box(const std::vector<PlateFace>& faces) {
+  PlateBox box;
   for (const PlateFace& face : faces)
     for (const Point3& p : face.outer) {
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
@@ -61,7 +61,7 @@ BoundaryReach reach_out_of(const Domain& domain, const StandingBody& body) {
   int storey = 0;
   for (const PlateStack& stack : body.stacks) {
     const std::vector<PlateFace> faces = faces_of(stack, body.centre, kReachChords);
-    const Box box = box_of(faces);
+    const PlateBox box = plate_box(faces);
     for (int k = 1; k <= stack.storeys; ++k) {
       ++storey;
       const double top = stack.bottom + k * stack.storey_height;
