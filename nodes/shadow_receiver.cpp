@@ -11,7 +11,7 @@ struct ShadowReceiver {
     bool upright = false;
     double azimuth = 180, width = 20, depth = 20, rotation = 0, raised = 0, spacing = 2;
     double required_sun = 7200;
-    std::vector<std::string> casters;
+    std::vector<std::string> casters, held_back;
   };
 
   struct Out {
@@ -76,6 +76,12 @@ struct ShadowReceiver {
         .doc(
             "Ids of the casters that count here; all count where none is named. Links of the kind `casts_shadow_on` add to "
             "them.");
+    t.in(&In::held_back, "held_back")
+        .collect()
+        .doc(
+            "Ids of volumes that stand and have fewer storeys for the sun of this receiver. Links of the kind `solar_right` add "
+            "to "
+            "them, and give back only what they took for this one.");
   }
 
   static void declare_rectangle(TypificationBuilder<ShadowReceiver>& t) {

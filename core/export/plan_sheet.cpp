@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
 #include "core/export/section.h"
@@ -17,11 +18,14 @@ namespace bl::exporting {
 
 namespace {
 
+constexpr drawing::Colour kOpenFill{0.86, 0.92, 0.82}, kOpenLine{0.44, 0.58, 0.36};
+
 class PlanMaker : SheetFrame {
  public:
-  PlanMaker(const Proposal& proposal, int level, const SheetOptions& options) : SheetFrame(proposal, options) {
-    sheet_.level = level;
-    sheet_.title = proposal.name() + ", level " + std::to_string(level);
+  PlanMaker(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options)
+      : SheetFrame(proposal, options), level_(level) {
+    sheet_.level = level.number;
+    sheet_.title = proposal.name() + ", " + level.name();
   }
   /// What a plane at that height cuts [m].
   PlanMaker(const Proposal& proposal, double height, const SheetOptions& options)
@@ -38,6 +42,7 @@ class PlanMaker : SheetFrame {
     sheet_.origin = {middle.x - metres * window_width() / 2, middle.y + metres * window_height() / 2, 0};
     add_surroundings();
     add_lands();
+    add_open_spaces();
     add_storeys();
     add_dimensions();
     if (height_) {
@@ -63,12 +68,15 @@ class PlanMaker : SheetFrame {
   }
 
   void add_level_title() {
-    double area = 0;
+    const std::string area = fixed(level_.area, 1) + " m²";
+    const int last = level_.is_cellar() ? cellar_levels(proposal_) : proposal_.levels - 1;
+    double cellars = 0;
     for (const Building& b : proposal_.buildings)
-      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
-    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels - 1) + ", from " +
-                  fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
-              "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
+      for (const Storey& s : b.cellars) cellars += s.floor_area;
+    add_title(level_.name() + " of " + std::to_string(last) + ", " + level_.heights(),
+              level_.is_cellar()
+                  ? "Area of this cellar " + area + ", of all cellars " + fixed(cellars, 1) + " m², no part of the floor area"
+                  : "Floor area of this level " + area + ", of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
   }
 
   void add_cut_title() {
@@ -127,6 +135,31 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(group));
   }
 
+  // Nothing is built on them at any level.
+  void add_open_spaces() {
+    if (proposal_.open_spaces.empty()) return;
+    SheetGroup group{"open_space", "Open space", true, {}, {}};
+    for (const OpenSpace& open : proposal_.open_spaces)
+      for (const geometry::PlateFace& face : open.faces) {
+        SheetShape shape = shape_of({face}, open.use);
+        shape.is_filled = true;
+        shape.fill = kOpenFill;
+        shape.stroke = kOpenLine;
+        group.shapes.push_back(std::move(shape));
+        if (options_.labels) add_open_label(open.use, face, group);
+      }
+    sheet_.groups.push_back(std::move(group));
+  }
+
+  void add_open_label(const std::string& use, const geometry::PlateFace& face, SheetGroup& group) {
+    const LabelPlace place = label_place({face});
+    const double longest = 0.58 * static_cast<double>(use.size());
+    const double size = std::min({2.5, 0.9 * millimetres() * place.width / longest, 0.9 * millimetres() * place.height});
+    const SheetPoint middle = at(place.middle);
+    if (size >= 1.2 && takes_place(middle, size * longest, size))
+      group.texts.push_back({{middle.x, middle.y + 0.35 * size}, size, SheetAnchor::middle, false, use});
+  }
+
   // What the level cuts of buildings whose storey belongs to another level: their storeys are higher.
   const Storey* passing(const Building& building, double cut) const {
     for (const Storey& storey : building.storeys)
@@ -146,9 +179,11 @@ class PlanMaker : SheetFrame {
         add_cut(b, uses[proposal_.use_number(b.use)], labels);
         continue;
       }
-      const auto own = std::find_if(b.storeys.begin(), b.storeys.end(), [&](const Storey& s) { return s.level == sheet_.level; });
-      if (own == b.storeys.end()) {
-        if (const Storey* storey = passing(b, cut)) {
+      const Storey* own = nullptr;
+      for (const Storey* storey : drawn_storeys(b))
+        if (storey->level == sheet_.level) own = storey;
+      if (own == nullptr) {
+        if (const Storey* storey = level_.is_cellar() ? nullptr : passing(b, cut)) {
           passed.shapes.push_back(shape_of(storey->faces, b.label));
           passed.shapes.back().stroke = kGrey;
           passed.shapes.back().is_filled = true;
@@ -162,7 +197,7 @@ class PlanMaker : SheetFrame {
       shape.fill = b.colour;
       shape.width = 0.35;
       uses[proposal_.use_number(b.use)].shapes.push_back(std::move(shape));
-      own_labels.emplace_back(&b, &*own);
+      own_labels.emplace_back(&b, own);
     }
     if (options_.labels) {
       // Where two would cross, the larger storey keeps its words; those of other levels come last.
@@ -185,7 +220,9 @@ class PlanMaker : SheetFrame {
     shape.fill = b.colour;
     shape.width = 0.5;  // heavier than a plan: it is a cut
     use.shapes.push_back(std::move(shape));
-    if (options_.labels) add_label(b, *part.storey, labels);
+    Storey cut = *part.storey;
+    cut.faces = part.faces;
+    if (options_.labels) add_label(b, cut, labels, *height_ < cut.top);
   }
 
   // In a size that fits into the plate, as far as it can be read and nothing else is written there; else the area alone; else
@@ -245,7 +282,8 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(group));
   }
 
-  std::optional<double> height_;                // of a level cut [m]; none: the sheet shows a level
+  std::optional<double> height_;  // of a level cut [m]; none: the sheet shows a level
+  DrawnLevel level_;
   static constexpr double kTwoLines = 2.4;      // high, as a share of the size of their letters
   std::vector<std::array<double, 4>> written_;  // what labels cover: left, top, right and bottom [mm]
 };
@@ -256,7 +294,7 @@ Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const
   return PlanMaker(proposal, height, options).make();
 }
 
-Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options) {
+Result<PlanSheet> plan_sheet(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options) {
   return PlanMaker(proposal, level, options).make();
 }
 

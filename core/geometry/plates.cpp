@@ -129,6 +129,23 @@ bool may_meet(const PlateOffset& outer, const PlateOffset& court) {
          court.plot.street - outer.plot.street < kSame;
 }
 
+// A place a millimetre inside of a line that has what it encloses, or the rest around a hole, on its left.
+Point3 inside_of(const Ring& line, const Point3& at) {
+  constexpr double kInside = 1e-3;  // [m]
+  Vector3 inwards;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const Point3 &from = line[k], &to = line[(k + 1) % line.size()];
+    const Vector3 along{to.x - from.x, to.y - from.y, 0}, way{at.x - from.x, at.y - from.y, 0};
+    const double length = norm(along), s = dot(along, way);
+    // At a corner both sides count.
+    if (!(length > 0) || s < -kSame * length || s > (length + kSame) * length || std::abs(cross(along, way).z) > kSame * length)
+      continue;
+    inwards = inwards + Vector3{-along.y / length, along.x / length, 0};
+  }
+  const double length = norm(inwards);
+  return length > kSame ? at + inwards * (kInside / length) : at;
+}
+
 }  // namespace
 
 StandingBody body_of(const FootprintDiagram& diagram, std::uint32_t site) {
@@ -193,6 +210,15 @@ double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyon
   return sum;
 }
 
+double area_of(std::span<const PlateFace> faces) {
+  double area = 0;
+  for (const PlateFace& face : faces) {
+    area += std::abs(signed_area(face.outer));
+    for (const Ring& hole : face.holes) area -= std::abs(signed_area(hole));
+  }
+  return area;
+}
+
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance) {
   std::vector<PlateFace> faces;
   std::vector<Ring> holes;
@@ -234,6 +260,27 @@ double clearance_of(const StandingBody& body, std::span<const Point3> border, do
       for (const Point3& corner : border) take(corner, line, false);
   }
   return least;
+}
+
+Point3 nearest_place(const StandingBody& body, const Point3& position, double tolerance) {
+  if (body.stacks.empty()) return position;
+  const PlateStack& lowest = body.stacks.front();
+  const Point3 flat{position.x, position.y, 0};
+  int around = 0;  // outer lines less holes
+  double least = std::numeric_limits<double>::infinity();
+  Point3 nearest = flat;
+  for (const PlateRing& outline : lowest.enclosed.empty() ? lowest.outlines : lowest.enclosed) {
+    const Ring line = chords_of(outline, body.centre, tolerance);
+    if (line.size() < 3) continue;
+    if (ring_contains(line, flat)) around += signed_area(line) > 0 ? 1 : -1;
+    const Point3 side = nearest_on_ring(line, flat);
+    const double away = distance({side.x, side.y, 0}, flat);
+    if (away >= least) continue;
+    least = away;
+    nearest = inside_of(line, side);
+  }
+  if (around > 0) nearest = flat;
+  return {nearest.x, nearest.y, lowest.bottom};
 }
 
 Mesh mesh_of(const StandingBody& body, double tolerance) {

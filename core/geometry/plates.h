@@ -34,6 +34,7 @@ struct PlateStack {
   double area = 0;                       ///< of one plate [m²]
   std::vector<PlateRing> outlines;       ///< of the footprint; several where the plot is not convex
   std::vector<PlateRing> courtyards;     ///< what is not built of it, where that does not reach an outer wall
+  std::vector<PlateRing> enclosed = {};  ///< of a part of a plate with courtyards: its outlines with what it has of these
   double top() const { return bottom + storeys * storey_height; }
   bool operator==(const PlateStack&) const = default;
 };
@@ -53,6 +54,8 @@ struct PlateFace {
   Ring outer;               ///< counter-clockwise
   std::vector<Ring> holes;  ///< clockwise
 };
+/// The area of parts without their holes, whichever way their rings turn [m²].
+double area_of(std::span<const PlateFace> faces);
 /// The parts of a plate, with arcs as chords that stay within `tolerance` of them [m].
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance);
 /// The ring with its arcs as chords that stay within `tolerance` of them [m].
@@ -62,6 +65,10 @@ Mesh mesh_of(const StandingBody& body, double tolerance);
 /// How far its footprint stays inside a border [m], with arcs as chords within `tolerance`; negative where it reaches out of it,
 /// by so much. Infinity without plates.
 double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance);
+/// The place of its lowest plate, courtyards included, that is nearest to `position`: where it stands. Of places on its edge one
+/// a millimetre inside, because the border of the plot may run there. At the height of its lowest floor; `position` itself
+/// without plates. Arcs are chords within `tolerance`.
+Point3 nearest_place(const StandingBody& body, const Point3& position, double tolerance);
 /// Length of a ring's sides that border on a site (`beyond` from 0 on), on the plot or on nothing [m].
 double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyond);
 

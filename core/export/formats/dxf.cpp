@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/dxf_drawing.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
@@ -32,13 +35,15 @@ struct DxfFormat {
     f.doc(
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
-        "layer such as L02-HOUSING: level and use. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
+        "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Uses whose names are "
+        "equal in such letters get a number. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
         "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
         "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
-    f.option(&Options::storeys, "storeys",
-             {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
-              {DxfArrangement::beside, "beside", "Levels side by side, the lowest at its true place."}})
+    f.option(
+         &Options::storeys, "storeys",
+         {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
+          {DxfArrangement::beside, "beside", "Levels side by side, the ground floor at its true place and cellars to its left."}})
         .doc("How the storeys lie.");
     f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
     f.option(&Options::section, "section")
@@ -60,6 +65,24 @@ struct DxfFormat {
     const Options& options;
     DxfDrawing drawing = {};
     PlanExtent extent = plan_extent(proposal);
+    std::map<std::string, std::string> layer_of_use = {};
+    std::vector<std::string> notes = {};
+
+    // Each use has layers and a colour of its own, also where its name falls together with another one.
+    void name_layers() {
+      std::set<std::string> taken = {"TEXT"};
+      std::string told;
+      for (const Building& b : proposal.buildings) {
+        if (layer_of_use.contains(b.use)) continue;
+        const std::string plain = DxfDrawing::layer_name(use_name(b.use));
+        std::string name = plain;
+        for (int k = 2; !taken.insert(name).second; ++k) name = plain + "_" + std::to_string(k);
+        layer_of_use.emplace(b.use, name);
+        if (name != plain || plain.find_first_not_of("_-") == std::string::npos)
+          told += (told.empty() ? "`" : ", `") + name + "` is " + use_name(b.use);
+      }
+      if (!told.empty()) notes.push_back("names of layers have plain letters only, and no two uses share one: " + told);
+    }
 
     Vector3 shift(int level) const {
       if (options.storeys == DxfArrangement::stacked) return {};
@@ -114,7 +137,7 @@ struct DxfFormat {
 
     void storey(const Building& b, const Storey& s, int colour) {
       const std::string level = "L" + std::string(s.level >= 0 && s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
-      const std::string layer = level + DxfDrawing::layer_name(use_name(b.use)), words = level + "TEXT";
+      const std::string layer = level + layer_of_use.at(b.use), words = level + "TEXT";
       drawing.layer(layer, colour);
       drawing.layer(words, 7);
       const Vector3 by = shift(s.level);
@@ -165,6 +188,7 @@ struct DxfFormat {
       const Vector3 way = (cut->to - cut->from) / distance(cut->from, cut->to);
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{{"SECTION-LINE", 6},
                                                                                            {"SECTION-CUT", 5},
+                                                                                           {"SECTION-CELLAR", 151},
                                                                                            {"SECTION-SLAB", 7},
                                                                                            {"SECTION-BEYOND", 8},
                                                                                            {"SECTION-GROUND", 34},
@@ -181,6 +205,7 @@ struct DxfFormat {
       for (const SectionPart& part : made.parts) {
         rings(part.building ? "SECTION-BEYOND" : "SECTION-EXISTING", part.beyond);
         rings(part.building ? "SECTION-CUT" : "SECTION-EXISTING", part.cut);
+        rings("SECTION-CELLAR", part.cellars);
         rings("SECTION-SLAB", part.slabs);
       }
       for (const auto& line : made.grounds)
@@ -194,6 +219,7 @@ struct DxfFormat {
     }
 
     Result<std::string> write() {
+      name_layers();
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{
                {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
         drawing.layer(name, colour);
@@ -201,8 +227,7 @@ struct DxfFormat {
       if (options.surroundings) surroundings();
       for (const Building& b : proposal.buildings) {
         const std::size_t use = proposal.use_number(b.use);
-        for (const Storey& s : b.storeys) storey(b, s, colour_of(use));
-        for (const Storey& s : b.cellars) storey(b, s, colour_of(use));
+        for (const Storey* s : drawn_storeys(b)) storey(b, *s, colour_of(use));
       }
       if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},
@@ -214,14 +239,16 @@ struct DxfFormat {
         drawing.text("TITLE", {extent.low.x, y, 0}, options.text_height, name + ": " + value);
         y -= 1.8 * options.text_height;
       }
+      if (drawing.has_lost_letters()) notes.push_back("letters that DXF R2000 has no number for are question marks in this file");
       return drawing.str("BehaviourLinks: " + identity_line(proposal));
     }
   };
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    auto text = DxfPlans{proposal, options}.write();
+    DxfPlans plans{proposal, options};
+    auto text = plans.write();
     if (!text) return text.error();
-    return ExportFiles{{{"plans.dxf", std::move(*text)}}, {}};
+    return ExportFiles{{{"plans.dxf", std::move(*text)}}, std::move(plans.notes)};
   }
 };
 

@@ -216,5 +216,19 @@ TEST(PlatesLaws, MeshesAreClosedAndEncloseTheVolume) {
   });
 }
 
+// A square of 10 m with a hole in it: inside, beyond a side, beyond a corner, in the hole.
+TEST(Plates, TheNearestPlaceIsWhereItStands) {
+  geometry::StandingBody body;
+  body.stacks.push_back({2, 4, 3, 96, {}, {}});
+  body.stacks.back().outlines = {{{{{0, 0, 0}}, {{10, 0, 0}}, {{10, 10, 0}}, {{0, 10, 0}}}, 0},
+                                 {{{{4, 4, 0}}, {{4, 6, 0}}, {{6, 6, 0}}, {{6, 4, 0}}}, 0}};
+  const auto near = [&](double x, double y) { return geometry::nearest_place(body, {x, y, 50}, 1e-3); };
+  EXPECT_EQ(near(2, 3), (Point3{2, 3, 4}));
+  EXPECT_LT(distance(near(-5, 3), {0.001, 3, 4}), 1e-9);
+  EXPECT_LT(distance(near(12, 11), {10 - 0.001 / std::sqrt(2), 10 - 0.001 / std::sqrt(2), 4}), 1e-9);
+  EXPECT_LT(distance(near(4.5, 5), {3.999, 5, 4}), 1e-9) << "a hole is none of it";
+  EXPECT_EQ(geometry::nearest_place({}, {1, 2, 3}, 1e-3), (Point3{1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace bl::test

@@ -117,10 +117,9 @@ Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   // Of a volume that is cut, or drawn as another shape, the middle of what is seen.
   const Seen shown = volume->is_drawn_otherwise ? seen(volume->cell->wrap->ball_centre) : middle;
   const Seen low = seen({p.x, p.y, volume->figures.bottom + 0.4 * volume->figures.storey_height});
-  for (const Seen& at : {shown, middle, seen({p.x, p.y, top}), low}) {
-    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section, shows("buildings"));
-    if (front && front->node == node) return at;
-  }
+  for (const Seen& at : {shown, middle, seen({p.x, p.y, top}), low})
+    if (is_met_first(choices_.camera.ray(at.x, at.y, width(), height()), *volume, *facts_, choices_.section, shows("buildings")))
+      return at;
   Seen nowhere = middle;
   nowhere.is_in_front = false;
   return nowhere;

@@ -2,8 +2,8 @@
 import type { Look } from "../space/picture";
 
 export interface Storey {
-  number: number;
-  level: number; ///< of the plan that shows it
+  number: number; ///< from 0 up, below the ground -1, -2, ...
+  level: number; ///< of the plan that shows it: the `number` of a level
   bottom: number; ///< [m]
   top: number; ///< [m]
   area: number; ///< [m²]
@@ -25,6 +25,13 @@ export interface Building {
   bottom: number;
   top: number;
   storeys: Storey[];
+  cellars: Storey[]; ///< below the ground, from the top down: no floor area
+}
+export interface Level {
+  number: number;
+  name: string; ///< "Level 3", "Cellar 1"
+  heights: string; ///< "from -3.00 m"
+  bottom: number; ///< of its lowest floor [m]
 }
 export interface Use {
   use: string;
@@ -36,15 +43,21 @@ export interface Use {
   volume: number;
   asked_volume: number;
 }
+export interface OpenSpace {
+  use: string;
+  area: number; ///< kept open [m²]
+  asked_area: number;
+  why: string; ///< why there is less than asked for
+}
 export interface Plot {
   name: string;
   is_boundary: boolean;
   area: number;
   fsi: number;
   gsi: number;
-  fsi_max: number;
-  gsi_max: number;
-  height_max: number;
+  fsi_max: number | null; ///< no rule where null, as the others
+  gsi_max: number | null;
+  height_max: number | null;
 }
 export interface Indicator {
   name: string;
@@ -67,7 +80,7 @@ export interface Proposal {
   true_north: number; ///< clockwise from the y axis [deg]
   plan: {
     box: [number, number, number, number]; ///< [dm]
-    levels: number[]; ///< heights [m]
+    levels: Level[]; ///< from the deepest cellar up
     level_height: number;
     lands: (Outline & { is_boundary: boolean })[];
     existing: Outline[];
@@ -77,6 +90,7 @@ export interface Proposal {
   buildings: Building[];
   uses: Use[];
   all: Use;
+  open: OpenSpace[];
   plots: Plot[];
   indicators: Indicator[];
   conflicts: { node: string; port: string; tension: string; pulls: string[] }[];
@@ -85,6 +99,12 @@ export interface Proposal {
   shapes: Record<string, unknown>; ///< as in the view `shapes` of a room
   looks: Record<string, Look>;
 }
+
+/// The storeys of a building that plans show, from the deepest cellar up.
+export const drawn_storeys = (building: Building): Storey[] => [...[...building.cellars].reverse(), ...building.storeys];
+/// The area of what is below the ground [m²].
+export const cellar_area = (buildings: Building[]): number =>
+  buildings.reduce((sum, one) => sum + one.cellars.reduce((area, cellar) => area + cellar.area, 0), 0);
 
 export const use_name = (use: string): string => use || "no use";
 
