@@ -11,9 +11,9 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr double kReachChords = 0.01;  // between arcs of plates and their chords [m]
-constexpr double kLeastReach = 0.01;   // of a plate that counts as outside [m²]
-constexpr double kBelowTop = 1e-6;     // under the top of a storey its plate is compared [m]
+constexpr double kReachChords = 0.01;   // between arcs of plates and their chords [m]
+constexpr double kLeastOutside = 0.01;  // of a plate that counts as outside [m²]
+constexpr double kBelowTop = 1e-6;      // under the top of a storey its plate is compared [m]
 
 // The area of a ring inside a convex polygon, negative where the ring is clockwise. Cutting by half-planes one after the other is
 // right for areas of rings that are not convex too: what it joins encloses nothing.
@@ -76,7 +76,7 @@ BoundaryReach reach_out_of(const Domain& domain, const StandingBody& body) {
         add(face.outer);
         for (const Ring& hole : face.holes) add(hole);
       }
-      if (!(outside > kLeastReach)) continue;
+      if (!(outside > kLeastOutside)) continue;
       if (reach.storey == 0) reach.storey = storey, reach.height = top;
       reach.area = std::max(reach.area, outside);
     }
