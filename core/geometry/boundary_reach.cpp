@@ -11,9 +11,9 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr double kReachChords = 1e-3;  // between arcs of plates and their chords [m]
-constexpr double kLeastOutside = 0.01;   // of a plate that counts as outside [m²]
-constexpr double kBelowTop = 1e-6;     // under the top of a storey its plate is compared [m]
+constexpr double kReachChords = 0.01;   // between arcs of plates and their chords [m]
+constexpr double kLeastOutside = 0.01;  // of a plate that counts as outside [m²]
+constexpr double kBelowTop = 1e-6;      // under the top of a storey its plate is compared [m]
 
 // The area of a ring inside a convex polygon, negative where the ring is clockwise. Cutting by half-planes one after the other is
 // right for areas of rings that are not convex too: what it joins encloses nothing.
@@ -27,6 +27,19 @@ double area_within(const Ring& ring, const PlanPolygon& section) {
     if (length > 0) clip(rest, {x / length, y / length, (x * a.x + y * a.y) / length}, PlanSide::kPlot, spare);
   }
   return area_of(rest);
+}
+
+struct PlateBox {
+  PlanPoint low{1e300, 1e300}, high{-1e300, -1e300};
+};
+PlateBox plate_box(const std::vector<PlateFace>& faces) {
+  PlateBox box;
+  for (const PlateFace& face : faces)
+    for (const Point3& p : face.outer) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  return box;
 }
 
 }  // namespace
@@ -48,11 +61,12 @@ BoundaryReach reach_out_of(const Domain& domain, const StandingBody& body) {
   int storey = 0;
   for (const PlateStack& stack : body.stacks) {
     const std::vector<PlateFace> faces = faces_of(stack, body.centre, kReachChords);
+    const PlateBox box = plate_box(faces);
     for (int k = 1; k <= stack.storeys; ++k) {
       ++storey;
       const double top = stack.bottom + k * stack.storey_height;
       if (top > domain.maximum.z + kBelowTop) return reach;
-      const std::vector<PlanPolygon> sections = sections_at(domain, top - kBelowTop);
+      const std::vector<PlanPolygon> sections = sections_at(domain, top - kBelowTop, box.low, box.high);
       double outside = 0;
       for (const PlateFace& face : faces) {
         const auto add = [&](const Ring& ring) {

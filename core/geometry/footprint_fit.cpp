@@ -14,33 +14,33 @@ namespace bl::geometry {
 
 namespace {
 
+// Shares of demands are found to a part of this many.
+constexpr double kFinestShare = 64;
 constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4;
 // Parts of the equal weights, from which fits start that lead nowhere otherwise: the smaller forms are, the more of them end
 // inside their cells.
 constexpr double kLooseStarts[] = {0.02, 0.0005};
 
-// The plot that all demands need at the least: each plate is a whole footprint.
-double needed_plot(std::span<const StandingSite> sites, std::span<const FloorDemand> demands) {
-  double sum = 0;
-  for (const FloorDemand& demand : demands) {
-    int most = 0;
-    for (const std::uint32_t i : demand.sites) most = std::max(most, sites[i].storeys());
-    if (most > 0) sum += demand.least / most;
-  }
-  return sum;
+// The plot that a demand needs at the least: each plate is a whole footprint.
+double needed_plot(std::span<const StandingSite> sites, const FloorDemand& demand) {
+  int most = 0;
+  for (const std::uint32_t i : demand.sites) most = std::max(most, sites[i].storeys());
+  return most > 0 ? demand.least / most : 0;
 }
 
 // Of discs that would cover, without overlaps, `share` of what all demands need.
 double equal_weight(double plot, std::span<const StandingSite> sites, std::span<const FloorDemand> demands, double share) {
-  double setback = 0;
+  double setback = 0, needed = 0;
   std::size_t count = 0;
-  for (const FloorDemand& demand : demands)
+  for (const FloorDemand& demand : demands) {
+    needed += needed_plot(sites, demand);
     for (const std::uint32_t i : demand.sites) {
       ++count;
       for (const StoreyRun& run : sites[i].runs) setback = std::max(setback, run.setback);
     }
+  }
   if (count == 0) return 0;
-  const double fill = std::min(0.99, needed_plot(sites, demands) / plot);
+  const double fill = std::min(0.99, needed / plot);
   const double mean = std::max(fill, 1e-6) * plot / static_cast<double>(count);
   // Discs overlap the more, the fuller the plot is; the mean share that is not covered is then about 1 - fill.
   const double enlarged = fill > 1e-6 ? -mathematics::logarithm_of_one_more(-fill) / fill : 1;
@@ -56,11 +56,23 @@ void start(const FootprintDiagram& diagram, std::vector<StandingSite>& sites, st
     return s.form == FootprintForm::cell ? s.site.weight != 0 : s.site.weight > 0;
   };
   const bool is_fresh = std::none_of(sites.begin(), sites.end(), has_weight);
+  std::vector<std::uint8_t> had_weight;
+  for (const StandingSite& site : sites) had_weight.push_back(has_weight(site) ? 1 : 0);
+  // Who comes to a place where another one has a footprint does not take it from there.
+  const auto is_taken = [&](const Point3& at) {
+    for (std::size_t j = 0; j < sites.size(); ++j)
+      if (had_weight[j] != 0 && sites[j].site.position.x == at.x && sites[j].site.position.y == at.y) return true;
+    return false;
+  };
   const double equal = is_fresh ? equal_footprint_weight(diagram, sites, demands) : 0;
   for (const FloorDemand& demand : demands)
     for (const std::uint32_t i : demand.sites) {
       if (!(demand.most > 0)) sites[i].site.weight = weight_of_nothing(sites[i], diagram);
       if (has_weight(sites[i]) || !(demand.most > 0)) continue;
+      if (!is_fresh && is_taken(sites[i].site.position)) {
+        sites[i].site.weight = weight_of_nothing(sites[i], diagram);
+        continue;
+      }
       // Newcomers among others start with half of what they need, so that they hide nobody.
       const double own =
           0.5 * demand.least / (std::numbers::pi * std::max(1, sites[i].storeys()) * static_cast<double>(demand.sites.size()));
@@ -102,7 +114,9 @@ class DemandSearch {
 
   // The largest share of all demands that can be met; where there is none, of those that do not stand in the way of all others.
   Result<double> compromise(double most) {
-    auto share = largest_share(most);
+    auto share = share_so_far(most);
+    if (!share || *share > 0) return share;
+    share = largest_share(most);
     for (int k = 0; share && *share == 0 && k < kMostLeftOut && !report_.is_stopped; ++k) {
       if (!newton_.leave_out_worst()) break;
       const auto met = run_again(0);
@@ -113,6 +127,37 @@ class DemandSearch {
   }
 
  private:
+  // Where all have the same share of what they ask for, as after the last search, that share or more; 0 where that is not so.
+  // While somebody drags one of a thousand volumes, the share of all stays what it is.
+  Result<double> share_so_far(double most) {
+    sites_ = starts_.front();
+    if (auto done = newton_.evaluate(); !done) return done.error();
+    const double known = newton_.common_share();
+    if (!(known > 0) || known >= most) return 0.0;
+    std::vector<StandingSite> best = starts_.front();
+    double low = 0, high = most, more = most / kFinestShare;
+    // Upwards by ever larger steps, and by halving between the last two; what is known already is tried last.
+    for (bool is_rising = true; !report_.is_stopped;) {
+      const double next = is_rising ? std::min(most, std::max(low, known) + more) : 0.5 * (low + high);
+      sites_ = best;
+      const auto met = newton_.run(next, steps_);
+      if (!met) return met.error();
+      if (*met) best = sites_;
+      (*met ? low : high) = next;
+      is_rising = is_rising && *met && next < most;
+      more *= 2;
+      if (low == 0 || low >= most || (!is_rising && high - low <= most / kFinestShare)) break;
+    }
+    sites_ = best;
+    if (low > 0) {
+      if (auto done = newton_.evaluate(); !done) return done.error();
+      return low;
+    }
+    const auto met = newton_.run(known, steps_);
+    if (!met) return met.error();
+    return *met ? known : 0;
+  }
+
   Result<double> largest_share(double most) {
     Result<double> share = 0.0;
     for (std::size_t k = 0; k < starts_.size() && !report_.is_stopped; ++k) {
@@ -178,9 +223,15 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
   FootprintNewton newton(diagram, sites, demands, options, report);
   if (auto done = newton.prepare(); !done) return done.error();
   const std::vector<StandingSite> initial = sites;
-  const double needed = needed_plot(sites, demands);
+  double needed = 0;
+  for (std::uint32_t g = 0; g < demands.size(); ++g)
+    if (newton.may_have(g)) needed += needed_plot(sites, demands[g]);
   const double most = !newton.fills_plot() && needed > (1 + 1e-9) * diagram.plot_area() ? diagram.plot_area() / needed : 1;
   Result<bool> met = most < 1 ? Result<bool>(false) : newton.run(1, options.most_steps);
+  while (met && !*met && most == 1 && newton.leave_out_lost()) {
+    sites = initial;
+    met = newton.run(1, options.most_steps);
+  }
   if (!met) return met.error();
   if (newton.fills_plot()) {
     report.factor = newton.factor();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/inside/footprint_maker.h"
+#include "core/geometry/inside/footprint_workshop.h"
 #include "core/geometry/inside/row_system.h"
 
 namespace bl::geometry {
@@ -41,6 +42,7 @@ FootprintNewton::FootprintNewton(FootprintDiagram& diagram, std::vector<Standing
 Result<void> FootprintNewton::prepare() {
   if (auto done = measure(); !done) return done;
   leave_doubled();
+  leave_groundless();
   find_filled();
   return {};
 }
@@ -50,7 +52,12 @@ Result<bool> FootprintNewton::run(double factor, int most_steps) {
   is_stalled_ = false;
   make_room();
   if (auto done = evaluate(); !done) return done.error();
+  began_empty_.assign(demands_.size(), 0);
+  for (std::uint32_t g = 0; g < demands_.size(); ++g) began_empty_[g] = floors_[g] > 0 ? 0 : 1;
   if (auto done = repair(); !done) return done.error();
+  // What has nothing however heavy it is has nothing at any factor.
+  is_stalled_ = has_lost();
+  if (is_stalled_) return false;
   least_ratio_ = 0.5 * std::min(1.0, smallest_ratio());
   int small_steps = 0;
   for (int step = 0; step < most_steps; ++step) {
@@ -102,8 +109,39 @@ bool FootprintNewton::leave_out_worst() {
   }
   // What has half of what it wants is not what stands in the way of all.
   if (worst == kNoDemand || floors_[worst] > 0.5 * demands_[worst].least) return false;
-  is_out_[worst] = kLeftOut;
+  for (std::uint32_t g = 0; g < demands_.size(); ++g)
+    if (g == worst || (counts(g) && demands_[g].least > 0 && !(floors_[g] > 0) && !(floors_[worst] > 0))) is_out_[g] = kLeftOut;
   return true;
+}
+
+bool FootprintNewton::leave_out_lost() {
+  bool is_any = false;
+  for (std::uint32_t g = 0; g < demands_.size(); ++g)
+    if (is_lost(g)) is_out_[g] = kLeftOut, is_any = true;
+  return is_any;
+}
+
+bool FootprintNewton::is_lost(std::uint32_t g) const {
+  return counts(g) && demands_[g].least > 0 && !(floors_[g] > 0) && g < began_empty_.size() && began_empty_[g] != 0;
+}
+
+bool FootprintNewton::has_lost() const {
+  for (std::uint32_t g = 0; g < demands_.size(); ++g)
+    if (is_lost(g)) return true;
+  return false;
+}
+
+double FootprintNewton::common_share() const {
+  constexpr double kOthers = 0.05;
+  const double alike = std::max(1e-3, 2 * options_.tolerance);
+  std::vector<double> shares;
+  for (std::uint32_t g = 0; g < demands_.size(); ++g)
+    if (counts(g) && demands_[g].least > 0) shares.push_back(floors_[g] / demands_[g].least);
+  if (shares.size() < 2) return 0;
+  std::sort(shares.begin(), shares.end());
+  const double middle = shares[shares.size() / 2];
+  const auto others = std::ranges::count_if(shares, [&](double share) { return std::abs(share - middle) > alike * middle; });
+  return static_cast<double>(others) <= kOthers * static_cast<double>(shares.size()) ? middle : 0;
 }
 
 double FootprintNewton::floor_of(std::uint32_t g) const {
@@ -135,12 +173,26 @@ void FootprintNewton::leave_doubled() {
   }
 }
 
+// Within their set-backs the plot has no ground for any of their storeys.
+void FootprintNewton::leave_groundless() {
+  const PlanPlot& plot = diagram_.workshop().plot;
+  const auto has_ground = [&](std::uint32_t i) {
+    return std::ranges::any_of(sites_[i].runs, [&](const StoreyRun& run) {
+      const PlanPlot::Pieces* pieces = plot.made(outer_offset(sites_[i], run).plot);
+      return pieces == nullptr || !pieces->empty();
+    });
+  };
+  for (std::uint32_t g = 0; g < demands_.size(); ++g)
+    if (counts(g) && demands_[g].least > 0 && !(floors_[g] > 0) && std::ranges::none_of(demands_[g].sites, has_ground))
+      is_out_[g] = kLeftOut;
+}
+
 // A form leaves a part of its cell open, and who keeps its weight takes what the others leave. Whole cells alone leave nothing.
 void FootprintNewton::find_filled() {
   fills_plot_ = true;
   for (std::uint32_t i = 0; fills_plot_ && i < sites_.size(); ++i) {
     const std::uint32_t g = demand_of_[i];
-    if (g != kNoDemand && is_out_[g] == kDoubled) continue;
+    if (g != kNoDemand && is_out_[g] != 0) continue;
     fills_plot_ = g != kNoDemand && sites_[i].form == FootprintForm::cell;
   }
 }

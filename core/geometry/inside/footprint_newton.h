@@ -20,7 +20,7 @@ class FootprintNewton {
   FootprintNewton(FootprintDiagram& diagram, std::vector<StandingSite>& sites, std::span<const FloorDemand> demands,
                   const FootprintFitOptions& options, FootprintFit& report);
 
-  /// To be called first, and once: finds the sites in the place of others, which can have nothing.
+  /// To be called first, and once: finds who can have nothing, in the place of others or without any ground within its set-backs.
   Result<void> prepare();
   /// Steps from the weights of the sites until the demands, times `factor`, are met. False: they are not, because no step brings
   /// them nearer (`is_stalled`), or because `most_steps` were not enough.
@@ -37,8 +37,14 @@ class FootprintNewton {
   std::size_t left_out() const { return count_of(kLeftOut); }
   /// Where the demands cannot be met in any share, one of them may need what nobody can give it, such as a set-back that leaves
   /// it a plate only on most of the plot. Takes out the one that has least of what it wants; false: nobody is to be taken out.
+  /// Of those that have nothing all are taken out together.
   bool leave_out_worst();
+  /// Takes out those that had no floor before the last run, and whose sites, made ever heavier, got none. False: there are none.
+  bool leave_out_lost();
+  bool may_have(std::uint32_t demand) const { return is_out_[demand] == 0; }
 
+  /// The share of what they ask for that nearly all demands have, as they do after a compromise; 0 where they differ.
+  double common_share() const;
   double floor_of(std::uint32_t demand) const;
   double error_of(std::uint32_t demand, double factor) const;
 
@@ -50,6 +56,9 @@ class FootprintNewton {
   bool counts(std::uint32_t g) const { return is_out_[g] == 0 && !demands_[g].sites.empty() && demands_[g].most > 0; }
   Result<void> measure();
   void leave_doubled();
+  void leave_groundless();
+  bool is_lost(std::uint32_t g) const;
+  bool has_lost() const;
   void find_filled();
   void make_room();
   double error() const;
@@ -71,7 +80,8 @@ class FootprintNewton {
   const FootprintFitOptions& options_;
   FootprintFit& report_;
   std::vector<std::uint32_t> demand_of_;
-  std::vector<std::uint8_t> is_out_;  // per demand: why it cannot have anything, or 0
+  std::vector<std::uint8_t> is_out_;       // per demand: why it cannot have anything, or 0
+  std::vector<std::uint8_t> began_empty_;  // per demand: had it no floor when the last run began?
   std::vector<double> floors_;
   double factor_ = 1, least_ratio_ = 0;
   double share_ = 1;  // of the last full step, that was taken

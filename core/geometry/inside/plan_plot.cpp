@@ -251,11 +251,13 @@ double area_of(const PlanPolygon& polygon) {
   return 0.5 * twice;
 }
 
-std::vector<PlanPolygon> sections_at(const Domain& domain, double z) {
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z, const PlanPoint& low, const PlanPoint& high) {
   std::vector<PlanPolygon> sections;
-  for (const Domain::Piece& piece : domain.pieces)
-    if (piece.shape.minimum.z <= z && z <= piece.shape.maximum.z)
-      if (PlanPolygon polygon = section_of(piece, z); !polygon.is_empty()) sections.push_back(std::move(polygon));
+  for (const Domain::Piece& piece : domain.pieces) {
+    const Vector3 &least = piece.shape.minimum, &most = piece.shape.maximum;
+    if (least.z > z || most.z < z || least.x > high.x || most.x < low.x || least.y > high.y || most.y < low.y) continue;
+    if (PlanPolygon polygon = section_of(piece, z); !polygon.is_empty()) sections.push_back(std::move(polygon));
+  }
   return sections;
 }
 

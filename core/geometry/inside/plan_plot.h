@@ -22,8 +22,8 @@ struct PlotOffset {
   auto operator<=>(const PlotOffset&) const = default;
 };
 
-/// The section of a domain, as convex polygons.
-std::vector<PlanPolygon> sections_at(const Domain& domain, double z);
+/// The section of a domain, as convex polygons: those that can meet the box from `low` to `high`.
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z, const PlanPoint& low, const PlanPoint& high);
 /// [m²]; negative where the corners are clockwise.
 double area_of(const PlanPolygon& polygon);
 

@@ -87,6 +87,36 @@ TEST(StandingTick, WhoCanHaveNothingTakesNothingFromOthers) {
   }
 }
 
+// The same of five among twenty: within their set-back the plot has no ground, or so little that only the largest part of the
+// plot would do, or they stand 200 m outside it. In each tick the other fifteen have what they want, also after one of them has
+// moved.
+TEST(StandingTick, FiveWhoCanHaveNothingStopNobody) {
+  for (const int why : {0, 1, 2}) {
+    SCOPED_TRACE(why);
+    std::vector<StandingWish> wishes;
+    for (int i = 0; i < 20; ++i)
+      wishes.push_back(wish(FootprintForm::block, {7.2 + 14.4 * (i % 5), 6.0 + 12 * (i / 5), 0}, 3, 360));
+    for (std::size_t i = 0; i < 20; i += 4) {
+      if (why == 2) wishes[i].site.site.position.x += 300;
+      else wishes[i].setback = why == 0 ? 26 : 20;
+    }
+    StandingTick::Cache kept;
+    for (int move = 0; move < 3; ++move) {
+      const auto outcome = run(plot(72, 48), wishes, kept, move == 0 ? 8 : 2);
+      EXPECT_NE(outcome.message.find("5 of the demands can have nothing"), std::string::npos) << outcome.message;
+      for (std::size_t i = 0; i < 20; ++i) {
+        if (i % 4 == 0) {
+          EXPECT_EQ(outcome.results[i].floor_area, 0) << i;
+        } else {
+          EXPECT_NEAR(outcome.results[i].floor_area, 360, 1e-4) << i << ", move " << move;
+        }
+      }
+      EXPECT_EQ(outcome.losses.size(), 5u);
+      wishes[7].site.site.position.x += 0.4;
+    }
+  }
+}
+
 // The boundary reaches from 0 to 20 m: a ground in it counts, one below it is its underside, and a storey is always left.
 TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
   std::vector<StandingWish> wishes;
