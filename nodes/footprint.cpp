@@ -111,7 +111,8 @@ struct Footprint {
         .doc(
             "Greatest depth along walls that touch neighbours or the border of the plot, where it is less than `depth`: such "
             "walls "
-            "have no windows. Without effect where no walls touch.");
+            "have no windows. Without effect where no walls touch. A side of the form that lies behind such a wall still keeps "
+            "`depth`, so that floor areas change without a jump where walls come to touch.");
     t.in(&In::has_party_walls, "party_walls").doc("Set-backs do not hold towards neighbours: their walls touch in all storeys.");
     t.in(&In::has_border_walls, "border_walls")
         .doc("Set-backs do not hold towards the border of the plot either, but for its sides along streets: fire walls.");

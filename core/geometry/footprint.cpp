@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -129,9 +130,14 @@ void FootprintDiagram::Workshop::find_coincident() {
   order.resize(sites.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto place = [this](std::uint32_t i) { return std::pair(sites[i].site.position.x, sites[i].site.position.y); };
+  // A form without a weight has no footprint, and takes none from a cell, whose weight may be below zero.
+  const auto weight = [this](std::uint32_t i) {
+    const double own = sites[i].site.weight;
+    return sites[i].form == FootprintForm::cell || own > 0 ? own : -std::numeric_limits<double>::infinity();
+  };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (place(a) != place(b)) return place(a) < place(b);
-    return sites[a].site.weight != sites[b].site.weight ? sites[a].site.weight > sites[b].site.weight : a < b;
+    return weight(a) != weight(b) ? weight(a) > weight(b) : a < b;
   });
   is_covered.assign(sites.size(), 0);
   for (std::size_t k = 1; k < order.size(); ++k) is_covered[order[k]] = place(order[k]) == place(order[k - 1]) ? 1 : 0;

@@ -12,20 +12,21 @@ namespace bl {
 namespace {
 
 // `count` volumes at random places of a plot of 120 m by 90 m, whose plates need `share` of it.
-std::string crowd(int count, double share, std::uint64_t seed, const std::string& solver = "") {
+std::string crowd(int count, double share, std::uint64_t seed, const std::string& solver = "",
+                  const std::vector<std::string>& forms = {"round", "block"}) {
   Random random(seed);
   std::string text = R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
     {"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[120,0,0],[120,90,0],[0,90,0]], "height": 60}}},
     {"id": "solver", "types": {"standing_solver": {)" +
                      solver + "}}}";
-  const char* forms[] = {"round", "block"};
   for (int i = 0; i < count; ++i) {
     const int storeys = 2 + static_cast<int>(random.uniform(0, 6));
     const double plate = random.uniform(0.5, 1.5) * share * 120 * 90 / count;
     text += R"(,{"id": "v)" + std::to_string(100 + i) + R"(", "position": [)" + shortest(random.uniform(5, 115)) + "," +
             shortest(random.uniform(5, 85)) + R"(, 0], "types": {"smart_volume": {"storey_height": 3, "demand": )" +
-            shortest(3 * storeys * plate) + R"(}, "footprint": {"form": ")" + forms[i % 2] + R"(", "storeys": )" +
-            std::to_string(storeys) + R"(, "full_storeys": 1, "setback": )" + (i % 3 == 0 ? "1" : "0") + "}}}";
+            shortest(3 * storeys * plate) + R"(}, "footprint": {"form": ")" + forms[static_cast<std::size_t>(i) % forms.size()] +
+            R"(", "storeys": )" + std::to_string(storeys) + R"(, "full_storeys": 1, "setback": )" + (i % 3 == 0 ? "1" : "0") +
+            "}}}";
   }
   return text + "]}";
 }
@@ -78,6 +79,37 @@ TEST(StandingSolver, TooMuchIsScaledAndSaid) {
   EXPECT_NE(world.text("solver", "standing_solver.message").find("cannot be met together"), std::string::npos)
       << world.text("solver", "standing_solver.message");
   EXPECT_LE(world.number("solver", "standing_solver.gsi"), 1);
+}
+
+// Whole cells beside other forms take what they ask for, and what nobody asks for stays open. A form that somebody has changed
+// leaves weights from which no step leads on; the message is empty all the same.
+TEST(StandingSolver, WholeCellsBesideOtherFormsAreMet) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    World world = World::from_text(crowd(9, 0.7, seed, R"("tolerance": 1e-6)", {"cell", "block", "cell", "round", "cell"}));
+    const auto expect_all = [&](const std::string& when) {
+      ASSERT_TRUE(world.settle()) << when;
+      EXPECT_EQ(world.text("solver", "standing_solver.message"), "") << seed << ", " << when;
+      EXPECT_LE(world.number("solver", "standing_solver.largest_error"), 1e-6) << seed << ", " << when;
+      EXPECT_LT(world.number("solver", "standing_solver.gsi"), 0.95);
+    };
+    const auto set = [&](const std::string& node, const std::string& port, const std::string& value) {
+      EXPECT_EQ(world.submit(command<SetPort>({.node = node, .port = {port}, .value = {value}})), "");
+    };
+    expect_all("at first");
+    for (const char* form : {"cell", "round", "block"}) {
+      for (const char* node : {"v101", "v103", "v106"}) set(node, "footprint.form", "\"" + std::string(form) + "\"");
+      expect_all("changed to " + std::string(form));
+    }
+    // Storeys enough to cover all the plot, and back.
+    const double demand = world.number("v101", "smart_volume.demand");
+    set("v101", "smart_volume.demand", "90000");
+    ASSERT_TRUE(world.settle());
+    EXPECT_NE(world.text("solver", "standing_solver.message").find("cannot be met together"), std::string::npos)
+        << world.text("solver", "standing_solver.message");
+    EXPECT_EQ(world.text("solver", "standing_solver.message").find(": 0.0 %"), std::string::npos);
+    set("v101", "smart_volume.demand", shortest(demand));
+    expect_all("at last");
+  }
 }
 
 std::string alone(const std::string& footprint) {
