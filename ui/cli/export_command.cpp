@@ -84,7 +84,7 @@ Outcome state_of(const ExportOptions& options, const SceneReading& reading) {
   }
   progress.clear();
   const auto state = (*session)->state();
-  print_line((state->is_settled() ? "settled" : "not settled: " + why_not_settled(*state, before.get())) + ", tick " +
+  print_line((state->is_settled() ? "settled" : "not settled: " + why_not_settled(*state, before.get(), watch)) + ", tick " +
              std::to_string(state->tick));
   return {state, state->is_settled()};
 }

@@ -133,7 +133,6 @@ class Run {
     const long long most = is_settling           ? options_.max_ticks
                            : options_.ticks >= 0 ? options_.ticks
                                                  : std::numeric_limits<long long>::max();
-    SettleWatch watch;
     Progress progress;
     if (is_settling && session_->state()->is_settled() && options_.set.empty()) return;
     for (long long done = 0; done < most && !is_interrupted(); ++done) {
@@ -150,7 +149,7 @@ class Run {
       live_.wait(*session_);
       done += rest(most - done - 1, progress);
       if (!is_settling) continue;
-      if (state->is_settled() || watch.is_hopeless(*state)) return;
+      if (state->is_settled() || watch_.is_hopeless(*state)) return;
     }
   }
 
@@ -174,7 +173,7 @@ class Run {
     if (state.is_settled())
       return stopped + "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
              fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash) + rules_broken(state);
-    return "not settled: " + stopped + why_not_settled(state, before_.get());
+    return "not settled: " + stopped + why_not_settled(state, before_.get(), watch_);
   }
 
   bool write(const std::string& file, const Result<void>& written) { return written ? true : fail(file, written.error()); }
@@ -218,6 +217,7 @@ class Run {
   LiveRun live_;
   std::unique_ptr<Session> session_;
   std::shared_ptr<const State> before_;
+  SettleWatch watch_;
   LogWriter log_;
   std::vector<reading::ErrorSample> history_;
 };

@@ -67,13 +67,47 @@ bool SettleWatch::is_hopeless(const State& state) {
   const bool is_better = best_error_ < 0 || state.largest_residual < 0.99 * best_error_;
   if (is_better) best_error_ = state.largest_residual;
   // Errors within the tolerance need no progress: the calm ticks are being counted.
-  if (!is_calm || is_better || state.calm > 0) idle_ = 0;
-  else ++idle_;
+  if (!is_calm || is_better || state.calm > 0) {
+    idle_ = 0;
+    unkept_.clear();
+    heights_.clear();
+  } else {
+    ++idle_;
+    note(state);
+  }
   if (idle_ >= kLongPatience) return true;
   return idle_ >= kPatience && (!reading::solver_message(state).empty() || has_failure(state));
 }
 
-std::string why_not_settled(const State& state, const State* before) {
+void SettleWatch::note(const State& state) {
+  for (std::uint32_t l = 0; l < state.links.size(); ++l)
+    if (is_at_work(state, l)) unkept_[l] = state.links[l].work->message;
+  for (const auto& [node, footprint] : reading::rows<reading::StoreyFigures>(state)) {
+    const auto [found, is_new] = heights_.try_emplace(node, footprint.storeys_built, footprint.storeys_built);
+    found->second = {std::min(found->second.first, footprint.storeys_built),
+                     std::max(found->second.second, footprint.storeys_built)};
+  }
+}
+
+std::string SettleWatch::to_and_fro(const State& state) const {
+  if (idle_ < kLongPatience || unkept_.empty()) return "";
+  constexpr std::size_t kMostNamed = 3;
+  std::string text = "nothing has become better for " + std::to_string(idle_) + " ticks, in which ";
+  std::size_t named = 0;
+  for (const auto& [node, storeys] : heights_)
+    if (storeys.first != storeys.second && named++ < kMostNamed)
+      text += (named == 1 ? "`" : "; `") + state.plan->nodes[node].id + "` had now " + std::to_string(storeys.first) + ", now " +
+              std::to_string(storeys.second) + " storeys";
+  if (named > kMostNamed) text += " and " + std::to_string(named - kMostNamed) + " more likewise";
+  text += std::string(named > 0 ? ", and " : "") + "the rules of these links were not kept at once: ";
+  named = 0;
+  for (const auto& [link, what] : unkept_)
+    if (named++ < kMostNamed) text += (named == 1 ? "`" : "; `") + state.plan->links[link].id + "` (" + what + ")";
+  if (named > kMostNamed) text += " and " + std::to_string(named - kMostNamed) + " more";
+  return text + (named > 1 ? "; loosen one of them" : "; loosen it");
+}
+
+std::string why_not_settled(const State& state, const State* before, const SettleWatch& watch) {
   // A collapse comes before what follows from it.
   if (const auto collapsed = reading::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
   if (const std::string message = reading::solver_message(state); !message.empty())
@@ -85,6 +119,7 @@ std::string why_not_settled(const State& state, const State* before) {
   const bool has_worst = worst != volumes.end() && worst->figures.error > settings.tolerance;
   if (const auto problem = first_failure(state)) return problem->text() + (has_worst ? "; " + of_worst(state, *worst) : "");
   if (has_worst) return of_worst(state, *worst) + of_greedy(state);
+  if (const std::string turns = watch.to_and_fro(state); !turns.empty()) return turns;
   if (const auto work = first_work(state)) return work->text() + "; this is still being worked on";
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {
