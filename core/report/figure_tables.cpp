@@ -108,12 +108,32 @@ std::vector<const FigureColumn*> page_columns(const State& state, const FigureTa
   return columns;
 }
 
+// What all nodes of many say of themselves, where it is the same, such as streets of which no network takes care; else empty.
+std::string common_remark(const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
+  constexpr std::size_t kMany = 6;
+  const auto column =
+      std::find_if(table.columns.begin(), table.columns.end(), [](const FigureColumn& c) { return c.heading == "Remark"; });
+  if (nodes.size() < kMany || column == table.columns.end()) return "";
+  const auto said = [&](std::uint32_t node) {
+    const Value* value = nullptr;
+    const PortDefinition* port = port_of(state, node, table.type, column->port, value);
+    return port == nullptr ? std::string() : figure_text(*value, *port, false);
+  };
+  const std::string first = said(nodes.front());
+  return std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) { return said(node) == first; }) ? first : "";
+}
+
 void write_one(drawing::Markup& page, const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
   constexpr std::size_t kMostRows = 300;
   const std::vector<const FigureColumn*> columns = page_columns(state, table, nodes);
   if (columns.empty()) return;
   const std::string heading(table.heading);
   page.element("h2", heading, {{"id", std::string(table.id)}});
+  if (const std::string remark = common_remark(state, table, nodes); !remark.empty()) {
+    page.element("p",
+                 "All " + std::to_string(nodes.size()) + ": " + remark + ". The rows are in " + std::string(table.id) + ".csv.");
+    return;
+  }
   page.open("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", heading}, {"tabindex", "0"}}).open("table");
   std::string caption(table.caption);
   if (nodes.size() > kMostRows)

@@ -114,6 +114,22 @@ TEST_F(UrbanReport, EveryTableHasItsRowsInAllForms) {
   EXPECT_NE(page.find("Conflicts by link and person"), std::string::npos);
 }
 
+TEST(FigureTables, WhatAllOfManySayIsSaidOnce) {
+  std::string nodes = R"({"id": "j0", "types": {"junction": {}}})";
+  for (int k = 1; k < 9; ++k) {
+    const std::string here = std::to_string(k), before = std::to_string(k - 1);
+    nodes += R"(, {"id": "j)" + here + R"(", "position": [)" + here + R"(, 0, 0], "types": {"junction": {}}})";
+    nodes += R"(, {"id": "s)" + here + R"(", "types": {"street": {"start": "j)" + before + R"(", "end": "j)" + here + R"("}}})";
+  }
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + nodes + R"(], "links": []})");
+  world.tick();
+  drawing::Markup page;
+  write_figure_tables(page, world.state());
+  EXPECT_NE(page.str().find("All 8: no traffic network takes care of it, or its network fails. The rows are in streets.csv."),
+            std::string::npos)
+      << page.str();
+}
+
 TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {
   const State& state = world_->state();
   const reading::Surroundings surroundings = reading::read_surroundings(state);
