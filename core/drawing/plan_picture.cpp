@@ -210,10 +210,16 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const reading::ReportModel& m
     svg.path(path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.7"}, {"stroke-linejoin", "round"}});
 }
 
-void draw_links(Markup& svg, const State& state, const Sheet& sheet, const DrawnLinks& links) {
+// Of a volume, where it is; of another node, its position.
+Point3 place_in(const State& state, const reading::ReportModel& model, std::uint32_t node) {
+  const auto row =
+      std::find_if(model.volumes.begin(), model.volumes.end(), [&](const reading::VolumeRow& v) { return v.node == node; });
+  return row != model.volumes.end() ? row->place : reading::read<&reading::NodePlace::position>(state, node);
+}
+
+void draw_links(Markup& svg, const State& state, const Sheet& sheet, const reading::ReportModel& model, const DrawnLinks& links) {
   for (const DrawnLink& link : links.lines) {
-    const Pixel a = sheet.at(reading::read<&reading::NodePlace::position>(state, link.from)),
-                b = sheet.at(reading::read<&reading::NodePlace::position>(state, link.to));
+    const Pixel a = sheet.at(place_in(state, model, link.from)), b = sheet.at(place_in(state, model, link.to));
     // Bent to one side, so that links of two families between the same nodes stay apart.
     const double bend = 0.07 + 0.05 * static_cast<double>(link.ink->label.size() % 3);
     const Pixel middle{(a.x + b.x) / 2 - (b.y - a.y) * bend, (a.y + b.y) / 2 + (b.x - a.x) * bend};
@@ -235,7 +241,7 @@ void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const r
   for (const DrawnLink& link : links.lines) nodes.insert({link.from, link.to});
   for (const reading::VolumeRow& volume : model.volumes) nodes.insert(volume.node);
   for (const std::uint32_t node : nodes) {
-    const Pixel at = sheet.at(reading::read<&reading::NodePlace::position>(state, node));
+    const Pixel at = sheet.at(place_in(state, model, node));
     const auto row =
         std::find_if(model.volumes.begin(), model.volumes.end(), [&](const reading::VolumeRow& v) { return v.node == node; });
     const bool has_shape = row != model.volumes.end() && row->mesh != nullptr;
@@ -275,7 +281,7 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const reading::ReportMod
   if (model.volumes.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   std::vector<Label> labels;
   for (const reading::VolumeRow* volume : by_size(model)) {
-    Label label{sheet.at(volume->figures.position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
+    Label label{sheet.at(volume->place), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
     label.second += volume->mesh ? " \xC2\xB7 " + reading::quantity(volume->figures.height, Unit::metre) + " high"
                                  : " \xC2\xB7 " + volume->figures.state;
     // Below the dot of the position, not on it.
@@ -293,7 +299,7 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const reading::ReportMod
 std::string caption_of(const reading::ReportModel& model, const DrawnLinks& links, double step, double cut) {
   std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " +
                         reading::readable(kEyeHeight) + " m above the ground (height " + reading::readable(cut) +
-                        " m). Dots are positions, grid " + figure_of(step) + " m.";
+                        " m). Dots are places of volumes and other nodes, grid " + figure_of(step) + " m.";
   if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const reading::VolumeRow& v) { return !v.mesh; }))
     caption += " Hollow dots are volumes without a shape.";
   if (!links.families.empty()) caption += " Links of demand are not drawn.";
@@ -340,7 +346,7 @@ Picture draw_plan(const State& state, const reading::ReportModel& model, const P
   draw_streets_and_buildings(svg, sheet, surroundings);
   svg.close();
   draw_volumes(svg, sheet, model, palette, cut);
-  draw_links(svg, state, sheet, links);
+  draw_links(svg, state, sheet, model, links);
   draw_positions(svg, state, sheet, model, links);
   const std::string missing = label_plan(svg, sheet, model, surroundings, palette, bottom);
   draw_scale_bar(svg, sheet.scale(), {kFrame, sheet.height() + 18}, 170);

@@ -32,6 +32,7 @@ struct Building {
   std::string id, label, use;
   drawing::Colour colour;    ///< of its use
   Point3 position;           ///< [m]
+  Point3 place;              ///< of its ground, at the position or nearest to it [m]
   Point3 arc_centre;         ///< of all arcs of a standing volume [m]
   bool is_standing = false;  ///< whole storeys on a footprint; else a rounded volume, cut at the middle of each storey
   double asked_area = 0, floor_area = 0;  ///< [m²]

@@ -87,6 +87,7 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   building.use = volume.use;
   building.colour = palette.colour(volume.use);
   building.position = volume.figures.position;
+  building.place = volume.place;
   building.asked_area = volume.asked_area;
   building.floor_area = volume.floor_area;
   building.asked_volume = volume.asked;

@@ -30,6 +30,9 @@ VolumeRow read_volume(const State& state, const VolumeAccount& account, bool wit
   static_cast<VolumeAccount&>(row) = account;
   row.id = state.plan->nodes[account.node].id;
   row.name = state.plan->nodes[account.node].name;
+  row.place = account.figures.position;
+  if (const auto standing = row_of<PlotStanding>(state, account.node); standing && account.figures.footprint > 0)
+    row.place = {standing->stands_at.x, standing->stands_at.y, row.place.z};
   if (!with_shape) return row;
   row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;

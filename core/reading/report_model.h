@@ -21,7 +21,8 @@ struct VolumeRow : VolumeAccount {
   MeshPointer mesh;             ///< none where there is no shape
   ExactShape exact;             ///< radius 0 where only the mesh is known
   geometry::StandingBody body;  ///< its plates where it stands, else without stacks
-  std::size_t group = 0;        ///< volumes of one solver stand together
+  Point3 place;           ///< its position; of one that stands and has none of its ground there, the nearest place that it has
+  std::size_t group = 0;  ///< volumes of one solver stand together
 
   /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
   double error() const { return limited > 0 ? (volume - limited) / limited : 0; }

@@ -64,7 +64,7 @@ struct CsvFormat {
     std::vector<Row> rows;
     const auto add_building = [&](const Building& b, const char* form, csv::CsvCell drawn) {
       rows.push_back({"building", b.id, b.label, b.use, form, b.storeys.size(), b.bottom, b.top, b.floor_area, std::move(drawn),
-                      b.asked_area, b.volume, b.asked_volume, b.footprint, b.position.x, b.position.y});
+                      b.asked_area, b.volume, b.asked_volume, b.footprint, b.place.x, b.place.y});
     };
     for (const Building& b : proposal.buildings) {
       const char* form = b.is_standing ? "standing" : "rounded";
