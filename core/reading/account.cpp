@@ -7,6 +7,7 @@
 
 #include "core/demand/brief_sums.h"
 #include "core/reading/figures.h"
+#include "core/reading/storeys.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/programme.h"
 
@@ -317,7 +318,16 @@ std::string why_short(const State& state, const Accounts& accounts, const UseAcc
   if (unasked > accounts.tolerance * use.asked && use.limited >= (1 - accounts.tolerance) * (use.asked - unasked))
     return "its volumes ask for " + quantity(unasked, Unit::cubic_metre) +
            " less than the brief: other proposals change their demands, or no demand link connects the brief to them";
-  return causes_of(use, limiters, accounts.tolerance);
+  std::size_t lacking = 0, full = 0;
+  for (const VolumeAccount& volume : accounts.volumes)
+    if (volume.use == use.use && volume.is_short(accounts.tolerance)) {
+      ++lacking;
+      full += has_all_storeys(state, volume.node) ? 1 : 0;
+    }
+  // Storeys are a wish of people, which no link raises: the ground alone is negotiated.
+  return causes_of(use, limiters, accounts.tolerance) +
+         (lacking > 0 && full == lacking ? "; all that lack it have the storeys that they wish: higher `storeys` need less ground"
+                                         : "");
 }
 
 }  // namespace bl::reading

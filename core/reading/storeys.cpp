@@ -71,4 +71,9 @@ std::string why_lower(const State& state, std::uint32_t node) {
   return had + holders_of(state, *limit) + " leaves " + fixed(figures->height_limit, 2) + " m";
 }
 
+bool has_all_storeys(const State& state, std::uint32_t node) {
+  const auto figures = held_storeys(state, node);
+  return figures && figures->storeys_built > 0 && figures->storeys_built >= figures->storeys;
+}
+
 }  // namespace bl::reading

@@ -25,4 +25,7 @@ bool has_effect(const State& state, PortRef ref);
 /// "6 of 8 storeys: link `sun` (Solar right) leaves 19.90 m"; empty for a volume that has its storeys, or that does not stand.
 std::string why_lower(const State& state, std::uint32_t node);
 
+/// Has the volume all the storeys that it wishes, so that only its footprint can give it more? False for one that does not stand.
+bool has_all_storeys(const State& state, std::uint32_t node);
+
 }  // namespace bl::reading
