@@ -223,18 +223,6 @@ void stand(const geometry::StandingBody& body, Building& building) {
   if (!building.storeys.empty()) building.outline = building.storeys.front().faces;
 }
 
-double area_of(const PlateFace& face) {
-  double area = std::abs(geometry::signed_area(face.outer));
-  for (const Ring& hole : face.holes) area -= std::abs(geometry::signed_area(hole));
-  return area;
-}
-
-double area_of(const std::vector<PlateFace>& faces) {
-  double area = 0;
-  for (const PlateFace& face : faces) area += area_of(face);
-  return area;
-}
-
 std::vector<PlateFace> faces_of_rings(std::vector<Ring> rings) {
   std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3 || geometry::signed_area(ring) == 0; });
   for (Ring& ring : rings)

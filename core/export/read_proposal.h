@@ -27,8 +27,4 @@ void number_levels(Proposal& proposal);
 /// Rings that may turn either way, as faces with holes by the even-odd rule; rings of less than three corners are left out.
 std::vector<geometry::PlateFace> faces_of_rings(std::vector<geometry::Ring> rings);
 
-/// The area of a face without its holes [m²].
-double area_of(const geometry::PlateFace& face);
-double area_of(const std::vector<geometry::PlateFace>& faces);
-
 }  // namespace bl::exporting

@@ -184,6 +184,15 @@ double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyon
   return sum;
 }
 
+double area_of(std::span<const PlateFace> faces) {
+  double area = 0;
+  for (const PlateFace& face : faces) {
+    area += std::abs(signed_area(face.outer));
+    for (const Ring& hole : face.holes) area -= std::abs(signed_area(hole));
+  }
+  return area;
+}
+
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance) {
   std::vector<PlateFace> faces;
   std::vector<Ring> holes;

@@ -53,6 +53,8 @@ struct PlateFace {
   Ring outer;               ///< counter-clockwise
   std::vector<Ring> holes;  ///< clockwise
 };
+/// The area of parts without their holes, whichever way their rings turn [m²].
+double area_of(std::span<const PlateFace> faces);
 /// The parts of a plate, with arcs as chords that stay within `tolerance` of them [m].
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance);
 /// The ring with its arcs as chords that stay within `tolerance` of them [m].

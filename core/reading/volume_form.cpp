@@ -150,31 +150,22 @@ void pile_up(FormedVolume& made, bool with_body) {
   if (with_body) made.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
-// Of its drawing: the floor area of the highest storey counts what is left above it, or is a share of its plate.
-double plate_area(const FormedStorey& storey) {
-  double area = 0;
-  for (const geometry::PlateFace& face : storey.faces) {
-    area += geometry::signed_area(face.outer);
-    for (const geometry::Ring& hole : face.holes) area += geometry::signed_area(hole);
-  }
-  return area;
-}
-
 FormedVolume as_slabs(const FormSource& source, bool with_body) {
   FormedVolume made;
   made.storeys = source.storeys;
   pile_up(made, with_body);
   made.volume = 0;
-  for (const FormedStorey& storey : made.storeys) made.volume += plate_area(storey) * (storey.top - storey.bottom);
+  // Of their drawing: the floor area of the highest storey counts what is left above it, or is a share of its plate.
+  for (const FormedStorey& storey : made.storeys) made.volume += geometry::area_of(storey.faces) * (storey.top - storey.bottom);
   return made;
 }
 
 FormedVolume as_standing(const FormSource& source, bool with_body) {
   FormedVolume made;
-  const auto largest =
-      std::max_element(source.storeys.begin(), source.storeys.end(),
-                       [](const FormedStorey& a, const FormedStorey& b) { return plate_area(a) < plate_area(b); });
-  const double plate = largest == source.storeys.end() ? 0 : plate_area(*largest);
+  const auto largest = std::max_element(
+      source.storeys.begin(), source.storeys.end(),
+      [](const FormedStorey& a, const FormedStorey& b) { return geometry::area_of(a.faces) < geometry::area_of(b.faces); });
+  const double plate = largest == source.storeys.end() ? 0 : geometry::area_of(largest->faces);
   if (!(plate > 0)) return made;
   const double filled = source.volume / (plate * source.storey_height);
   const int count = static_cast<int>(std::clamp(std::round(filled), 1.0, 5000.0));
