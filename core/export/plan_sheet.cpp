@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
 #include "core/export/section.h"
@@ -19,9 +20,10 @@ namespace {
 
 class PlanMaker : SheetFrame {
  public:
-  PlanMaker(const Proposal& proposal, int level, const SheetOptions& options) : SheetFrame(proposal, options) {
-    sheet_.level = level;
-    sheet_.title = proposal.name() + ", level " + std::to_string(level);
+  PlanMaker(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options)
+      : SheetFrame(proposal, options), level_(level) {
+    sheet_.level = level.number;
+    sheet_.title = proposal.name() + ", " + level.name();
   }
   /// What a plane at that height cuts [m].
   PlanMaker(const Proposal& proposal, double height, const SheetOptions& options)
@@ -63,12 +65,15 @@ class PlanMaker : SheetFrame {
   }
 
   void add_level_title() {
-    double area = 0;
+    const std::string area = fixed(level_.area, 1) + " m²";
+    const int last = level_.is_cellar() ? cellar_levels(proposal_) : proposal_.levels - 1;
+    double cellars = 0;
     for (const Building& b : proposal_.buildings)
-      for (const Storey& s : b.storeys) area += s.level == sheet_.level ? s.floor_area : 0;
-    add_title("Level " + std::to_string(sheet_.level) + " of " + std::to_string(proposal_.levels - 1) + ", from " +
-                  fixed(proposal_.ground + sheet_.level * proposal_.level_height, 2) + " m",
-              "Floor area of this level " + fixed(area, 1) + " m², of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
+      for (const Storey& s : b.cellars) cellars += s.floor_area;
+    add_title(level_.name() + " of " + std::to_string(last) + ", " + level_.heights(),
+              level_.is_cellar()
+                  ? "Area of this cellar " + area + ", of all cellars " + fixed(cellars, 1) + " m², no part of the floor area"
+                  : "Floor area of this level " + area + ", of all levels " + fixed(proposal_.all.floor_area, 1) + " m²");
   }
 
   void add_cut_title() {
@@ -146,9 +151,11 @@ class PlanMaker : SheetFrame {
         add_cut(b, uses[proposal_.use_number(b.use)], labels);
         continue;
       }
-      const auto own = std::find_if(b.storeys.begin(), b.storeys.end(), [&](const Storey& s) { return s.level == sheet_.level; });
-      if (own == b.storeys.end()) {
-        if (const Storey* storey = passing(b, cut)) {
+      const Storey* own = nullptr;
+      for (const Storey* storey : drawn_storeys(b))
+        if (storey->level == sheet_.level) own = storey;
+      if (own == nullptr) {
+        if (const Storey* storey = level_.is_cellar() ? nullptr : passing(b, cut)) {
           passed.shapes.push_back(shape_of(storey->faces, b.label));
           passed.shapes.back().stroke = kGrey;
           passed.shapes.back().is_filled = true;
@@ -162,7 +169,7 @@ class PlanMaker : SheetFrame {
       shape.fill = b.colour;
       shape.width = 0.35;
       uses[proposal_.use_number(b.use)].shapes.push_back(std::move(shape));
-      own_labels.emplace_back(&b, &*own);
+      own_labels.emplace_back(&b, own);
     }
     if (options_.labels) {
       // Where two would cross, the larger storey keeps its words; those of other levels come last.
@@ -245,7 +252,8 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(group));
   }
 
-  std::optional<double> height_;                // of a level cut [m]; none: the sheet shows a level
+  std::optional<double> height_;  // of a level cut [m]; none: the sheet shows a level
+  DrawnLevel level_;
   static constexpr double kTwoLines = 2.4;      // high, as a share of the size of their letters
   std::vector<std::array<double, 4>> written_;  // what labels cover: left, top, right and bottom [mm]
 };
@@ -256,7 +264,7 @@ Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const
   return PlanMaker(proposal, height, options).make();
 }
 
-Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options) {
+Result<PlanSheet> plan_sheet(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options) {
   return PlanMaker(proposal, level, options).make();
 }
 

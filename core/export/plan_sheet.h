@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/define/port_builder.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/forms.h"
 #include "core/export/proposal_model.h"
 
@@ -65,7 +66,7 @@ struct SheetOptions : FormOptions {
 };
 
 /// Fails where the scale does not fit on the paper; the sentence names one that does.
-Result<PlanSheet> plan_sheet(const Proposal& proposal, int level, const SheetOptions& options);
+Result<PlanSheet> plan_sheet(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options);
 /// The plan that a level plane at a height cuts [m above the origin]. Fails as above.
 Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const SheetOptions& options);
 /// The cut along the line or at the height that the options name. Fails as above, and on what is neither.

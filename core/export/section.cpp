@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/text.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/plan_places.h"
 #include "core/export/read_proposal.h"
 #include "core/geometry/mesh_lines.h"
@@ -117,6 +118,16 @@ void cut_standing(const SectionFrame& frame, const Building& building, SectionPa
   }
 }
 
+// Below the ground, where nothing is seen of what is not cut.
+void cut_cellars(const SectionFrame& frame, const Building& building, SectionPart& part) {
+  for (const Storey& storey : building.cellars) {
+    const std::vector<double> ends = frame.crossings(storey.faces);
+    add_rectangles(ends, storey.bottom, storey.top, part.cellars);
+    add_rectangles(ends, storey.bottom - kSectionSlab, storey.bottom, part.slabs);
+    add_rectangles(ends, storey.top - kSectionSlab, storey.top, part.slabs);
+  }
+}
+
 // Any other shape: the cut through its mesh, floors in it, and the hull of what is behind.
 void cut_rounded(const SectionFrame& frame, const Building& building, SectionPart& part) {
   for (const geometry::Polyline& line : frame.cut(*building.mesh))
@@ -137,13 +148,13 @@ void add_buildings(const SectionFrame& frame, const Proposal& proposal, Section&
     part.building = &building;
     if (building.is_standing) cut_standing(frame, building, part);
     else cut_rounded(frame, building, part);
-    if (!part.cut.empty()) {
-      for (const Storey& storey : building.storeys)
-        for (const double height : {storey.bottom, storey.top}) made.heights.push_back(height);
-    } else {
-      part.distance = distance_of(frame, building.outline);
+    cut_cellars(frame, building, part);
+    for (const Storey* storey : drawn_storeys(building)) {
+      const bool is_cut = storey->number < 0 ? !part.cellars.empty() : !part.cut.empty();
+      if (is_cut) made.heights.insert(made.heights.end(), {storey->bottom, storey->top});
     }
-    if (!part.cut.empty() || !part.beyond.empty()) made.parts.push_back(std::move(part));
+    if (part.cut.empty() && part.cellars.empty()) part.distance = distance_of(frame, building.outline);
+    if (!part.cut.empty() || !part.cellars.empty() || !part.beyond.empty()) made.parts.push_back(std::move(part));
   }
   std::sort(made.heights.begin(), made.heights.end());
   const auto is_one = [](double a, double b) { return b - a < kOneHeight; };
@@ -188,7 +199,7 @@ void measure(const SectionFrame& frame, const Proposal& proposal, Section& made)
   for (const Land& land : proposal.lands) take(land.faces);
   for (const Building& building : proposal.buildings) {
     take(building.outline);
-    made.low.y = std::min(made.low.y, building.bottom);
+    made.low.y = std::min(made.low.y, building.cellars.empty() ? building.bottom : building.cellars.back().bottom);
     made.high.y = std::max(made.high.y, building.top);
   }
 }
@@ -202,10 +213,10 @@ std::optional<double> level_cut(const std::string& text) {
 
 LevelPart level_part(const Building& building, double height) {
   LevelPart part;
-  for (const Storey& storey : building.storeys)
-    if (storey.bottom <= height && height < storey.top) part.storey = &storey;
+  for (const Storey* storey : drawn_storeys(building))
+    if (storey->bottom <= height && height < storey->top) part.storey = storey;
   if (part.storey == nullptr) return part;
-  if (building.is_standing) {
+  if (building.is_standing || part.storey->number < 0) {
     part.faces = part.storey->faces;
     return part;
   }

@@ -26,6 +26,7 @@ std::optional<double> level_cut(const std::string& text);
 struct SectionPart {
   const Building* building = nullptr;      ///< none for what stands already
   std::vector<geometry::Ring> cut, slabs;  ///< what is cut, by the even-odd rule, and floors and roofs in it
+  std::vector<geometry::Ring> cellars;     ///< what is cut of it below the ground; their floors are among `slabs`
   std::vector<geometry::Ring> beyond;      ///< outlines of what stands behind the cut
   double distance = 0;                     ///< of its nearest place from the cut, 0 where it is cut [m]
 };
@@ -48,7 +49,7 @@ struct LevelPart {
   const Storey* storey = nullptr;  ///< that it goes through; none: the plane misses the building
   std::vector<geometry::PlateFace> faces;
 };
-/// A standing volume has the plate of that storey; of a rounded one the mesh is cut at just that height.
+/// A standing volume and a cellar have the plate of that storey; of a rounded one the mesh is cut at just that height.
 LevelPart level_part(const Building& building, double height);
 
 }  // namespace bl::exporting

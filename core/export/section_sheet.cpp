@@ -85,8 +85,8 @@ class SectionMaker : SheetFrame {
   }
 
   void add_cuts() {
-    SheetGroup cut{"cut", "What is cut", true, {}, {}}, slabs{"slabs", "Floors and roofs", true, {}, {}},
-        labels{"labels", "Labels", true, {}, {}};
+    SheetGroup cellars{"cellars", "Cellars that are cut", true, {}, {}}, cut{"cut", "What is cut", true, {}, {}},
+        slabs{"slabs", "Floors and roofs", true, {}, {}}, labels{"labels", "Labels", true, {}, {}};
     for (const SectionPart& part : section_.parts) {
       for (const geometry::Ring& ring : part.cut) {
         SheetShape shape = shape_of({ring}, part.building ? part.building->label : "Existing building");
@@ -95,6 +95,14 @@ class SectionMaker : SheetFrame {
         shape.stroke = part.building ? drawing::kInk : kGrey;
         shape.width = part.building ? 0.35 : 0.13;
         cut.shapes.push_back(std::move(shape));
+      }
+      // Paler, since it is no floor area.
+      for (const geometry::Ring& ring : part.cellars) {
+        SheetShape shape = shape_of({ring}, part.building->label + ", cellar");
+        shape.is_filled = true;
+        shape.fill = drawing::mix(part.building->colour, drawing::kWhite, 0.55);
+        shape.width = 0.35;
+        cellars.shapes.push_back(std::move(shape));
       }
       for (const geometry::Ring& ring : part.slabs) {
         SheetShape shape = shape_of({ring}, "");
@@ -105,7 +113,7 @@ class SectionMaker : SheetFrame {
       }
       if (options_.labels && part.building && !part.cut.empty()) add_label(part, labels);
     }
-    for (SheetGroup* group : {&cut, &slabs, &labels}) sheet_.groups.push_back(std::move(*group));
+    for (SheetGroup* group : {&cellars, &cut, &slabs, &labels}) sheet_.groups.push_back(std::move(*group));
   }
 
   // Above the roof, where it does not reach beyond the building.
@@ -120,27 +128,27 @@ class SectionMaker : SheetFrame {
     if (size >= 1.2) labels.texts.push_back({{middle.x, middle.y - 1.2}, size, SheetAnchor::middle, true, name});
   }
 
-  // As far apart as they can be read; the ground and the highest one always.
+  // As far apart as they can be read: the highest, that of the ground and the lowest before all others.
   void add_heights() {
     SheetGroup group{"heights", "Heights in metres above the origin", true, {}, {}};
     constexpr double kApart = 3.2;  // [mm]
     const double x = at(section_.low).x - kGap;
     std::vector<double> heights = section_.heights;
     if (heights.empty()) heights = {section_.low.y, section_.high.y};
-    double last = 1e20;
-    for (std::size_t k = 0; k < heights.size(); ++k) {
-      const double y = at({0, heights[k], 0}).y;
-      const double highest = at({0, heights.back(), 0}).y;
-      const bool is_end = k == 0 || k + 1 == heights.size();
-      if (!is_end && (last - y < kApart || y - highest < kApart)) continue;
-      last = y;
+    const auto on_ground = std::find_if(heights.begin(), heights.end(), [&](double h) { return h >= proposal_.ground - 0.01; });
+    std::vector<double> ranked{heights.back(), on_ground == heights.end() ? heights.front() : *on_ground, heights.front()};
+    ranked.insert(ranked.end(), heights.begin(), heights.end());
+    std::vector<double> written;  // [mm]
+    for (const double height : ranked) {
+      const double y = at({0, height, 0}).y;
+      if (std::any_of(written.begin(), written.end(), [&](double other) { return std::abs(other - y) < kApart; })) continue;
+      written.push_back(y);
       SheetShape tick;
       tick.is_closed = false;
       tick.width = 0.13;
       tick.lines = {{{x - 2, y}, {x + 2, y}}};
       group.shapes.push_back(std::move(tick));
-      group.texts.push_back(
-          {{x - 3, y + 0.8}, 2.2, SheetAnchor::end, false, (heights[k] >= 0 ? "+" : "") + fixed(heights[k], 2)});
+      group.texts.push_back({{x - 3, y + 0.8}, 2.2, SheetAnchor::end, false, (height >= 0 ? "+" : "") + fixed(height, 2)});
     }
     SheetShape axis;
     axis.is_closed = false;

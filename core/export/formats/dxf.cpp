@@ -6,6 +6,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/dxf_drawing.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
@@ -32,13 +33,15 @@ struct DxfFormat {
     f.doc(
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
-        "layer such as L02-HOUSING: level and use. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
+        "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Arcs are arcs. Plots, "
+        "the boundary, existing buildings, streets, texts, "
         "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
         "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
-    f.option(&Options::storeys, "storeys",
-             {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
-              {DxfArrangement::beside, "beside", "Levels side by side, the lowest at its true place."}})
+    f.option(
+         &Options::storeys, "storeys",
+         {{DxfArrangement::stacked, "stacked", "All storeys at their true place, one above another."},
+          {DxfArrangement::beside, "beside", "Levels side by side, the ground floor at its true place and cellars to its left."}})
         .doc("How the storeys lie.");
     f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
     f.option(&Options::section, "section")
@@ -165,6 +168,7 @@ struct DxfFormat {
       const Vector3 way = (cut->to - cut->from) / distance(cut->from, cut->to);
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{{"SECTION-LINE", 6},
                                                                                            {"SECTION-CUT", 5},
+                                                                                           {"SECTION-CELLAR", 151},
                                                                                            {"SECTION-SLAB", 7},
                                                                                            {"SECTION-BEYOND", 8},
                                                                                            {"SECTION-GROUND", 34},
@@ -181,6 +185,7 @@ struct DxfFormat {
       for (const SectionPart& part : made.parts) {
         rings(part.building ? "SECTION-BEYOND" : "SECTION-EXISTING", part.beyond);
         rings(part.building ? "SECTION-CUT" : "SECTION-EXISTING", part.cut);
+        rings("SECTION-CELLAR", part.cellars);
         rings("SECTION-SLAB", part.slabs);
       }
       for (const auto& line : made.grounds)
@@ -201,8 +206,7 @@ struct DxfFormat {
       if (options.surroundings) surroundings();
       for (const Building& b : proposal.buildings) {
         const std::size_t use = proposal.use_number(b.use);
-        for (const Storey& s : b.storeys) storey(b, s, colour_of(use));
-        for (const Storey& s : b.cellars) storey(b, s, colour_of(use));
+        for (const Storey* s : drawn_storeys(b)) storey(b, *s, colour_of(use));
       }
       if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},

@@ -6,6 +6,7 @@
 #include "core/export/identity.h"
 #include "core/export/pdf_pages.h"
 #include "core/export/sheet_options.h"
+#include "core/reading/figures.h"
 
 namespace bl::exporting {
 
@@ -17,7 +18,8 @@ struct PdfFormat {
   static void declare(FormatBuilder<PdfFormat>& f) {
     f.id("pdf").label("Set of drawings (PDF)");
     f.doc(
-        "A page with the area schedule by use, then the plan of each level at one scale, and a section, as the format svg draws "
+        "A page with the area schedule by use, then the plan of each cellar and each level at one scale, and a section, as the "
+        "format svg draws "
         "them. Letters are "
         "those of western Europe; others become question marks, which is told.");
     f.ending(".pdf").begins("%PDF");
@@ -35,7 +37,10 @@ struct PdfFormat {
     for (const SheetGroup& group : like.groups)
       if (group.id == "title") sheet.groups.push_back(group);
     SheetText& line = sheet.groups.front().texts[1];
-    line.words = "Area schedule, and plans of " + std::to_string(proposal.levels) + " levels at 1:" + shortest(like.scale);
+    const int cellars = cellar_levels(proposal);
+    line.words = "Area schedule, and plans of " + std::to_string(proposal.levels) + " levels" +
+                 (cellars > 0 ? " and " + reading::counted(static_cast<std::size_t>(cellars), "cellar") : "") +
+                 " at 1:" + shortest(like.scale);
     sheet.groups.front().texts.pop_back();
     SheetGroup table{"schedule", "Area schedule", false, {}, {}};
     const double x = like.window_low.x + 6;
@@ -53,22 +58,32 @@ struct PdfFormat {
     for (int k = 0; k < 5; ++k) cell(table, x + 120 + 30 * k, y, heads[k], true, true);
     y += 7;
     // What has no place on this page is in the tables of xlsx and csv.
-    const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - 14) / 6));
+    const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - 20) / 6));
     for (std::size_t k = 0; k < std::min(room, proposal.uses.size()); ++k)
       row(use_name(proposal.uses[k].use), proposal.uses[k], false);
     if (room < proposal.uses.size())
       cell(table, x, y, "and " + std::to_string(proposal.uses.size() - room) + " more uses", false), y += 6;
     row("all", proposal.all, true);
+    UseRow below;
+    for (const Building& b : proposal.buildings) {
+      for (const Storey& s : b.cellars) below.floor_area += s.floor_area;
+      below.buildings += b.cellars.empty() ? 0 : 1;
+    }
+    if (below.buildings > 0) {
+      cell(table, x, y, "cellars, not counted above", false);
+      cell(table, x + 90, y, std::to_string(below.buildings), true);
+      cell(table, x + 150, y, fixed(below.floor_area, 1), true);
+    }
     sheet.groups.push_back(std::move(table));
     return sheet;
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
     std::vector<PlanSheet> sheets;
-    for (int level = 0; level < proposal.levels; ++level) {
+    for (const DrawnLevel& level : drawn_levels(proposal)) {
       auto sheet = plan_sheet(proposal, level, options);
       if (!sheet) return sheet.error();
-      if (level == 0) sheets.push_back(schedule_of(proposal, *sheet));
+      if (sheets.empty()) sheets.push_back(schedule_of(proposal, *sheet));
       sheets.push_back(std::move(*sheet));
     }
     if (options.section != "none") {

@@ -13,18 +13,22 @@ namespace {
 
 struct SvgFormat {
   struct Options : SheetOptions {
-    std::int64_t level = 0;
+    std::int64_t level = 0, cellar = 0;
   };
 
   static void declare(FormatBuilder<SvgFormat>& f) {
     f.id("svg").label("Plans at scale (SVG)");
     f.doc(
         "Plans on paper in millimetres: title, legend, scale bar, north, dimensions; a group for each use. A folder gets one "
-        "file for each level and one for the section, a file gets one of them. Levels are as high as the lowest storey of the "
+        "file for each cellar and each level and one for the section, a file gets one of them. Levels are as high as the lowest "
+        "storey of the "
         "proposal; a building is drawn "
         "in full where one of its storeys belongs to the level, and pale where a higher storey passes through.");
     f.ending(".svg").begins("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- BehaviourLinks");
     f.option(&Options::level, "level").range(-1, 10000).doc("Which level a single file shows, from 0; -1: the section.");
+    f.option(&Options::cellar, "cellar")
+        .range(0, 10000)
+        .doc("Which storey below the ground a single file shows instead, from 1 downwards; 0: none.");
     declare_sheet_options(f);
   }
 
@@ -89,21 +93,32 @@ struct SvgFormat {
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- BehaviourLinks -->\n" + out.str() + "\n";
   }
 
+  // Which of the levels a single file shows.
+  static Result<int> chosen_level(const Proposal& proposal, const Options& options) {
+    const auto refusal = [](const std::string& text) { return Error{ErrorCode::out_of_range, "", "there is no " + text}; };
+    const int cellars = cellar_levels(proposal);
+    if (options.cellar > cellars)
+      return refusal("cellar " + std::to_string(options.cellar) +
+                     (cellars == 0 ? ", since no volume has one" : "; the deepest is " + std::to_string(cellars)));
+    if (options.level >= proposal.levels)
+      return refusal("level " + std::to_string(options.level) + "; the highest is " + std::to_string(proposal.levels - 1));
+    return static_cast<int>(options.cellar > 0 ? -options.cellar : options.level);
+  }
+
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
-    if (!is_folder && options.level >= proposal.levels)
-      return Error{
-          ErrorCode::out_of_range, "",
-          "there is no level " + std::to_string(options.level) + "; the highest is " + std::to_string(proposal.levels - 1)};
     ExportFiles made;
     const bool is_section = !is_folder && options.level < 0;
     if (is_section && options.section == "none")
       return Error{ErrorCode::out_of_range, "", "level=-1 asks for the section, and section=none for none"};
-    const int first = is_folder ? 0 : static_cast<int>(options.level), end = is_folder ? proposal.levels : first + 1;
-    for (int level = is_section ? 0 : first; level < end; ++level) {
+    if (is_section && options.cellar > 0)
+      return Error{ErrorCode::out_of_range, "", "level=-1 asks for the section, and cellar for a plan; a file shows one of them"};
+    const Result<int> chosen = is_folder || is_section ? Result<int>(0) : chosen_level(proposal, options);
+    if (!chosen) return chosen.error();
+    for (const DrawnLevel& level : drawn_levels(proposal)) {
+      if (is_section || (!is_folder && level.number != *chosen)) continue;
       auto sheet = plan_sheet(proposal, level, options);
       if (!sheet) return sheet.error();
-      made.files.push_back(
-          {"level_" + std::string(level < 10 ? "0" : "") + std::to_string(level) + ".svg", svg_of(*sheet, proposal)});
+      made.files.push_back({level.file_stem() + ".svg", svg_of(*sheet, proposal)});
     }
     if (is_section || (is_folder && options.section != "none")) {
       auto sheet = section_sheet(proposal, options);
