@@ -6,15 +6,45 @@
 #include <set>
 #include <utility>
 
+#include "core/geometry/polygon_triangles.h"
+#include "core/reading/figures.h"
+
 namespace bl::exporting {
 
-std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings) {
+namespace {
+
+// Its plates are equal: one prism for each of their parts, without floors between, as stacks of storeys have.
+std::shared_ptr<const Mesh> cellar_mesh(const Building& building) {
+  Mesh mesh;
+  for (const geometry::PlateFace& face : building.cellars.front().faces) {
+    const Mesh part = geometry::prism_mesh(face.outer, face.holes, building.cellars.back().bottom, building.cellars.front().top);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+}  // namespace
+
+std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings, bool with_cellars) {
   std::vector<Solid> solids;
-  for (const Building& b : proposal.buildings) solids.push_back({b.label, use_name(b.use), b.colour, b.mesh, &b});
+  for (const Building& b : proposal.buildings) {
+    solids.push_back({b.label, use_name(b.use), b.colour, b.mesh, &b});
+    if (with_cellars && !b.cellars.empty())
+      solids.push_back({b.label + ", cellar", use_name(b.use), b.colour, cellar_mesh(b), &b, true});
+  }
   if (with_surroundings)
     for (const Neighbour& n : proposal.neighbours)
       if (n.mesh) solids.push_back({n.name, "existing", kExistingColour, n.mesh, nullptr});
   return solids;
+}
+
+std::vector<std::string> left_out_cellars(const Proposal& proposal, bool with_cellars) {
+  const auto count = static_cast<std::size_t>(
+      std::count_if(proposal.buildings.begin(), proposal.buildings.end(), [](const Building& b) { return !b.cellars.empty(); }));
+  if (with_cellars || count == 0) return {};
+  return {"without the cellars of " + reading::counted(count, "volume") + "; --option cellars=yes writes them"};
 }
 
 std::vector<Solid> terrains_of(const Proposal& proposal) {

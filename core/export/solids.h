@@ -16,6 +16,7 @@ struct Solid {
   drawing::Colour colour;
   std::shared_ptr<const Mesh> mesh;
   const Building* building = nullptr;  ///< none for surroundings
+  bool is_cellar = false;              ///< the storeys of that building below the ground
 };
 
 /// The colour of what stands already.
@@ -26,8 +27,11 @@ inline constexpr drawing::Colour kTerrainColour = {0.72, 0.70, 0.62};
 /// The ground as surfaces, which are open: for programs that show, not for those that print.
 std::vector<Solid> terrains_of(const Proposal& proposal);
 
-/// One for each building, then one for each building of the surroundings that has a mesh, where these are wanted.
-std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings);
+/// One for each building, with one for its cellars behind it; then one for each building of the surroundings that has a mesh.
+/// Cellars and surroundings only where they are wanted.
+std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings, bool with_cellars);
+/// A sentence on the cellars of the proposal that are not wanted, none where nothing is left out.
+std::vector<std::string> left_out_cellars(const Proposal& proposal, bool with_cellars);
 
 /// A model at a scale in millimetres, with its lowest corner at (0, 0, 0): slicers expect it on the plate.
 class ModelScale {

@@ -9,6 +9,7 @@
 #include "core/base/mathematics.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/mesh_options.h"
 #include "core/export/solids.h"
 
 namespace bl::exporting {
@@ -17,8 +18,10 @@ namespace {
 
 struct GlbFormat {
   using GlbJson = nlohmann::ordered_json;
-  struct Options : FormOptions {
+  // What is below the ground belongs to a model in metres, and whoever looks at it can hide it by its name.
+  struct Options : MeshOptions {
     bool surroundings = true;
+    Options() { cellars = true; }
   };
 
   static void declare(FormatBuilder<GlbFormat>& f) {
@@ -28,7 +31,7 @@ struct GlbFormat {
         "figures as extras; its use is its material. Coordinates are singles from the origin of the scene.");
     f.ending(".glb").begins("glTF");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, and terrain.");
-    declare_form_option(f);
+    declare_mesh_options(f);
   }
 
   // Colours of glTF are linear, those of screens are not.
@@ -97,7 +100,15 @@ struct GlbFormat {
            {"primitives",
             GlbJson::array({{{"attributes", {{"POSITION", position}}}, {"indices", index}, {"material", found->second}}})}});
       GlbJson node = {{"name", solid.name}, {"mesh", meshes.size() - 1}};
-      if (const Building* b = solid.building)
+      if (const Building* b = solid.building; b != nullptr && solid.is_cellar) {
+        double area = 0, volume = 0;
+        for (const Storey& s : b->cellars) area += s.floor_area, volume += s.floor_area * (s.top - s.bottom);
+        node["extras"] = {{"cellar_of", b->id},
+                          {"use", b->use},
+                          {"storeys", b->cellars.size()},
+                          {"cellar_area_m2", area},
+                          {"volume_m3", volume}};
+      } else if (b != nullptr) {
         node["extras"] = {{"id", b->id},
                           {"use", b->use},
                           {"form", b->is_standing ? "standing" : "rounded"},
@@ -106,13 +117,14 @@ struct GlbFormat {
                           {"asked_floor_area_m2", b->asked_area},
                           {"volume_m3", b->volume},
                           {"asked_volume_m3", b->asked_volume}};
+      }
       nodes.push_back(std::move(node));
     }
   };
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
     GlbBuilder made;
-    for (const Solid& solid : solids_of(proposal, options.surroundings)) made.add(solid);
+    for (const Solid& solid : solids_of(proposal, options.surroundings, options.cellars)) made.add(solid);
     if (options.surroundings)
       for (const Solid& surface : terrains_of(proposal)) made.add(surface);
     GlbJson extras;
@@ -138,7 +150,7 @@ struct GlbFormat {
     out += "JSON" + text;
     put(out, static_cast<std::uint32_t>(made.bytes.size()));
     out.append("BIN\0", 4);
-    return ExportFiles{{{"proposal.glb", out + made.bytes}}, {}};
+    return ExportFiles{{{"proposal.glb", out + made.bytes}}, left_out_cellars(proposal, options.cellars)};
   }
 };
 

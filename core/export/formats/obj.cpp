@@ -2,6 +2,7 @@
 #include "core/base/text.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/mesh_options.h"
 #include "core/export/solids.h"
 #include "core/export/wavefront_obj.h"
 
@@ -10,8 +11,10 @@ namespace bl::exporting {
 namespace {
 
 struct ObjFormat {
-  struct Options : FormOptions {
+  // What is below the ground belongs to a model in metres, and whoever looks at it can hide it by its name.
+  struct Options : MeshOptions {
     bool surroundings = false;
+    Options() { cellars = true; }
   };
 
   static void declare(FormatBuilder<ObjFormat>& f) {
@@ -23,7 +26,7 @@ struct ObjFormat {
     f.ending(".obj").begins("# BehaviourLinks:");
     f.option(&Options::surroundings, "surroundings")
         .doc("With the buildings that stand already, and terrain, which is an open surface.");
-    declare_form_option(f);
+    declare_mesh_options(f);
   }
 
   static std::string library_of(const Proposal& proposal) {
@@ -39,13 +42,12 @@ struct ObjFormat {
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
     std::vector<NamedMesh> meshes;
-    for (const Building& b : proposal.buildings) meshes.push_back({b.label, b.mesh, use_name(b.use)});
-    if (options.surroundings)
-      for (const Neighbour& n : proposal.neighbours)
-        if (n.mesh) meshes.push_back({n.name, n.mesh, "existing"});
+    for (const Solid& solid : solids_of(proposal, options.surroundings, options.cellars))
+      meshes.push_back({solid.name, solid.mesh, solid.material});
     if (options.surroundings)
       for (const Solid& surface : terrains_of(proposal)) meshes.push_back({surface.name, surface.mesh, surface.material});
     ExportFiles made;
+    made.notes = left_out_cellars(proposal, options.cellars);
     made.files.push_back({"proposal.obj", write_obj(meshes, identity_line(proposal), is_folder ? "proposal.mtl" : "")});
     if (is_folder) made.files.push_back({"proposal.mtl", library_of(proposal)});
     return made;

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/mesh_options.h"
 #include "core/export/solids.h"
 
 namespace bl::exporting {
@@ -13,7 +14,8 @@ namespace {
 enum class StlLayout { text, binary };
 
 struct StlFormat {
-  struct Options : FormOptions {
+  // A print stands on its plate, so cellars would lift the houses off it.
+  struct Options : MeshOptions {
     double scale = 500;
     StlLayout layout = StlLayout::binary;
     bool surroundings = false;
@@ -34,7 +36,7 @@ struct StlFormat {
               {StlLayout::text, "text", "Named solids, one for each building."}})
         .doc("How triangles are written.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
-    declare_form_option(f);
+    declare_mesh_options(f);
   }
 
   static std::string solid_name(std::string text) {
@@ -96,20 +98,23 @@ struct StlFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings);
+    const std::vector<Solid> solids = solids_of(proposal, options.surroundings, options.cellars);
     // All files of a folder lie in one frame, so that they fit together.
     const ModelScale scale(solids, options.scale);
     const std::string note = "1:" + shortest(options.scale) + ", mm; " + identity_line(proposal);
     ExportFiles made;
+    made.notes = left_out_cellars(proposal, options.cellars);
     const auto add = [&](const std::string& name, const std::vector<Solid>& part) {
       made.files.push_back(
           {name, options.layout == StlLayout::text ? as_text(part, scale, note) : as_binary(part, scale, proposal)});
     };
     if (!is_folder) add("model.stl", solids);
     std::size_t existing = 0;
-    for (std::size_t k = 0; is_folder && k < solids.size(); ++k)
-      add(solids[k].building != nullptr ? solids[k].building->id + ".stl" : "existing_" + std::to_string(++existing) + ".stl",
-          {solids[k]});
+    for (std::size_t k = 0; is_folder && k < solids.size(); ++k) {
+      const Building* building = solids[k].building;
+      const std::string name = building == nullptr ? "existing_" + std::to_string(++existing) : building->id;
+      add(name + (solids[k].is_cellar ? "-cellar" : "") + ".stl", {solids[k]});
+    }
     return made;
   }
 };

@@ -5,6 +5,7 @@
 #include "core/drawing/markup.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
+#include "core/export/mesh_options.h"
 #include "core/export/solids.h"
 #include "core/export/zip_archive.h"
 
@@ -13,7 +14,8 @@ namespace bl::exporting {
 namespace {
 
 struct ThreeMfFormat {
-  struct Options : FormOptions {
+  // A print stands on its plate, so cellars would lift the houses off it.
+  struct Options : MeshOptions {
     double scale = 500;
     bool surroundings = false;
   };
@@ -26,7 +28,7 @@ struct ThreeMfFormat {
     f.ending(".3mf").begins("PK\x03\x04");
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
-    declare_form_option(f);
+    declare_mesh_options(f);
   }
 
   static constexpr const char* kTypes =
@@ -84,13 +86,13 @@ struct ThreeMfFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings);
+    const std::vector<Solid> solids = solids_of(proposal, options.surroundings, options.cellars);
     const ModelScale scale(solids, options.scale);
     auto archive = zip_archive({{"[Content_Types].xml", kTypes},
                                 {"_rels/.rels", kRelations},
                                 {"3D/3dmodel.model", model_of(proposal, solids, scale, options)}});
     if (!archive) return archive.error();
-    return ExportFiles{{{"model.3mf", std::move(*archive)}}, {}};
+    return ExportFiles{{{"model.3mf", std::move(*archive)}}, left_out_cellars(proposal, options.cellars)};
   }
 };
 
