@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/drawing/markup.h"
+#include "core/export/drawn_levels.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/plan_places.h"
@@ -29,7 +30,8 @@ struct HtmlFormat {
   static void declare(FormatBuilder<HtmlFormat>& f) {
     f.id("html").label("Page for everybody (HTML)");
     f.doc(
-        "One page that needs no network and no other file: the model in three dimensions, the plan of each level, areas by "
+        "One page that needs no network and no other file: the model in three dimensions, the plan of each cellar and each "
+        "level, areas by "
         "building, storey and use, programme against result, indicators, plots, and the conflicts with who wants what. It works "
         "with the keyboard. At most 3 MB: where there is much to show, shapes become coarser, and a note says so.");
     f.ending(".html").begins("<!doctype html>\n<!-- BehaviourLinks proposal -->").shell("proposal.html");
@@ -180,15 +182,18 @@ struct HtmlFormat {
 
     PageJson buildings() {
       PageJson all = PageJson::array();
-      const auto add = [&](const Building& b, const char* form, const std::string& reason) {
+      const auto storeys_of = [&](const std::vector<Storey>& all_of_it) {
         PageJson storeys = PageJson::array();
-        for (const Storey& s : b.storeys)
+        for (const Storey& s : all_of_it)
           storeys.push_back({{"number", s.number},
                              {"level", s.level},
                              {"bottom", s.bottom},
                              {"top", s.top},
                              {"area", s.floor_area},
                              {"path", path_number(s.faces)}});
+        return storeys;
+      };
+      const auto add = [&](const Building& b, const char* form, const std::string& reason) {
         const Point3 at = b.storeys.empty() ? b.position : middle_of(b.storeys.front().faces);
         all.push_back({{"id", b.id},
                        {"name", b.label},
@@ -204,7 +209,8 @@ struct HtmlFormat {
                        {"footprint", b.footprint},
                        {"bottom", b.bottom},
                        {"top", b.top},
-                       {"storeys", std::move(storeys)}});
+                       {"storeys", storeys_of(b.storeys)},
+                       {"cellars", storeys_of(b.cellars)}});
       };
       for (const Building& b : proposal.buildings) add(b, b.is_standing ? "standing" : "rounded", "");
       for (const Building& b : proposal.shapeless) add(b, "no shape", b.why_shapeless);
@@ -238,7 +244,9 @@ struct HtmlFormat {
       }
       const PlanExtent extent = plan_extent(proposal);
       PageJson levels = PageJson::array();
-      for (int level = 0; level < proposal.levels; ++level) levels.push_back(proposal.ground + level * proposal.level_height);
+      for (const DrawnLevel& level : drawn_levels(proposal))
+        levels.push_back(
+            {{"number", level.number}, {"name", level.name()}, {"heights", level.heights()}, {"bottom", level.lowest}});
       return {{"box",
                {whole(extent.low.x) / 10, -whole(extent.high.y) / 10, whole(extent.high.x - extent.low.x) / 10,
                 whole(extent.high.y - extent.low.y) / 10}},

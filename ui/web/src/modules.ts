@@ -27,6 +27,7 @@ export * from "./outline";
 export * from "./pens";
 export * from "./places";
 export * from "./presence";
+export * from "./proposal/cut";
 export * from "./queue";
 export * from "./random";
 export * from "./session";

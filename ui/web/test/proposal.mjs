@@ -1,5 +1,5 @@
 // Opens the page of a proposal from its file, as people do, and fails on requests, errors, faults that axe finds, and keys that do
-// nothing. Its argument is the page; pictures of it go to build/web_shots.
+// nothing. Its argument is the page; pictures of it go to build/web_shots. Where it has cellars, its second argument is `cellars`.
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -9,7 +9,8 @@ import { resolve } from "node:path";
 const require = createRequire(new URL("../package.json", import.meta.url));
 const { chromium } = require("playwright-core");
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
-const file = resolve(process.argv[2] ?? "");
+const file = resolve(process.argv[2] ?? ""),
+  hasCellars = process.argv[3] === "cellars";
 const shots = fileURLToPath(new URL("../../../build/web_shots", import.meta.url));
 mkdirSync(shots, { recursive: true });
 
@@ -54,6 +55,25 @@ for (const [name, width, height, scheme] of [
     await level.focus();
     await page.keyboard.press("ArrowRight");
     assert.notEqual(await said(), first, "the arrow key raises the level");
+    // Cut above the ground floor, the model is another one; below the ground there is what is built there.
+    const cut = page.locator("#plans input[type=checkbox]");
+    const looks = [await seen()];
+    await page.keyboard.press("ArrowLeft");
+    await cut.focus();
+    await page.keyboard.press("Space");
+    await page.waitForTimeout(700);
+    looks.push(await seen());
+    if (hasCellars) {
+      await level.focus();
+      await page.keyboard.press("ArrowLeft");
+      assert.match(await said(), /^Plan of Cellar 1: /);
+      await page.waitForTimeout(700);
+      looks.push(await seen());
+      await page.screenshot({ path: `${shots}/proposal_below_${name}.png` });
+    } else assert.equal(await level.getAttribute("min"), "0", "nothing is below the ground");
+    looks.forEach((look, i) => i > 0 && assert.notDeepEqual(look, looks[i - 1], `cut ${i}`));
+    await cut.focus();
+    await page.keyboard.press("Space");
   }
   await page.locator("#areas tbody button").first().focus();
   await page.keyboard.press("Enter");
@@ -68,7 +88,7 @@ for (const [name, width, height, scheme] of [
   for (const fault of found.violations) faults.push(`axe, ${name}: ${fault.id}: ${fault.nodes.map((node) => node.html).slice(0, 3).join(" | ")}`);
   looked += 1;
   await page.waitForTimeout(500);
-  await page.screenshot({ path: `${shots}/proposal_${name}.png`, fullPage: true });
+  await page.screenshot({ path: `${shots}/proposal_${hasCellars ? "cellars_" : ""}${name}.png`, fullPage: true });
   await context.close();
 }
 await browser.close();

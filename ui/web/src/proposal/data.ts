@@ -2,8 +2,8 @@
 import type { Look } from "../space/picture";
 
 export interface Storey {
-  number: number;
-  level: number; ///< of the plan that shows it
+  number: number; ///< from 0 up, below the ground -1, -2, ...
+  level: number; ///< of the plan that shows it: the `number` of a level
   bottom: number; ///< [m]
   top: number; ///< [m]
   area: number; ///< [m²]
@@ -25,6 +25,13 @@ export interface Building {
   bottom: number;
   top: number;
   storeys: Storey[];
+  cellars: Storey[]; ///< below the ground, from the top down: no floor area
+}
+export interface Level {
+  number: number;
+  name: string; ///< "Level 3", "Cellar 1"
+  heights: string; ///< "from -3.00 m"
+  bottom: number; ///< of its lowest floor [m]
 }
 export interface Use {
   use: string;
@@ -67,7 +74,7 @@ export interface Proposal {
   true_north: number; ///< clockwise from the y axis [deg]
   plan: {
     box: [number, number, number, number]; ///< [dm]
-    levels: number[]; ///< heights [m]
+    levels: Level[]; ///< from the deepest cellar up
     level_height: number;
     lands: (Outline & { is_boundary: boolean })[];
     existing: Outline[];
@@ -85,6 +92,12 @@ export interface Proposal {
   shapes: Record<string, unknown>; ///< as in the view `shapes` of a room
   looks: Record<string, Look>;
 }
+
+/// The storeys of a building that plans show, from the deepest cellar up.
+export const drawn_storeys = (building: Building): Storey[] => [...[...building.cellars].reverse(), ...building.storeys];
+/// The area of what is below the ground [m²].
+export const cellar_area = (buildings: Building[]): number =>
+  buildings.reduce((sum, one) => sum + one.cellars.reduce((area, cellar) => area + cellar.area, 0), 0);
 
 export const use_name = (use: string): string => use || "no use";
 

@@ -11,7 +11,8 @@ export interface Choice {
   choose(id: string | null): void;
 }
 
-export function Model({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
+/// `shapes`: what the picture shows, the whole model or a part of it.
+export function Model({ proposal, shapes, chosen, choose }: { proposal: Proposal; shapes: Record<string, unknown> } & Choice): JSX.Element {
   const box = useRef<HTMLDivElement>(null),
     canvas = useRef<HTMLCanvasElement>(null),
     overlay = useRef<HTMLDivElement>(null),
@@ -42,7 +43,7 @@ export function Model({ proposal, chosen, choose }: { proposal: Proposal } & Cho
   }, [isDark, isCalm]);
   useEffect(() => {
     if (picture.current) picture.current.isMoving = isMoving;
-    picture.current?.show(proposal.shapes, new Map(Object.entries(proposal.looks)), [], chosen === null ? null : `building/${chosen}`);
+    picture.current?.show(shapes, new Map(Object.entries(proposal.looks)), [], chosen === null ? null : `building/${chosen}`);
   });
   const step = (what: Step): void => picture.current?.step(what);
   const keys = (event: KeyboardEvent): void => {

@@ -1,7 +1,8 @@
 // The page of a proposal: everything that it shows stands in it as JSON, so that it needs no network.
 import "../english";
 import { JSX, render } from "preact";
-import { useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
+import { cut_shapes } from "./cut";
 import type { Proposal } from "./data";
 import { Model } from "./model";
 import { Plans } from "./plans";
@@ -49,7 +50,10 @@ function Conflicts({ proposal }: { proposal: Proposal }): JSX.Element {
 }
 
 function Page({ proposal }: { proposal: Proposal }): JSX.Element {
-  const [chosen, choose] = useState<string | null>(null);
+  const [chosen, choose] = useState<string | null>(null),
+    [level, setLevel] = useState(0),
+    [isCut, setCut] = useState(false);
+  const shapes = useMemo(() => (isCut ? cut_shapes(proposal, level) : proposal.shapes), [isCut, level]);
   const building = proposal.buildings.find((one) => one.id === chosen);
   return (
     <>
@@ -69,14 +73,14 @@ function Page({ proposal }: { proposal: Proposal }): JSX.Element {
         <div class="drawings">
           <section id="model" aria-labelledby="model_title">
             <h2 id="model_title">Model</h2>
-            <Model proposal={proposal} chosen={chosen} choose={choose} />
+            <Model proposal={proposal} shapes={shapes} chosen={chosen} choose={choose} />
             <p class="small" role="status">
               {building ? `Chosen: ${building.name}` : "A touch on a building, or its name in the table, chooses it."}
             </p>
           </section>
           <section id="plans" aria-labelledby="plans_title">
             <h2 id="plans_title">Plans by level</h2>
-            <Plans proposal={proposal} chosen={chosen} choose={choose} />
+            <Plans proposal={proposal} chosen={chosen} choose={choose} level={level} setLevel={setLevel} isCut={isCut} setCut={setCut} />
           </section>
         </div>
         <section id="areas" aria-labelledby="areas_title">

@@ -1,8 +1,7 @@
 // The plan of each level: a slider and two buttons choose the level, a touch or the table chooses a building.
 import type { JSX } from "preact";
-import { useState } from "preact/hooks";
 import { Icon } from "../parts";
-import { Building, Proposal, Storey, hundredths, use_name, whole } from "./data";
+import { Building, Level, Proposal, Storey, cellar_area, drawn_storeys, use_name, whole } from "./data";
 import type { Choice } from "./model";
 
 // Around the plots, of their larger side; more where there is something to see.
@@ -10,23 +9,32 @@ const kMargin = 0.04,
   kSurroundings = 0.25;
 
 // The storey of a building that belongs to a level, or the higher one that passes through it.
-function storey_on(building: Building, level: number, cut: number): { storey: Storey; isOwn: boolean } | null {
-  const own = building.storeys.find((one) => one.level === level);
+function storey_on(building: Building, level: Level, cut: number): { storey: Storey; isOwn: boolean } | null {
+  const own = drawn_storeys(building).find((one) => one.level === level.number);
   if (own) return { storey: own, isOwn: true };
-  const passing = building.storeys.find((one) => one.bottom <= cut && cut < one.top);
+  const passing = level.number < 0 ? undefined : building.storeys.find((one) => one.bottom <= cut && cut < one.top);
   return passing ? { storey: passing, isOwn: false } : null;
 }
 
-export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
-  const [level, setLevel] = useState(0);
+/// The level that is shown, by its number, and whether the model is cut above it.
+export interface Shown {
+  level: number;
+  setLevel(level: number): void;
+  isCut: boolean;
+  setCut(is: boolean): void;
+}
+
+export function Plans({ proposal, chosen, choose, level, setLevel, isCut, setCut }: { proposal: Proposal } & Choice & Shown): JSX.Element {
   const { plan } = proposal,
     [x, y, width, height] = plan.box,
     margin = (plan.existing.length + plan.streets.length > 0 ? kSurroundings : kMargin) * Math.max(width, height),
-    last = plan.levels.length - 1,
-    bottom = plan.levels[level] ?? 0,
-    cut = bottom + plan.level_height / 2;
+    first = plan.levels[0]?.number ?? 0,
+    last = plan.levels[plan.levels.length - 1]?.number ?? 0,
+    here_now = plan.levels[level - first] as Level,
+    isBelow = level < 0,
+    cut = here_now.bottom + plan.level_height / 2;
   const shown = proposal.buildings
-    .map((building) => ({ building, on: storey_on(building, level, cut) }))
+    .map((building) => ({ building, on: storey_on(building, here_now, cut) }))
     .filter((one): one is { building: Building; on: { storey: Storey; isOwn: boolean } } => one.on !== null);
   const here = shown.filter(({ on }) => on.isOwn),
     area = here.reduce((sum, { on }) => sum + on.storey.area, 0),
@@ -34,24 +42,28 @@ export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Cho
   return (
     <>
       <div class="row levels">
-        <button class="round" aria-label="One level lower" disabled={level === 0} onClick={() => setLevel(level - 1)}>
+        <button class="round" aria-label="One level lower" disabled={level <= first} onClick={() => setLevel(level - 1)}>
           <Icon name="down" />
         </button>
         <label class="field grow">
           <span>
-            Level {level} of {last}, from {hundredths(bottom)} m
+            {here_now.name} of {isBelow ? -first : last}, {here_now.heights}
           </span>
-          <input type="range" min={0} max={last} step={1} value={level} onInput={(event) => setLevel(Number(event.currentTarget.value))} />
+          <input type="range" min={first} max={last} step={1} value={level} aria-valuetext={here_now.name} onInput={(event) => setLevel(Number(event.currentTarget.value))} />
         </label>
         <button class="round" aria-label="One level higher" disabled={level >= last} onClick={() => setLevel(level + 1)}>
           <Icon name="up" />
         </button>
       </div>
+      <label class="tick">
+        <input type="checkbox" checked={isCut} onChange={(event) => setCut(event.currentTarget.checked)} />
+        <span>Cut the model above this level</span>
+      </label>
       <svg
         class="drawn"
         viewBox={`${x - margin} ${y - margin} ${width + 2 * margin} ${height + 2 * margin}`}
         role="img"
-        aria-label={`Plan of level ${level}: ${here.length} ${here.length === 1 ? "storey" : "storeys"}, ${whole(area)} m². The tables say the same.`}
+        aria-label={`Plan of ${here_now.name}: ${here.length} ${here.length === 1 ? "storey" : "storeys"}, ${whole(area)} m². The tables say the same.`}
       >
         {plan.streets.map((one, k) => (
           <path key={`s${k}`} class="shape street" d={one.path} fill="none" />
@@ -84,7 +96,9 @@ export function Plans({ proposal, chosen, choose }: { proposal: Proposal } & Cho
         ))}
       </svg>
       <p class="small">
-        Floor area of this level {whole(area)} m², of all levels {whole(proposal.all.area)} m². Pale: a higher storey passes through.
+        {isBelow
+          ? `Area of this cellar ${whole(area)} m², of all cellars ${whole(cellar_area(proposal.buildings))} m², no part of the floor area.`
+          : `Floor area of this level ${whole(area)} m², of all levels ${whole(proposal.all.area)} m². Pale: a higher storey passes through.`}
       </p>
     </>
   );

@@ -1,6 +1,6 @@
 // The tables of a proposal: programme against result, buildings, storeys, plots, indicators.
 import type { ComponentChildren, JSX } from "preact";
-import { Indicator, Proposal, figure, hundredths, signed, use_name, whole } from "./data";
+import { Indicator, Proposal, cellar_area, drawn_storeys, figure, hundredths, signed, use_name, whole } from "./data";
 import type { Choice } from "./model";
 
 // Wide tables move sideways within their own frame, which the keyboard reaches.
@@ -43,6 +43,7 @@ export function Programme({ proposal }: { proposal: Proposal }): JSX.Element {
       <td>{whole(use.volume)}</td>
     </tr>
   );
+  const below = proposal.buildings.filter((one) => one.cellars.length > 0);
   return (
     <Table label="Uses" head={["Use", "Buildings", "Asked m²", "Floor m²", "Difference m²", "Met", "Volume m³"]}>
       {proposal.uses.map((use) =>
@@ -55,15 +56,29 @@ export function Programme({ proposal }: { proposal: Proposal }): JSX.Element {
         ),
       )}
       {row(proposal.all, "All", " all")}
+      {below.length > 0 ? (
+        <tr>
+          <th scope="row">Cellars, not counted above</th>
+          <td>{below.length}</td>
+          <td />
+          <td>{whole(cellar_area(below))}</td>
+          <td />
+          <td />
+          <td />
+        </tr>
+      ) : null}
     </Table>
   );
 }
 
+const has_cellars = (proposal: Proposal): boolean => proposal.buildings.some((one) => one.cellars.length > 0);
+
 export function Buildings({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
+  const hasCellars = has_cellars(proposal);
   return (
     <Table
       label="Buildings"
-      head={["Building", "Use", "Form", "Storeys", "Asked m²", "Floor m²", "Difference m²", "Footprint m²", "Top m", "Volume m³"]}
+      head={["Building", "Use", "Form", "Storeys", ...(hasCellars ? ["Cellars"] : []), "Asked m²", "Floor m²", "Difference m²", "Footprint m²", "Top m", "Volume m³"]}
     >
       {proposal.buildings.map((one) => (
         <tr key={one.id} class={one.id === chosen ? "chosen" : ""}>
@@ -77,6 +92,7 @@ export function Buildings({ proposal, chosen, choose }: { proposal: Proposal } &
           </td>
           <td class="words">{one.why ? `${one.form}: ${one.why}` : one.form}</td>
           <td>{one.storeys.length}</td>
+          {hasCellars ? <td>{one.cellars.length || ""}</td> : null}
           <td>{whole(one.asked_area)}</td>
           <td>{whole(one.area)}</td>
           <td>{signed(one.area - one.asked_area)}</td>
@@ -90,18 +106,21 @@ export function Buildings({ proposal, chosen, choose }: { proposal: Proposal } &
 }
 
 export function Storeys({ proposal }: { proposal: Proposal }): JSX.Element {
+  const hasCellars = has_cellars(proposal),
+    names = new Map(proposal.plan.levels.map((level) => [level.number, level.name]));
   return (
-    <Table label="Storeys" head={["Building", "Use", "Storey", "Level", "From m", "To m", "Floor m²"]}>
+    <Table label="Storeys" head={["Building", "Use", "Storey", "Level", "From m", "To m", "Floor m²", ...(hasCellars ? ["Cellar m²"] : [])]}>
       {proposal.buildings.flatMap((building) =>
-        building.storeys.map((one) => (
+        drawn_storeys(building).map((one) => (
           <tr key={`${building.id} ${one.number}`}>
             <th scope="row">{building.name}</th>
             <td class="words">{use_name(building.use)}</td>
             <td>{one.number}</td>
-            <td>{one.level}</td>
+            <td>{names.get(one.level)}</td>
             <td>{hundredths(one.bottom)}</td>
             <td>{hundredths(one.top)}</td>
-            <td>{whole(one.area)}</td>
+            <td>{one.number < 0 ? "" : whole(one.area)}</td>
+            {hasCellars ? <td>{one.number < 0 ? whole(one.area) : ""}</td> : null}
           </tr>
         )),
       )}
