@@ -13,6 +13,7 @@
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/drawn_form.h"
+#include "ui/desktop/view/section_plane.h"
 
 namespace bl::desktop {
 namespace {
@@ -165,6 +166,112 @@ TEST_P(DrawnScene, WhatHasNotChangedKeepsItsShape) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Start, DrawnScene, ::testing::Values("scenes/start/standing.json", "scenes/start/quarter.json"));
+
+// Flats over two cellars of 3 m, and a round shop over one of 3.5 m.
+class CellarScene : public ::testing::Test {
+ protected:
+  CellarScene() : world_(World::from_file("scenes/nodes/footprint.json")) {
+    world_.settle();
+    facts_ = read_facts(world_.session().state(), nullptr);
+  }
+  const VolumeFacts& volume(const SceneFacts& facts, const std::string& id) {
+    return *facts.volume_of(facts.state->plan->node_index(id));
+  }
+  double area(const std::string& id) { return world_.number(id, "footprint.cellar_area"); }
+  World world_;
+  std::shared_ptr<const SceneFacts> facts_;
+};
+
+TEST_F(CellarScene, LieUnderTheVolumesWhereTheGroundIsOpen) {
+  ASSERT_EQ(facts_->cellars.size(), 2u);
+  EXPECT_EQ(cellars_in(*facts_), 2);
+  EXPECT_FALSE(facts_->cellars.front().cell) << "the ground hides them";
+  DrawnShapes shapes;
+  const auto drawn = shapes.of(facts_, {DrawnForm::as_is, 0, true});
+  ASSERT_EQ(drawn->volumes.size(), facts_->volumes.size());
+  EXPECT_TRUE(shapes.legend().title.empty());
+  for (std::size_t k = 0; k < drawn->cellars.size(); ++k) {
+    const CellarFacts& cellar = drawn->cellars[k];
+    const VolumeFacts& above = *drawn->volume_of(cellar.node);
+    EXPECT_EQ(above.cell, facts_->volume_of(cellar.node)->cell) << "volumes stay as they are";
+    ASSERT_TRUE(cellar.cell);
+    EXPECT_NEAR(highest(*cellar.cell), above.figures.bottom, 1e-6);
+    EXPECT_NEAR(lowest(*cellar.cell), cellar.bottom, 1e-6);
+    const double volume = cellar.storeys * cellar.area * cellar.storey_height;
+    EXPECT_NEAR(enclosed_volume(*cellar.cell), volume, 0.01 * volume);
+    EXPECT_EQ(shapes.of(read_facts(world_.session().state(), facts_.get()), {DrawnForm::as_is, 0, true})->cellars[k].cell,
+              cellar.cell)
+        << "it is made once";
+  }
+  const auto slabs = shapes.of(facts_, {DrawnForm::slabs, 1, true});
+  EXPECT_TRUE(slabs->cellars.front().cell) << "in every form and cut";
+}
+
+TEST_F(CellarScene, TakeThePlaceOfTheVolumesBelowTheGround) {
+  DrawnShapes shapes;
+  const auto first = shapes.of(facts_, {DrawnForm::as_is, -1});
+  ASSERT_EQ(first->volumes.size(), 2u);
+  EXPECT_NEAR(volume(*first, "flats").drawn_area, area("flats"), 1e-9 * area("flats"));
+  EXPECT_NEAR(lowest(*volume(*first, "shop").cell), -3.5, 1e-6);
+  EXPECT_NEAR(highest(*volume(*first, "flats").cell), 0, 1e-6);
+  ASSERT_TRUE(first->pit);
+  EXPECT_NEAR(*first->pit, -6, 1e-9);
+  EXPECT_NE(shapes.legend().rows.front().label.find("no part of the floor area"), std::string::npos);
+  const auto second = shapes.of(facts_, {DrawnForm::balls, -2});
+  ASSERT_EQ(second->volumes.size(), 1u) << "the shop has no second cellar";
+  EXPECT_NEAR(highest(*second->volumes[0].cell), -3, 1e-6);
+  EXPECT_NEAR(second->volumes[0].drawn_area, 0.5 * area("flats"), 1e-6 * area("flats"));
+  EXPECT_TRUE(shapes.figures_of(second->volumes[0].node)) << "figures are those of the whole form";
+}
+
+TEST_F(CellarScene, AreMetByTheMouseAndReachedByTheFrameOfASection) {
+  DrawnShapes shapes;
+  const auto drawn = shapes.of(facts_, {DrawnForm::as_is, 0, true});
+  EXPECT_NEAR(model_box(*drawn).low.z, -6, 1e-9);
+  EXPECT_NEAR(model_box(*facts_).low.z, 0, 1e-9);
+  // Before the plane, looking north: what is cut open at a height of -4.5 m is the second cellar of the flats.
+  const Ray ray{{-12, -100, -4.5}, {0, 1, 0}};
+  const auto hit = pick(ray, *drawn, upright_section(0, 4), false);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->node, volume(*drawn, "flats").node);
+  EXPECT_NEAR(hit->place.y, 4, 1e-6);
+  EXPECT_FALSE(pick(ray, *facts_, upright_section(0, 4), false));
+}
+
+TEST(CellarView, TheSliderGoesDownToTheCellarsAndASectionOpensTheGround) {
+  PanelDesktop desktop("scenes/nodes/footprint.json");
+  desktop.ticks(60);
+  desktop.frames(40);
+  SceneView& view = *desktop.editor().view;
+  ASSERT_EQ(view.cellars_in_all(), 2);
+  ASSERT_EQ(view.storeys_in_all(), 5);
+  const ImVec4 slider = view.storey_slider();
+  ASSERT_GT(slider.w, slider.y);
+  desktop.click({(slider.x + slider.z) / 2, slider.w - 8});
+  desktop.frames(3);
+  EXPECT_EQ(view.drawn_look().storeys, -2) << "its lower end is the deepest cellar";
+  EXPECT_EQ(view.facts()->volumes.size(), 1u);
+  desktop.editor().area = Area::view;
+  desktop.key(GLFW_KEY_PAGE_DOWN);
+  EXPECT_EQ(view.drawn_look().storeys, -2) << "there is nothing below";
+  desktop.key(GLFW_KEY_PAGE_UP);
+  EXPECT_EQ(view.drawn_look().storeys, -1);
+  desktop.key(GLFW_KEY_PAGE_UP);
+  EXPECT_EQ(view.drawn_look().storeys, 1) << "above the first cellar comes the first storey";
+  desktop.key(GLFW_KEY_PAGE_UP, false, true);
+  EXPECT_TRUE(view.drawn_look().is_plain());
+  view.set_section(upright_section(0, 4));
+  desktop.frames(3);
+  EXPECT_TRUE(view.drawn_look().opens_ground);
+  EXPECT_TRUE(view.facts()->cellars.front().cell);
+  // From above the chosen volume has the lengths of its cellar, without the courtyard.
+  view.set_section({});
+  view.show_storeys(-1);
+  desktop.choose("flats");
+  view.look_from(SceneView::Side::plan);
+  desktop.frames(40);
+  EXPECT_EQ(view.dimensions().size(), 4u) << "a block has four sides";
+}
 
 class StandingView : public ::testing::Test {
  protected:

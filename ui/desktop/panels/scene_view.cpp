@@ -120,7 +120,7 @@ void SceneView::forget() {
   document_ = 0;
   all_facts_ = whole_ = facts_ = nullptr;
   drawn_ = {};
-  storeys_shown_ = storeys_in_all_ = 0;
+  storeys_shown_ = storeys_in_all_ = cellars_in_all_ = 0;
   still_facts_ = nullptr;
   colours_ = {};
   pictures_ = {};
@@ -158,6 +158,7 @@ void SceneView::follow_state() {
     left_out_ = hidden;
     whole_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);
     storeys_in_all_ = storeys_in(*whole_);
+    cellars_in_all_ = cellars_in(*whole_);
   }
   follow_look();
   if (wanted_box_ && !wants_fit_) {

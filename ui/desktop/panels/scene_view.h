@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/plates.h"
 #include "core/sun/sun_day.h"
 #include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/panels/workbench.h"
@@ -73,16 +74,18 @@ class SceneView {
   void colour_by(const std::string& choice) { editor_->person.colour_by = choice; }
 
   // --- In which form volumes are drawn, and how many storeys from the ground up.
-  DrawnLook drawn_look() const { return {form_of(editor_->person.drawn_as).form, storeys_shown_}; }
+  DrawnLook drawn_look() const;
   void draw_as(const std::string& form) { editor_->person.drawn_as = form; }
   /// What a volume measures in that form; nothing where volumes are drawn as they are.
   std::optional<DrawnShapes::FormFigures> form_figures(std::uint32_t node) const { return drawn_.figures_of(node); }
-  /// 0, or as many as there are: all.
+  /// So many from the ground up. 0, or as many as there are: all. Below 0 only cellars: -1 all of them, -2 from the second down.
   void show_storeys(int count);
   /// So many more or fewer than are shown now.
   void step_storeys(int by);
   /// The number of storeys from the ground up that show everything.
   int storeys_in_all() const { return storeys_in_all_; }
+  /// The number of storeys below the ground.
+  int cellars_in_all() const { return cellars_in_all_; }
   /// Where the slider of storeys was drawn in the last frame [pixels]; no size where there is none.
   ImVec4 storey_slider() const { return storey_slider_; }
   /// Lengths that were written into the plan in the last frame, in the order of the sides [m].
@@ -236,7 +239,12 @@ class SceneView {
 
   // scene_view_storeys.cpp
   void follow_look();
+  void show_step(int step);
+  int step_shown() const;
+  int lowest_step() const { return 1 - cellars_in_all_; }
+  std::string storeys_text(bool is_touched) const;
   void draw_storey_slider();
+  geometry::PlateStack cellar_drawn(const geometry::StandingBody& body, std::uint32_t node) const;
   void draw_dimensions();
   void draw_forms_popup();
 
@@ -300,7 +308,7 @@ class SceneView {
   std::shared_ptr<const SceneFacts> all_facts_, facts_;  ///< of the state; of those nodes that are not hidden
   std::shared_ptr<const SceneFacts> whole_;              ///< as `facts_`, with the shapes of the state
   DrawnShapes drawn_;
-  int storeys_shown_ = 0, storeys_in_all_ = 0;  ///< 0: all
+  int storeys_shown_ = 0, storeys_in_all_ = 0, cellars_in_all_ = 0;  ///< the first as `show_storeys` has it
   ImVec4 storey_slider_{};
   std::vector<double> dimensions_;
   HiddenNodes hidden_;

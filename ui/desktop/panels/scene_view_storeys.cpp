@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/geometry/cellar.h"
 #include "core/geometry/plates_table.h"
 #include "core/reading/figures.h"
 #include "ui/desktop/look/buttons.h"
@@ -84,12 +85,24 @@ PlanFloor highest_floor(const geometry::StandingBody& body, int drawn) {
 
 }  // namespace
 
-void SceneView::show_storeys(int count) { storeys_shown_ = count <= 0 || count >= storeys_in_all_ ? 0 : count; }
-
-void SceneView::step_storeys(int by) {
-  const int now = storeys_shown_ == 0 ? storeys_in_all_ : storeys_shown_;
-  show_storeys(std::max(1, now + by));
+DrawnLook SceneView::drawn_look() const {
+  // What is below the ground is drawn where it can be seen.
+  const bool opens_ground = cellars_in_all_ > 0 && choices_.section.is_on && storeys_shown_ >= 0;
+  return {form_of(editor_->person.drawn_as).form, storeys_shown_, opens_ground};
 }
+
+void SceneView::show_storeys(int count) {
+  storeys_shown_ = count >= storeys_in_all_ || (count < 0 && cellars_in_all_ == 0) ? 0 : std::max(count, -cellars_in_all_);
+}
+
+// Steps go from the deepest cellar to the highest storey; there is nothing between the first of each.
+void SceneView::show_step(int step) { show_storeys(step > 0 ? step : step - 1); }
+
+int SceneView::step_shown() const {
+  return storeys_shown_ == 0 ? storeys_in_all_ : storeys_shown_ > 0 ? storeys_shown_ : storeys_shown_ + 1;
+}
+
+void SceneView::step_storeys(int by) { show_step(std::max(lowest_step(), step_shown() + by)); }
 
 void SceneView::follow_look() { facts_ = drawn_.of(whole_, drawn_look()); }
 
@@ -106,12 +119,20 @@ void SceneView::draw_forms_popup() {
   ImGui::EndPopup();
 }
 
-// At the right above the north arrow: one step for each storey, all of them at its top.
+// What is written beside the slider; nothing where all is shown and nobody touches it.
+std::string SceneView::storeys_text(bool is_touched) const {
+  if (storeys_shown_ == 0) return is_touched ? "all storeys" : "";
+  if (storeys_shown_ < 0) return "up to cellar " + std::to_string(-storeys_shown_) + " of " + std::to_string(cellars_in_all_);
+  return "up to storey " + std::to_string(storeys_shown_) + " of " + std::to_string(storeys_in_all_);
+}
+
+// At the right above the north arrow: one step for each storey and each cellar, all of them at its top.
 void SceneView::draw_storey_slider() {
-  if (storeys_in_all_ < 2 || is_walking_) return;
+  const int count = storeys_in_all_ - lowest_step() + 1;
+  if (count < 2 || is_walking_) return;
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  const auto all = static_cast<float>(storeys_in_all_);
+  const auto all = static_cast<float>(count);
   const float bottom = at_.y + height() - strip_height() - theme.px(kSliderFoot);
   const float length = std::min(theme.px(kStoreyStep) * all, kSliderShare * height()),
               x = at_.x + width() - theme.px(kSliderRight);
@@ -122,29 +143,31 @@ void SceneView::draw_storey_slider() {
   const bool is_held = ImGui::IsItemActive(), is_hovered = ImGui::IsItemHovered();
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   storey_slider_ = {low.x, low.y, high.x, high.y};
+  // The lower end is the ground where there are no cellars, else the deepest floor.
+  const int foot = lowest_step() - 1;
   if (is_held) {
     const float share = (bottom - ImGui::GetIO().MousePos.y) / length;
-    show_storeys(std::max(1, static_cast<int>(std::lround(std::clamp(share, 0.0f, 1.0f) * all))));
+    show_step(foot + std::max(1, static_cast<int>(std::lround(std::clamp(share, 0.0f, 1.0f) * all))));
   }
-  const int shown = storeys_shown_ == 0 ? storeys_in_all_ : std::min(storeys_shown_, storeys_in_all_);
-  const auto y_of = [&](float storey) { return bottom - length * storey / all; };
+  const auto y_of = [&](int step) { return bottom - length * static_cast<float>(step - foot) / all; };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({x - wide / 2, low.y}, {x + wide / 2, high.y}, faded(c.sky, 0.75f), theme.px(6));
-  list.AddLine({x, y_of(0)}, {x, y_of(all)}, faded(c.text_soft, 0.4f), theme.px(2));
-  list.AddLine({x, y_of(0)}, {x, y_of(static_cast<float>(shown))}, c.accent, theme.px(3));
+  list.AddLine({x, y_of(foot)}, {x, y_of(storeys_in_all_)}, faded(c.text_soft, 0.4f), theme.px(2));
+  list.AddLine({x, y_of(foot)}, {x, y_of(step_shown())}, c.accent, theme.px(3));
   // Where storeys stand close, only every fifth or tenth has a line.
   const float step = length / all;
   const int every = step >= theme.px(5) ? 1 : step >= theme.px(1.5f) ? 5 : 10;
-  for (int k = 0; k <= storeys_in_all_; k += every) {
-    const float y = y_of(static_cast<float>(k)), half = theme.px(k % 5 == 0 ? 6.0f : 3.5f);
-    list.AddLine({x - half, y}, {x + half, y}, faded(c.text_soft, 0.7f), theme.px(1));
+  for (int k = foot; k <= storeys_in_all_; ++k) {
+    if (k % every != 0) continue;
+    // That of the ground is the longest, where there is something below it.
+    const bool is_ground = k == 0 && foot < 0;
+    const float y = y_of(k), half = theme.px(is_ground ? 10.0f : k % 5 == 0 ? 6.0f : 3.5f);
+    list.AddLine({x - half, y}, {x + half, y}, faded(c.text_soft, is_ground ? 1.0f : 0.7f), theme.px(is_ground ? 2.0f : 1.0f));
   }
-  const float knob = y_of(static_cast<float>(shown));
+  const float knob = y_of(step_shown());
   list.AddRectFilled({x - theme.px(9), knob - theme.px(4)}, {x + theme.px(9), knob + theme.px(4)},
                      is_held || is_hovered ? c.text : c.accent, theme.px(3));
-  const std::string text = storeys_shown_ == 0
-                               ? (is_hovered || is_held ? "all storeys" : "")
-                               : "up to storey " + std::to_string(shown) + " of " + std::to_string(storeys_in_all_);
+  const std::string text = storeys_text(is_hovered || is_held);
   if (text.empty()) return;
   ImFont* font = theme.fonts().small;
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
@@ -152,6 +175,17 @@ void SceneView::draw_storey_slider() {
   list.AddRectFilled({at.x - theme.px(4), at.y - theme.px(2)}, {at.x + extent.x + theme.px(4), at.y + extent.y + theme.px(2)},
                      faded(c.raised, 0.92f), theme.px(4));
   list.AddText(font, font->FontSize, at, c.text, text.c_str());
+}
+
+// Of the storeys below the ground those that are drawn in place of the volume; without storeys where it is drawn itself.
+geometry::PlateStack SceneView::cellar_drawn(const geometry::StandingBody& body, std::uint32_t node) const {
+  for (const CellarFacts& cellar : facts_->cellars)
+    if (storeys_shown_ < 0 && cellar.node == node) {
+      geometry::PlateStack stack = geometry::cellar_of(body, cellar.storeys, cellar.storey_height);
+      stack.storeys = std::max(0, stack.storeys + storeys_shown_ + 1);
+      return stack;
+    }
+  return geometry::cellar_of({}, 0, 1);
 }
 
 // Seen from above, the chosen standing volumes have the lengths of their sides: those of the highest storey that is drawn.
@@ -193,8 +227,12 @@ void SceneView::draw_dimensions() {
     const auto figures = reading::row_of<reading::FootprintFigures>(*facts_->state, volume->node);
     if (!figures || figures->plates.rows.empty()) continue;
     const geometry::StandingBody body = geometry::read_body(figures->plates, volume->figures.position);
+    const geometry::PlateStack cellar = cellar_drawn(body, volume->node);
+    const bool is_below = cellar.storeys > 0;
     const PlanFloor floor =
-        highest_floor(body, storeys_shown_ == 0 ? storeys_of(*volume) : storeys_shown_ - storeys_below(*volume, facts_->ground));
+        is_below ? PlanFloor{&cellar, -storeys_shown_, cellar.top()}
+                 : highest_floor(
+                       body, storeys_shown_ == 0 ? storeys_of(*volume) : storeys_shown_ - storeys_below(*volume, facts_->ground));
     const geometry::PlateStack* stack = floor.stack;
     for (const geometry::PlateRing& ring : stack->outlines)
       for (const PlanSide& side : straight_sides(ring)) draw_side(side, floor.roof);
@@ -203,7 +241,7 @@ void SceneView::draw_dimensions() {
     const bool is_round =
         std::any_of(stack->outlines.begin(), stack->outlines.end(), [](const auto& ring) { return ring.radius > 0; });
     const ImVec2 middle = on_screen(seen({body.centre.x, body.centre.y, floor.roof}));
-    write({middle.x, middle.y + theme.px(30)}, "storey " + std::to_string(floor.storey) + ": " +
+    write({middle.x, middle.y + theme.px(30)}, (is_below ? "cellar " : "storey ") + std::to_string(floor.storey) + ": " +
                                                    reading::quantity(stack->area, Unit::square_metre) +
                                                    (is_round ? ", r " + fixed(stack->outlines.front().radius, 2) + " m" : ""));
   }

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/cellar.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/geometry/plates_table.h"
 #include "core/geometry/polygon_triangles.h"
@@ -121,8 +123,7 @@ std::vector<reading::FormedStorey> floors_of(const SceneFacts& facts, const Volu
   double drawn = 0;
   for (std::size_t k = 0; k < whole.faces.size(); ++k) {
     const double bottom = volume.figures.bottom + static_cast<double>(k) * volume.figures.storey_height;
-    double area = 0;
-    for (const geometry::PlateFace& face : whole.faces[k]) area += geometry::signed_area(face.outer);
+    const double area = geometry::area_of(whole.faces[k]);
     if (area > 0) floors.push_back({bottom, bottom + volume.figures.storey_height, area, whole.faces[k]});
     drawn += area;
   }
@@ -154,6 +155,12 @@ int storeys_of(const VolumeFacts& volume) {
 int storeys_in(const SceneFacts& facts) {
   int most = 0;
   for (const VolumeFacts& volume : facts.volumes) most = std::max(most, storeys_below(volume, facts.ground) + storeys_of(volume));
+  return most;
+}
+
+int cellars_in(const SceneFacts& facts) {
+  int most = 0;
+  for (const CellarFacts& cellar : facts.cellars) most = std::max(most, cellar.storeys);
   return most;
 }
 
@@ -250,11 +257,25 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
     return facts;
   }
   if (from_ == facts && look_ == look && made_) return made_;
+  std::shared_ptr<SceneFacts> drawn;
+  if (look.form == DrawnForm::as_is && look.storeys == 0) shapes_.clear(), drawn = std::make_shared<SceneFacts>(*facts);
+  else drawn = formed(*facts, look);
+  if (look.storeys < 0) drawn = below_ground(*facts, -look.storeys);
+  else if (look.opens_ground) open_ground(*facts, *drawn);
+  made_ = std::move(drawn);
+  from_ = facts;
+  look_ = look;
+  tell(*facts, *made_, look);
+  return made_;
+}
+
+// The figures of a form are those of all volumes, also of those that the cut leaves out.
+std::shared_ptr<SceneFacts> DrawnShapes::formed(const SceneFacts& facts, const DrawnLook& look) {
   std::map<std::uint32_t, Shape> shapes;
   std::vector<VolumeFacts> volumes;
-  for (const VolumeFacts& volume : facts->volumes) {
-    const int below = storeys_below(volume, facts->ground), all = storeys_of(volume);
-    const bool is_above = look.storeys > 0 && below >= look.storeys;
+  for (const VolumeFacts& volume : facts.volumes) {
+    const int below = storeys_below(volume, facts.ground), all = storeys_of(volume);
+    const bool is_above = look.storeys < 0 || (look.storeys > 0 && below >= look.storeys);
     if (is_above && look.form == DrawnForm::as_is) continue;
     VolumeFacts& drawn = volumes.emplace_back(volume);
     if (!volume.cell) {
@@ -276,7 +297,7 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
     shape.form = look.form;
     const auto before = shapes_.find(volume.node);
     if (before != shapes_.end() && before->second.is_of_same(shape)) shape = before->second;
-    else fill_or_leave(*facts, volume, shape);
+    else fill_or_leave(facts, volume, shape);
     // What lies above the cut is not drawn, but its figures count.
     if (!shape.made || is_above) {
       volumes.pop_back();
@@ -292,11 +313,51 @@ std::shared_ptr<const SceneFacts> DrawnShapes::of(const std::shared_ptr<const Sc
     shapes.emplace(volume.node, std::move(shape));
   }
   shapes_ = std::move(shapes);
-  made_ = facts_with(*facts, std::move(volumes));
-  from_ = facts;
-  look_ = look;
-  tell(*facts, *made_, look);
-  return made_;
+  return facts_with(facts, std::move(volumes));
+}
+
+// Its storeys from the `from`-th down, as one body: its plates are equal.
+MeshPointer DrawnShapes::cellar_cell(const SceneFacts& facts, const VolumeFacts& volume, const CellarFacts& cellar, int from) {
+  CellarShape& shape = cellars_[volume.node];
+  if (shape.cell && shape.mesh == volume.figures.mesh && shape.storeys == cellar.storeys && shape.from == from &&
+      shape.height == cellar.storey_height)
+    return shape.cell;
+  shape = {volume.figures.mesh, cellar.storeys, from, cellar.storey_height, nullptr};
+  const geometry::StandingBody body = body_of(facts, volume);
+  if (body.stacks.empty() || from > cellar.storeys) return nullptr;
+  geometry::PlateStack below = geometry::cellar_of(body, cellar.storeys, cellar.storey_height);
+  below.storeys -= from - 1;
+  return shape.cell = shape_of(geometry::mesh_of({body.centre, {below}}, kChords));
+}
+
+// Where memory does not suffice, what lies below the ground is left out of the picture.
+void DrawnShapes::open_ground(const SceneFacts& facts, SceneFacts& drawn) try {
+  for (CellarFacts& cellar : drawn.cellars)
+    if (const VolumeFacts* volume = facts.volume_of(cellar.node)) cellar.cell = cellar_cell(facts, *volume, cellar, 1);
+} catch (const std::bad_alloc&) {}
+
+// Cellars in place of the volumes that have them, in the open: what stands around would float above them.
+std::shared_ptr<SceneFacts> DrawnShapes::below_ground(const SceneFacts& facts, int from) {
+  std::vector<VolumeFacts> volumes;
+  double pit = facts.ground;
+  for (const CellarFacts& cellar : facts.cellars) {
+    const VolumeFacts* volume = facts.volume_of(cellar.node);
+    MeshPointer cell = volume == nullptr ? nullptr : cellar_cell(facts, *volume, cellar, from);
+    if (!cell) continue;
+    VolumeFacts& drawn = volumes.emplace_back(*volume);
+    const int shown = cellar.storeys - (from - 1);
+    drawn.cell = std::move(cell);
+    drawn.is_drawn_otherwise = true;
+    drawn.is_ball = drawn.is_dressed = drawn.is_edgeless = false;
+    drawn.drawn_area = shown * cellar.area;
+    drawn.drawn_volume = drawn.drawn_area * cellar.storey_height;
+    drawn.drawn_storeys = {cellar.bottom, cellar.storey_height};
+    pit = std::min(pit, cellar.bottom);
+  }
+  const std::shared_ptr<SceneFacts> made = facts_with(facts, std::move(volumes));
+  made->urban.bodies.clear();
+  made->pit = pit;
+  return made;
 }
 
 std::optional<DrawnShapes::FormFigures> DrawnShapes::figures_of(std::uint32_t node) const {
@@ -313,14 +374,21 @@ void DrawnShapes::tell(const SceneFacts& all, const SceneFacts& drawn, const Dra
   for (const auto& [node, shape] : shapes_) form_volume += shape.form_volume, form_area += shape.form_area;
   for (const VolumeFacts& one : all.volumes) scene_volume += one.volume, scene_area += one.floor_area;
   legend_ = {};
+  if (look.form == DrawnForm::as_is && look.storeys == 0) return;
   const FormChoice& form = reading::choice_of(look.form);
   legend_.title = std::string("Drawn: ") + form.label;
+  if (look.storeys < 0) {
+    // What lies below the ground is the same in every form.
+    legend_.title =
+        "Drawn: cellars" + (look.storeys == -1 ? std::string() : " from number " + std::to_string(-look.storeys) + " down");
+    legend_.rows.push_back({square(area) + " and " + cubic(volume) + " drawn, no part of the floor area", 0});
+  }
   if (look.storeys > 0)
     legend_.title += ", " + reading::counted(static_cast<std::size_t>(look.storeys), "storey") + " from the ground";
   // The floors of a ball or a cell that is cut are not measured.
   const bool has_floors = look.form != DrawnForm::balls && look.form != DrawnForm::cells;
   if (look.storeys > 0 && has_floors) legend_.rows.push_back({square(area) + " floor area and " + cubic(volume) + " drawn", 0});
-  if (look.form != DrawnForm::as_is)
+  if (look.form != DrawnForm::as_is && look.storeys >= 0)
     legend_.rows.push_back({std::string("Figures ") + form.measured + ": " + square(form_area) + ", " + cubic(form_volume), 0});
   legend_.rows.push_back({"As they are: " + square(scene_area) + ", " + cubic(scene_volume), 0});
 }

@@ -26,8 +26,10 @@ const FormChoice& form_of(const std::string& id);
 
 struct DrawnLook {
   DrawnForm form = DrawnForm::as_is;
-  int storeys = 0;  ///< how many from the ground up are drawn; 0: all
-  bool is_plain() const { return form == DrawnForm::as_is && storeys == 0; }
+  /// How many from the ground up are drawn; 0: all. Below 0 only cellars: -1 all of them, -2 from the second down.
+  int storeys = 0;
+  bool opens_ground = false;  ///< cellars are drawn besides, where a section may lay them open
+  bool is_plain() const { return form == DrawnForm::as_is && storeys == 0 && !opens_ground; }
   bool operator==(const DrawnLook&) const = default;
 };
 
@@ -38,6 +40,8 @@ int storeys_below(const VolumeFacts& volume, double ground);
 int storeys_of(const VolumeFacts& volume);
 /// The number of storeys from the ground up that show all of every volume; 0 without volumes.
 int storeys_in(const SceneFacts& facts);
+/// The number of storeys below the ground, of the volume that has most of them.
+int cellars_in(const SceneFacts& facts);
 
 class DrawnShapes {
  public:
@@ -68,10 +72,22 @@ class DrawnShapes {
   static void fill_standing(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape);
   void fill(const SceneFacts& facts, const VolumeFacts& volume, Shape& shape) const;
   void tell(const SceneFacts& all, const SceneFacts& drawn, const DrawnLook& look);
+  std::shared_ptr<SceneFacts> formed(const SceneFacts& facts, const DrawnLook& look);
+  MeshPointer cellar_cell(const SceneFacts& facts, const VolumeFacts& volume, const CellarFacts& cellar, int from);
+  void open_ground(const SceneFacts& facts, SceneFacts& drawn);
+  std::shared_ptr<SceneFacts> below_ground(const SceneFacts& facts, int from);
 
   std::shared_ptr<const SceneFacts> from_, made_;
   DrawnLook look_;
   std::map<std::uint32_t, Shape> shapes_;  // by node
+  // Its storeys from `from` down, 1 the uppermost; with what the cell was made from.
+  struct CellarShape {
+    MeshPointer mesh;
+    int storeys = 0, from = 1;
+    double height = 0;
+    MeshPointer cell;
+  };
+  std::map<std::uint32_t, CellarShape> cellars_;  // by node
   Legend legend_;
 };
 

@@ -279,6 +279,7 @@ void GlRenderer::draw_ground(const ViewScene& scene) {
   set_light(program, scene);
   program.set("plot", static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(5 * scene.radius), 0);
   program.set("level", static_cast<float>(scene.ground - scene.origin.z));
+  program.set("section", scene.is_ground_cut ? section_of(scene) : std::array<float, 4>{0, 0, 0, 1});
   program.set("grid", static_cast<float>(scene.grid));
   program.set("grid_origin", static_cast<float>(-std::fmod(scene.origin.x, 10 * scene.grid)),
               static_cast<float>(-std::fmod(scene.origin.y, 10 * scene.grid)));

@@ -113,6 +113,8 @@ std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSecti
     if (nearest && ball.from > nearest->distance) break;
     take(facts.volumes[ball.row].node, *facts.volumes[ball.row].cell);
   }
+  for (const CellarFacts& cellar : facts.cellars)
+    if (cellar.cell) take(cellar.node, *cellar.cell);
   for (const BodyFacts& body : facts.urban.bodies)
     if (with_bodies) take(body.node, *body.cell);
   return nearest;

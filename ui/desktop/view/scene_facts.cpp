@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/reading/changed_nodes.h"
+#include "core/reading/views/building.h"
 #include "core/reading/views/facade.h"
 #include "core/reading/views/node.h"
 #include "core/reading/views/solver.h"
@@ -82,6 +83,27 @@ VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account, co
   facts.is_ball = true;
   facts.cell = ball_cell(facts.figures.position, facts.figures.radius);
   return facts;
+}
+
+// In its place among the others; nothing of a volume without one.
+void read_cellar(const State& state, const VolumeFacts& volume, std::vector<CellarFacts>& cellars) {
+  const auto at = std::lower_bound(cellars.begin(), cellars.end(), volume.node,
+                                   [](const CellarFacts& cellar, std::uint32_t node) { return cellar.node < node; });
+  const bool is_there = at != cellars.end() && at->node == volume.node;
+  const auto figures = reading::row_of<reading::CellarFigures>(state, volume.node);
+  if (!figures || figures->storeys <= 0) {
+    if (is_there) cellars.erase(at);
+    return;
+  }
+  const auto storeys = static_cast<int>(figures->storeys);
+  const CellarFacts cellar{volume.node,
+                           storeys,
+                           volume.figures.bottom - storeys * figures->storey_height,
+                           figures->storey_height,
+                           figures->area / storeys,
+                           nullptr};
+  if (is_there) *at = cellar;
+  else cellars.insert(at, cellar);
 }
 
 // What is drawn as itself needs no mark.
@@ -269,6 +291,7 @@ void read_all_nodes(const State& state, const SceneFacts* last, std::size_t most
     const VolumeFacts* before = last != nullptr ? last->volume_of(account.node) : nullptr;
     const bool is_awaited = std::binary_search(facts.awaited.begin(), facts.awaited.end(), account.node);
     keep_ball(volumes.emplace_back(read_volume(state, std::move(account), before, is_awaited)), before);
+    read_cellar(state, volumes.back(), facts.cellars);
   }
   make_columns(facts, volumes);
   facts.volumes = published(VolumeList::Draft(std::move(volumes)));
@@ -289,6 +312,7 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
   facts.links = last.links;
   facts.balls = last.balls;
   facts.columns = last.columns;
+  facts.cellars = last.cellars;
   facts.uses = last.uses;
   for (const std::uint32_t n : changed) {
     facts.places[n] = reading::read<&reading::NodePlace::position>(state, n);
@@ -307,6 +331,7 @@ void read_changed_nodes(const State& state, const SceneFacts& last, const std::v
     VolumeFacts volume = read_volume(state, std::move(account), before, is_awaited);
     const auto row = last.row_of(volume.node);
     keep_ball(volume, before);
+    read_cellar(state, volume, facts.cellars);
     has_other_use |= before->figures.use != volume.figures.use;
     set_columns(facts, row, volume);
     rows.push_back(row);
@@ -349,6 +374,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::copy_if(facts.volumes.begin(), facts.volumes.end(), std::back_inserter(shown), [&](const auto& v) { return !is_gone(v); });
   make_columns(*rest, shown);
   rest->volumes = published(VolumeList::Draft(std::move(shown)));
+  std::erase_if(rest->cellars, is_gone);
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);
   std::erase_if(rest->media, is_gone);
@@ -372,7 +398,7 @@ std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint3
                               end == held.end() ? street.line.back() : end->second);
 }
 
-std::shared_ptr<const SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes) {
+std::shared_ptr<SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes) {
   auto other = std::make_shared<SceneFacts>(facts);
   make_columns(*other, volumes);
   other->volumes = published(VolumeList::Draft(std::move(volumes)));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,6 +32,17 @@ struct VolumeFacts : reading::Account {
   bool is_drawn_otherwise = false;          ///< `cell` is another shape than that of the state (see drawn_form.h)
   bool is_edgeless = false;                 ///< it is round, though its shape has facets
   double drawn_volume = 0, drawn_area = 0;  ///< what that shape measures [m³], and its floors [m²]
+  /// Where that shape has its lowest floor, and how high its storeys are, where these are not those of the volume [m].
+  std::optional<std::pair<double, double>> drawn_storeys;
+};
+
+/// What lies below the ground of a volume that stands. It is no part of its shape, and the ground hides it.
+struct CellarFacts {
+  std::uint32_t node = 0;
+  int storeys = 0;
+  double bottom = 0, storey_height = 0;  ///< of the lowest floor; [m]
+  double area = 0;                       ///< of each plate [m²]
+  MeshPointer cell;                      ///< only where something lays it open (see drawn_form.h)
 };
 
 /// A node without a volume, as a small mark.
@@ -77,8 +89,10 @@ using VolumeList = SharedList<VolumeFacts, NoDigest>;
 struct SceneFacts {
   std::shared_ptr<const State> state;
   VolumeList volumes;
-  SightBalls balls;       ///< as volumes
-  VolumeColumns columns;  ///< as volumes
+  std::vector<CellarFacts> cellars;  ///< ascending node
+  std::optional<double> pit;         ///< the ground is taken away down to here [m]
+  SightBalls balls;                  ///< as volumes
+  VolumeColumns columns;             ///< as volumes
   /// Volumes whose shape this picture did without, ascending: they show the one before, or a ball. Whoever draws reads on until
   /// there are none.
   std::vector<std::uint32_t> awaited;
@@ -118,7 +132,7 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state,
 std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden);
 
 /// The same with other shapes of its volumes, in ascending node; those that are left out are not drawn.
-std::shared_ptr<const SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes);
+std::shared_ptr<SceneFacts> facts_with(const SceneFacts& facts, std::vector<VolumeFacts> volumes);
 
 /// The line of a street; where somebody has one of its junctions in the hand, the one that it will have.
 std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint32_t, Point3>& held);

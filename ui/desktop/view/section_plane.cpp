@@ -75,6 +75,8 @@ ModelBox model_box(const SceneFacts& facts) {
     box.low.z = std::min(box.low.z, volume.figures.bottom);
     box.high.z = std::max(box.high.z, volume.figures.bottom + volume.figures.height);
   }
+  for (const CellarFacts& cellar : facts.cellars)
+    if (cellar.cell) box.low.z = std::min(box.low.z, cellar.bottom);
   for (const BoundaryFacts& boundary : facts.boundaries)
     for (const auto& [a, b] : boundary.edges) take(a.x, a.y, 0), take(b.x, b.y, 0);
   if (box.low.x > box.high.x) take(facts.centre.x, facts.centre.y, facts.radius);

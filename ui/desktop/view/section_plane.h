@@ -32,7 +32,7 @@ struct ModelBox {
   Point3 low, high;
   bool operator==(const ModelBox&) const = default;
 };
-/// Around volumes and boundaries, with the ground.
+/// Around volumes and boundaries, with the ground and the cellars that are laid open.
 ModelBox model_box(const SceneFacts& facts);
 /// A rectangle in the plane that stands a little out of the box: corners in order, for an upright plane the first two at the
 /// bottom. Where the plane misses the box the rectangle lies beside it.

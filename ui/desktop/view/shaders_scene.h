@@ -17,7 +17,7 @@ void main() {
 )";
 
 inline constexpr const char* kGroundFragment = R"(
-uniform vec4 plot, ground_colour, sky_colour, grid_colour;
+uniform vec4 plot, ground_colour, sky_colour, grid_colour, section;
 uniform vec2 grid_origin;
 uniform float grid;
 in vec3 world;
@@ -40,6 +40,8 @@ void main() {
     float near = surroundings(world).y;
     shown *= (0.76 + 0.24 * direct) * (1.0 - 0.42 * near);
   }
+  // After the derivatives, which want to be taken everywhere.
+  if (dot(section.xyz, world) > section.w) discard;
   float seen = 1.0 - smoothstep(0.35, 0.98, far);
   colour = vec4(mix(sky_colour.rgb, shown, seen), 1.0);
 }

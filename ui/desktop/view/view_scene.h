@@ -107,6 +107,7 @@ struct ViewScene {
   Point3 centre;                   ///< of everything that is drawn [m]
   double radius = 100;             ///< of the ball around it [m]
   double ground = 0;               ///< height of the ground [m]
+  bool is_ground_cut = false;      ///< the section takes the ground away too: there is something below it
   double grid = 10;                ///< distance of its lines [m]
   Vector3 sun{-0.45, -0.6, 0.66};  ///< towards the light, a unit vector
   float scale = 1;                 ///< pixels per point

@@ -9,6 +9,14 @@ namespace bl::desktop {
 namespace {
 
 constexpr Colour kPlaster = 0xffd8dde0u;
+// A cellar is paler than its volume: it is no floor area.
+constexpr float kPlain = 0.16f, kPale = 0.5f;
+
+// Cellars that are laid open; where there are none of them, the list is as good as empty.
+std::size_t open_cellars(const SceneFacts& facts) {
+  const auto is_open = [](const CellarFacts& cellar) { return cellar.cell != nullptr; };
+  return std::any_of(facts.cellars.begin(), facts.cellars.end(), is_open) ? facts.cellars.size() : 0;
+}
 
 }  // namespace
 
@@ -26,9 +34,13 @@ ViewVolume VolumePictures::picture_of(const Look& look, std::size_t row) const {
   shown.node = volume.node;
   shown.cell = volume.cell;
   // A little plaster in every colour: the model stays calm beside the things that speak.
-  shown.colour = row < look.colours.size() ? mixed(look.colours[row], kPlaster, 0.16f) : kPlaster;
+  shown.colour = row < look.colours.size() ? mixed(look.colours[row], kPlaster, kPlain) : kPlaster;
   shown.bottom = static_cast<float>(volume.figures.bottom);
   shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.figures.storey_height);
+  if (volume.drawn_storeys) {
+    shown.bottom = static_cast<float>(volume.drawn_storeys->first);
+    shown.storey = static_cast<float>(volume.drawn_storeys->second);
+  }
   if (volume.id == marks_.hovered || marks_.joined.contains(volume.node)) shown.flags |= ViewVolume::hovered;
   if (marks_.chosen.contains(volume.id)) shown.flags |= ViewVolume::chosen;
   if (volume.is_edgeless) shown.flags |= ViewVolume::plain;
@@ -52,16 +64,33 @@ ViewVolume VolumePictures::picture_of(const Look& look, const BodyFacts& body) c
   return shown;
 }
 
+ViewVolume VolumePictures::picture_of(const Look& look, const CellarFacts& cellar) const {
+  ViewVolume shown;
+  shown.node = cellar.node;
+  shown.cell = cellar.cell;
+  const std::size_t row = look.facts.row_of(cellar.node);
+  shown.colour = row < look.colours.size() ? mixed(look.colours[row], kPlaster, kPale) : kPlaster;
+  shown.bottom = static_cast<float>(cellar.bottom);
+  shown.storey = static_cast<float>(cellar.storey_height);
+  const std::string& id = look.facts.state->plan->nodes[cellar.node].id;
+  if (id == marks_.hovered || marks_.joined.contains(cellar.node)) shown.flags |= ViewVolume::hovered;
+  if (marks_.chosen.contains(id)) shown.flags |= ViewVolume::chosen;
+  return shown;
+}
+
 void VolumePictures::make_all(const Look& look) {
   const SceneFacts& facts = look.facts;
   std::vector<std::pair<ViewVolume, std::uint32_t*>> all;
   rows_.assign(facts.volumes.size(), kNowhere);
   bodies_.assign(look.has_bodies ? facts.urban.bodies.size() : 0, kNowhere);
-  all.reserve(rows_.size() + bodies_.size());
+  cellars_.assign(open_cellars(facts), kNowhere);
+  all.reserve(rows_.size() + bodies_.size() + cellars_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row)
     if (facts.volumes[row].cell) all.emplace_back(picture_of(look, row), &rows_[row]);
   for (std::size_t k = 0; k < bodies_.size(); ++k) all.emplace_back(picture_of(look, facts.urban.bodies[k]), &bodies_[k]);
-  if (!bodies_.empty())
+  for (std::size_t k = 0; k < cellars_.size(); ++k)
+    if (facts.cellars[k].cell) all.emplace_back(picture_of(look, facts.cellars[k]), &cellars_[k]);
+  if (!bodies_.empty() || !cellars_.empty())
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first.node < b.first.node; });
   std::vector<ViewVolume> items;
   items.reserve(all.size());
@@ -74,7 +103,7 @@ void VolumePictures::make_all(const Look& look) {
   shown_ = listed(std::move(items));
 }
 
-// Does every row and every building have its item where it had it?
+// Does every row, every building and every cellar have its item where it had it?
 bool VolumePictures::has_same_places(const Look& look) const {
   const SceneFacts& facts = look.facts;
   if (facts.volumes.size() != rows_.size() || (look.has_bodies ? facts.urban.bodies.size() : 0) != bodies_.size()) return false;
@@ -89,6 +118,12 @@ bool VolumePictures::has_same_places(const Look& look) const {
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (nodes_[bodies_[k]] != facts.urban.bodies[k].node) return false;
+  if (open_cellars(facts) != cellars_.size()) return false;
+  for (std::size_t k = 0; k < cellars_.size(); ++k) {
+    const bool is_somewhere = cellars_[k] != kNowhere;
+    if ((facts.cellars[k].cell != nullptr) != is_somewhere) return false;
+    if (is_somewhere && nodes_[cellars_[k]] != facts.cellars[k].node) return false;
+  }
   return true;
 }
 
@@ -124,6 +159,10 @@ void VolumePictures::follow(const Look& look, const Marks& before) {
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (ViewVolume body = picture_of(look, facts.urban.bodies[k]); !(body == draft[bodies_[k]]))
       draft.put(bodies_[k], std::move(body));
+  for (std::size_t k = 0; k < cellars_.size(); ++k)
+    if (cellars_[k] != kNowhere)
+      if (ViewVolume cellar = picture_of(look, facts.cellars[k]); !(cellar == draft[cellars_[k]]))
+        draft.put(cellars_[k], std::move(cellar));
   shown_ = published(std::move(draft));
 }
 

@@ -37,6 +37,7 @@ class VolumePictures {
   Marks marks_of(const Look& look) const;
   ViewVolume picture_of(const Look& look, std::size_t row) const;
   ViewVolume picture_of(const Look& look, const BodyFacts& body) const;
+  ViewVolume picture_of(const Look& look, const CellarFacts& cellar) const;
   bool has_same_places(const Look& look) const;
   void make_all(const Look& look);
   void follow(const Look& look, const Marks& before);
@@ -46,8 +47,9 @@ class VolumePictures {
   std::vector<Colour> colours_;
   Marks marks_;
   bool has_facades_ = false;
-  std::vector<std::uint32_t> nodes_;          ///< of the picture's items
-  std::vector<std::uint32_t> rows_, bodies_;  ///< where rows and buildings are among the items
+  std::vector<std::uint32_t> nodes_;  ///< of the picture's items
+  /// Where rows, buildings and cellars are among the items.
+  std::vector<std::uint32_t> rows_, bodies_, cellars_;
   ViewVolumes shown_;
 };
 
