@@ -558,5 +558,241 @@ class Standing(unittest.TestCase):
         self.assertFalse(os.path.exists(self.path("none.html")))
 
 
+# Volumes that stand over storeys below the ground: what all formats say of these, and that they count as nothing else.
+class Cellars(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        scene = os.path.join(SOURCE, "scenes/nodes/footprint.json")
+        pairs = {"csv": "a.csv", "dxf": "a.dxf", "svg": "plans/", "pdf": "a.pdf", "ifc": "a.ifc", "cityjson": "a.city.json", "xlsx": "a.xlsx",
+                 "glb": "a.glb", "obj": "a.obj", "3mf": "a.3mf", "stl": "a.stl"}
+        if os.path.exists(SHELL):
+            pairs["html"] = "a.html"
+        cls.said = ""
+        for pairs, options in ((pairs, []), ({"3mf": "with.3mf", "stl": "with.stl"}, ["--option", "cellars=true"]),
+                               ({"glb": "without.glb"}, ["--option", "cellars=false"])):
+            arguments = [PROGRAM, "export", scene, "--settle", *options]
+            for name, file in pairs.items():
+                arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
+            done = run(*arguments, page=os.path.dirname(SHELL))
+            assert done.returncode == 0, done.stdout + done.stderr
+            cls.said += done.stdout + done.stderr
+        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
+        cls.cellars = [row for row in cls.rows if row["row"] == "cellar"]
+        cls.storeys = [row for row in cls.rows if row["row"] == "storey"]
+        cls.buildings = [row for row in cls.rows if row["row"] == "building"]
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    def near(self, found, wanted, share):
+        self.assertLessEqual(abs(found - wanted), share * max(1, abs(wanted)), (found, wanted))
+
+    @staticmethod
+    def total(rows, column="floor_area [m2]"):
+        return math.fsum(float(row[column]) for row in rows)
+
+    @staticmethod
+    def volume(rows):
+        return math.fsum(float(row["floor_area [m2]"]) * (float(row["top [m]"]) - float(row["bottom [m]"])) for row in rows)
+
+    def test_csv_has_rows_of_their_own(self):
+        self.assertEqual([(row["building"], row["storey"]) for row in self.cellars], [("flats", "-1"), ("flats", "-2"), ("shop", "-1")])
+        self.near(self.total(self.storeys), self.total(self.buildings), 1e-9)
+        self.assertTrue(all(float(row["top [m]"]) <= 1e-9 for row in self.cellars))
+
+    def test_svg_has_a_plan_for_each(self):
+        space = "{http://www.w3.org/2000/svg}"
+        names = sorted(name for name in os.listdir(self.path("plans")) if name.startswith("cellar_"))
+        self.assertEqual(names, ["cellar_01.svg", "cellar_02.svg"])
+        for name in names:
+            root = xml.parse(self.path("plans/" + name)).getroot()
+            scale = float(re.search(r"scale 1:([\d.]+)", root.find(space + "desc").text).group(1))
+            number = int(name[7:9])
+            self.assertTrue(any(text.text.startswith("Cellar %d of 2, from -" % number) for text in root.iter(space + "text")))
+            found = 0.0
+            for group in root.iter(space + "g"):
+                if group.get("id").startswith("use_"):
+                    for path in group.iter(space + "path"):
+                        for ring in re.findall(r"M[^Z]*Z", path.get("d")):
+                            found -= area([tuple(map(float, p.split())) for p in ring.strip("MZ").split("L")]) * (scale / 1000) ** 2
+            self.near(found, self.total([row for row in self.cellars if row["storey"] == str(-number)], "drawn_area [m2]"), 1e-6)
+
+    @needs("pdftotext")
+    def test_pdf_has_a_page_for_each(self):
+        pages = run("pdftotext", "-layout", self.path("a.pdf"), "-").stdout.split("\f")
+        levels = len(os.listdir(self.path("plans"))) - 1
+        self.assertEqual(len([page for page in pages if page.strip()]), 1 + levels + 1)
+        self.assertIn("cellars, not counted above", pages[0])
+        self.assertIn("%.1f" % self.total(self.cellars), pages[0])
+        self.assertIn("Cellar 2 of 2", pages[1])
+        self.assertIn("Cellar 1 of 2", pages[2])
+        self.assertIn("Level 0 of", pages[3])
+
+    # In the plans with arcs; and what the section shows of them is as long as what it crosses in the plans.
+    @needs_module("ezdxf")
+    def test_dxf_plans_and_section(self):
+        import ezdxf
+        document = ezdxf.readfile(self.path("a.dxf"))
+        auditor = document.audit()
+        self.assertEqual((len(auditor.errors), len(auditor.fixes)), (0, 0))
+        space = document.modelspace()
+        line = space.query('LINE[layer=="SECTION-LINE"]')[0]
+        x, y = line.dxf.start[0], line.dxf.start[1]
+        length = math.dist((x, y), line.dxf.end[:2])
+        along = ((line.dxf.end[0] - x) / length, (line.dxf.end[1] - y) / length)
+        found, crossed = 0.0, 0.0
+        for plate in space.query("LWPOLYLINE"):
+            if not re.match(r"L-\d+-", plate.dxf.layer):
+                continue
+            points = [(p[0], p[1], p[4]) for p in plate.get_points()]
+            found += area([p[:2] for p in points])
+            for a, b in zip(points, points[1:] + points[:1]):
+                if a[2] != 0:
+                    angle = 4 * math.atan(a[2])
+                    radius = math.dist(a[:2], b[:2]) / (2 * math.sin(angle / 2))
+                    found += radius * radius * (angle - math.sin(angle)) / 2
+            ring, at = Standing.fine(plate), []
+            for a, b in zip(ring, ring[1:] + ring[:1]):
+                left = [along[0] * (p[1] - y) - along[1] * (p[0] - x) for p in (a, b)]
+                if (left[0] > 0) != (left[1] > 0):
+                    part = left[0] / (left[0] - left[1])
+                    at.append(sum((a[k] + (b[k] - a[k]) * part - (x, y)[k]) * along[k] for k in (0, 1)))
+            at.sort()
+            crossed += sum(b - a for a, b in zip(at[::2], at[1::2]))
+        self.near(found, self.total(self.cellars), 1e-6)
+        shown = 0.0
+        for cut in space.query('LWPOLYLINE[layer=="SECTION-CELLAR"]'):
+            across = [p[0] for p in cut.get_points()]
+            shown += max(across) - min(across)
+        self.assertGreater(shown, 10)
+        self.near(shown, crossed, 1e-3)
+
+    def test_ifc_has_spaces_below_the_ground(self):
+        entities = dict(re.findall(r"^(#\d+)=(.*);$", text_of(self.path("a.ifc")), re.M))
+        spaces = [entity for entity in entities.values() if entity.startswith("IFCSPACE(")]
+        self.assertEqual(len(spaces), len(self.storeys) + len(self.cellars))
+        numbers = {}
+        for entity in entities.values():
+            value = re.match(r"IFCQUANTITY[A-Z]+\('([^']*)',\$,\$,([^,]*),", entity)
+            if value:
+                numbers.setdefault(value.group(1), []).append(float(value.group(2)))
+        self.near(math.fsum(numbers["CellarArea"]), self.total(self.cellars), 1e-9)
+        # Those of the spaces, below the ground too, and those of the buildings, without these.
+        self.near(math.fsum(numbers["GrossFloorArea"]), 2 * self.total(self.storeys) + self.total(self.cellars), 1e-9)
+
+    def test_cityjson_parts_are_closed(self):
+        document = json.loads(text_of(self.path("a.city.json")))
+        scale = document["transform"]["scale"]
+        places = [[v[k] * scale[k] for k in range(3)] for v in document["vertices"]]
+        parts = [one for one in document["CityObjects"].values() if one["type"] == "BuildingPart"]
+        self.assertEqual(len(parts), len(self.cellars))
+        volume = 0.0
+        for one in parts:
+            geometry = one["geometry"][0]
+            for solid in geometry["boundaries"] if geometry["type"] == "MultiSolid" else [geometry["boundaries"]]:
+                sides = [(a, b) for shell in solid for surface in shell for ring in surface for a, b in zip(ring, ring[1:] + ring[:1])]
+                self.assertEqual({(b, a) for a, b in sides}, set(sides))
+                for ring in (ring for shell in solid for surface in shell for ring in surface):
+                    corners = [places[i] for i in ring]
+                    volume += sum(Export.six_volumes(corners[0], a, b) for a, b in zip(corners[1:], corners[2:])) / 6
+        self.near(volume, self.volume(self.cellars), 2e-3)
+
+    @needs_module("openpyxl")
+    def test_xlsx_has_a_sheet(self):
+        import openpyxl
+        rows = list(openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)["Cellars"].iter_rows(min_row=2, values_only=True))
+        self.assertEqual(len(rows), len(self.cellars) + 1)
+        self.near(rows[-1][6], self.total(self.cellars), 1e-9)
+
+    @staticmethod
+    def bodies_of_glb(path):
+        with open(path, "rb") as file:
+            data = file.read()
+        size = struct.unpack("<I", data[12:16])[0]
+        document, binary = json.loads(data[20:20 + size]), data[28 + size:]
+        bodies = {}
+        for node in document["nodes"]:
+            primitive = document["meshes"][node["mesh"]]["primitives"][0]
+            def read(accessor, form):
+                view = document["bufferViews"][document["accessors"][accessor]["bufferView"]]
+                part = binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+                return list(struct.unpack("<%d%s" % (len(part) // 4, form), part))
+            numbers, index = read(primitive["attributes"]["POSITION"], "f"), read(primitive["indices"], "I")
+            points = [tuple(numbers[k:k + 3]) for k in range(0, len(numbers), 3)]
+            bodies[node["name"]] = (node["extras"], points, [index[k:k + 3] for k in range(0, len(index), 3)])
+        return bodies
+
+    # A model in metres has them, each of them closed and below the ground.
+    def test_glb_has_a_body_for_each_building_with_cellars(self):
+        bodies = self.bodies_of_glb(self.path("a.glb"))
+        self.assertEqual(sorted(bodies), ["Flats", "Flats, cellar", "Shop", "Shop, cellar"])
+        for name, (extras, points, triangles) in bodies.items():
+            sides = {(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)}
+            self.assertEqual(len(sides), 3 * len(triangles))
+            self.assertTrue(all((b, a) in sides for a, b in sides))
+            volume = sum(Export.six_volumes(*(points[c] for c in t)) for t in triangles) / 6
+            self.near(volume, extras["volume_m3"], 2e-3)
+            if "cellar_of" not in extras:
+                continue
+            own = [row for row in self.cellars if row["building"] == extras["cellar_of"]]
+            self.assertEqual(extras["storeys"], len(own))
+            self.near(extras["cellar_area_m2"], self.total(own), 1e-9)
+            self.near(volume, self.volume(own), 2e-3)
+            self.assertLessEqual(max(p[1] for p in points), 1e-6)
+        self.assertEqual(sorted(self.bodies_of_glb(self.path("without.glb"))), ["Flats", "Shop"])
+        names = [line[2:] for line in text_of(self.path("a.obj")).splitlines() if line.startswith("o ")]
+        self.assertEqual(names, ["Flats", "Flats,_cellar", "Shop", "Shop,_cellar"])
+
+    # A print stands on its plate: without cellars, unless somebody wants them.
+    def test_prints_have_them_where_they_are_asked_for(self):
+        space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+        found = {}
+        for name in ("a", "with"):
+            with zipfile.ZipFile(self.path(name + ".3mf")) as package:
+                model = xml.fromstring(package.read("3D/3dmodel.model"))
+            found[name] = 0.0
+            for one in model.iter(space + "object"):
+                points = [tuple(float(v.get(k)) for k in "xyz") for v in one.iter(space + "vertex")]
+                for t in one.iter(space + "triangle"):
+                    found[name] += Export.six_volumes(*(points[int(t.get(k))] for k in ("v1", "v2", "v3"))) / 6
+        # Millimetres at 1:500.
+        self.near(found["a"] / 8, self.volume(self.storeys), 2e-3)
+        self.near(found["with"] / 8, self.volume(self.storeys) + self.volume(self.cellars), 2e-3)
+        self.assertEqual(self.said.count("without the cellars of 2 volumes"), 3)
+
+    @needs("admesh")
+    def test_stl_with_cellars_is_sound(self):
+        for name, parts in (("a", 2), ("with", 4)):
+            text = run("admesh", self.path(name + ".stl")).stdout
+            for word in ("Degenerate facets", "Facets removed", "Facets reversed", "Backwards edges"):
+                self.assertRegex(text, word + r"\s*:\s*0\b")
+            self.assertRegex(text, r"Total disconnected facets\s*:\s*0\s+0")
+
+    @unittest.skipUnless(os.path.exists(SHELL), "the page is not built (ui/web/build.sh)")
+    def test_html_has_plans_and_areas(self):
+        page = json.loads(re.search(r'<script id="data" type="application/json">(.*?)</script>', text_of(self.path("a.html")), re.S).group(1))
+        self.assertEqual([level["name"] for level in page["plan"]["levels"]][:3], ["Cellar 2", "Cellar 1", "Level 0"])
+        cellars = [cellar for one in page["buildings"] for cellar in one["cellars"]]
+        self.assertEqual(len(cellars), len(self.cellars))
+        self.near(math.fsum(cellar["area"] for cellar in cellars), self.total(self.cellars), 1e-9)
+        drawn = math.fsum(abs(sum(area(ring) for ring in Standing.rings(page["paths"][cellar["path"]]))) / 100 for cellar in cellars)
+        self.near(drawn, self.total(self.cellars), 2e-3)
+        self.near(page["all"]["area"], self.total(self.storeys), 1e-9)
+
+    @unittest.skipUnless(os.path.exists(SHELL), "the page is not built (ui/web/build.sh)")
+    @unittest.skipUnless(os.path.isdir(os.path.join(SOURCE, "ui/web/node_modules/playwright-core")), "playwright-core is not installed")
+    @needs("node")
+    @needs("chromium")
+    def test_html_in_a_browser(self):
+        done = run("node", os.path.join(SOURCE, "ui/web/test/proposal.mjs"), self.path("a.html"), "cellars")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)
