@@ -9,7 +9,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 
 namespace bl {
 
@@ -28,6 +28,7 @@ struct CongestionFeedback {
     double storey_height = 0;
     std::optional<int> built, wished, least_storeys;
     std::optional<double> height_limit;
+    std::optional<Shared<Table>> building;
   };
   struct Out {
     std::optional<double> demand_limit, height_limit;
@@ -39,7 +40,8 @@ struct CongestionFeedback {
         "Lowers the demand limit of a volume while a street at its access carries more than a share of its capacity, or while "
         "most of its trips find no way. The limit rises again when there is room. Together with `request_traffic` this is a "
         "feedback loop: the streets limit the size of the volume. A volume that stands gives up whole storeys with its demand, "
-        "one for each part of the demand that filled one, and keeps about its footprint.");
+        "one for each part of the demand that filled one, and keeps about its footprint. Of a building that several share they "
+        "go for its part in the floor area that all ask for.");
     l.family(LinkFamily::traffic);
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
@@ -76,10 +78,10 @@ struct CongestionFeedback {
     l.reads(&Ends::volume, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads_lock(&Ends::is_locked, End::to, "smart_volume.demand_limit");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
+    l.reads_if_there(&Ends::building, End::to, "footprint.building");
     l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.proposes_if_there(&Out::height_limit, End::to, "footprint.height_limit", Unit::metre);
   }
@@ -104,13 +106,18 @@ struct CongestionFeedback {
   // Storeys follow the share of the demand that is left, rounded: by less than half a storey the footprint changes.
   static std::optional<double> height_for(const In& in, const Ends& ends, double share, const Tick& tick) {
     if (!ends.built || share >= 1) return std::nullopt;
-    const demand::StandingVolume volume{*ends.built, *ends.wished, *ends.least_storeys, ends.storey_height, *ends.height_limit};
-    const auto limit = demand::limit_at(volume, (share * volume.wished + 0.5) * volume.storey_height, in.least);
+    const auto building = demand::building_in(ends.building);
+    const demand::StandingVolume volume =
+        demand::standing_in({*ends.built, *ends.wished, *ends.least_storeys, ends.storey_height, *ends.height_limit}, building);
+    // Of a building only the part of this volume has become less.
+    const double left = building ? 1 - building->part * (1 - share) : share;
+    const auto limit = demand::limit_at(volume, (left * volume.wished + 0.5) * volume.storey_height, in.least);
     if (limit && volume.built < volume.wished && demand::takes_storeys(volume, *limit))
-      remark(tick, LinkRemark::short_of,
-             {ErrorCode::infeasible, "limit",
-              "`" + ends.id + "` has " + demand::storeys_left(volume, *limit) + ", for the streets leave it " +
-                  fixed(100 * share, 0) + " % of its demand"});
+      remark(
+          tick, LinkRemark::short_of,
+          {ErrorCode::infeasible, "limit",
+           demand::named_holder(building, ends.id) + " has " + demand::storeys_left(volume, *limit) + ", for the streets leave " +
+               (building ? "`" + ends.id + "` " : "it ") + fixed(100 * share, 0) + " % of its demand"});
     return limit;
   }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/define/link_builder.h"
@@ -21,6 +22,7 @@ struct Demand {
   };
   struct Ends {
     Shared<Table> rows;
+    std::vector<std::string> open_uses;
     All<std::string> ids, uses;
   };
   struct Out {
@@ -33,14 +35,14 @@ struct Demand {
         "Divides a programme among volumes. The floor area of a row, times its count and its storey height, is divided equally "
         "among the volumes of that use as their demand, to be met in floor area. Smallest and largest floor areas become limits "
         "in the same way. Rows of "
-        "one use are added up.");
+        "one use are added up. Rows of open space are for no volume.");
     l.param(&In::use, "use")
         .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
     l.param(&In::every_row, "every_row")
         .doc(
             "When on, and no use is given, the link reports each row for which it has no volume, so that no floor area is "
             "forgotten. All other rows are divided nevertheless.");
-    l.reads(&Ends::rows, End::from, "programme.rows");
+    l.reads(&Ends::rows, End::from, "programme.rows").reads(&Ends::open_uses, End::from, "programme.open_uses");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::uses, End::to, "smart_volume.use");
     l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.proposes(&Out::demand_min, End::to, "smart_volume.demand_min", Unit::cubic_metre);
@@ -51,11 +53,21 @@ struct Demand {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     std::map<std::string, Share> shares = shares_of(*ends.rows);
+    for (const std::string& open : ends.open_uses) shares.erase(open);
+    const auto is_open = [&](const std::string& use) {
+      return std::binary_search(ends.open_uses.begin(), ends.open_uses.end(), use);
+    };
+    if (is_open(in.use))
+      return Error{ErrorCode::wrong_kind, "use",
+                   "the use `" + in.use + "` is open space, which no volume shares: choose another one"};
     if (!in.use.empty() && !shares.contains(in.use)) return no_row(in.use, shares);
     std::string problem;
     for (std::size_t i = 0; i < ends.uses.values.size(); ++i) {
       const std::string& use = in.use.empty() ? ends.uses.values[i] : in.use;
       if (const auto share = shares.find(use); share != shares.end()) ++share->second.volumes;
+      else if (is_open(use))
+        add_sentence(problem, "`" + ends.ids.values[i] + "` has the use `" + use +
+                                  "`, which is open space that no volume has: give it another use");
       else add_sentence(problem, without_row(ends.ids.values[i], use, shares));
     }
     if (in.use.empty() && in.every_row)

@@ -21,8 +21,9 @@ struct MediaAnchor {
   };
 
   static void declare(LinkBuilder<MediaAnchor>& l) {
-    l.id("media_anchor").label("Media anchor").doc(
-        "Makes a picture follow a node: it stays at an offset from it, wherever the node moves. Only the picture moves.");
+    l.id("media_anchor")
+        .label("Media anchor")
+        .doc("Makes a picture follow a node: it stays at an offset from it, wherever the node moves. Only the picture moves.");
     l.family(LinkFamily::distance);
     const auto offset = [&](double In::*member, const char* id, const char* doc) {
       l.param(member, id).unit(Unit::metre).range(-1e5, 1e5).soft(-50, 50).doc(doc);

@@ -10,7 +10,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl {
@@ -33,6 +33,8 @@ struct PlotRules {
     All<std::optional<int>> built, wished, least_storeys;
     All<std::optional<double>> height_limits;
     All<std::optional<bool>> heights_locked;
+    All<std::optional<Shared<Table>>> buildings;
+    All<std::optional<Point3>> places;
   };
   struct Out {
     All<std::optional<double>> limits, height_limits, border_distances, street_distances;
@@ -99,18 +101,29 @@ struct PlotRules {
         .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
     l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
     l.reads_lock_if_there(&Ends::heights_locked, End::to, "footprint.height_limit");
+    l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
+    l.reads_if_there(&Ends::places, End::to, "footprint.stands_at", Unit::metre);
   }
 
-  // As one that keeps the largest height by its storeys; nothing for a rounded volume.
-  static std::optional<demand::StandingVolume> standing(const Ends& ends, std::size_t i) {
+  // One that keeps the largest height by its storeys, or by those of the building that it shares.
+  struct Standing : demand::StandingVolume {
+    double height = 0;        // that it may have [m]
+    std::string holder, who;  // by id, and in a sentence
+  };
+  // Nothing for a rounded volume.
+  static std::optional<Standing> standing(const Ends& ends, std::size_t i) {
     if (!ends.built.values[i]) return std::nullopt;
-    return demand::StandingVolume{*ends.built.values[i],         *ends.wished.values[i],        *ends.least_storeys.values[i],
-                                  ends.storey_heights.values[i], *ends.height_limits.values[i], *ends.heights_locked.values[i]};
+    const auto building = demand::building_in(ends.buildings.values[i]);
+    const demand::StandingVolume own{*ends.built.values[i],         *ends.wished.values[i],
+                                     *ends.least_storeys.values[i], ends.storey_heights.values[i],
+                                     *ends.height_limits.values[i], *ends.heights_locked.values[i]};
+    return Standing{demand::standing_in(own, building),
+                    ends.height_max + ends.ground - demand::ground_below(building, ends.bottoms.values[i]),
+                    demand::holder_of(building, ends.ids.values[i]), demand::named_holder(building, ends.ids.values[i])};
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
@@ -121,7 +134,7 @@ struct PlotRules {
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
-      if (geometry::ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
+      if (geometry::ring_contains(ends.polygon, ends.places.values[i].value_or(ends.centroids.values[i]))) on_plot.push_back(i);
     const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
                                       ends.wanted.values, ends.volumes.values, ends.locked.values};
     double room = 2;
@@ -136,8 +149,7 @@ struct PlotRules {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       const auto volume = standing(ends, i);
-      if (in.hold_height && volume)
-        out.height_limits.values[i] = demand::limit_at(*volume, ends.height_max + ends.ground - ends.bottoms.values[i], in.least);
+      if (in.hold_height && volume) out.height_limits.values[i] = demand::limit_at(*volume, volume->height, in.least);
       else if (in.hold_height) limit = std::min(limit, height_share(in, ends, i, own[i]));
       if (in.hold_setback && ends.setback > 0 && volume) out.border_distances.values[i] = ends.setback;
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
@@ -199,13 +211,15 @@ struct PlotRules {
   // Names the storeys that volumes that stand have given up for the largest height.
   static void tell_storeys(const In& in, const Ends& ends, const std::vector<std::size_t>& on_plot, const Tick& tick) {
     std::string lost;
+    std::vector<std::string> told;  // a building of several volumes is told once
     for (const std::size_t i : on_plot) {
       const auto volume = standing(ends, i);
-      const double height = ends.height_max + ends.ground - ends.bottoms.values[i];
       // Another rule may leave less still: then it is not this one that takes the storeys.
-      if (in.hold_height && volume && volume->built < volume->wished && demand::takes_storeys(*volume, height) &&
-          demand::is_in_force(*volume, height))
-        lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, height);
+      if (!in.hold_height || !volume || volume->built >= volume->wished || !demand::takes_storeys(*volume, volume->height) ||
+          !demand::is_in_force(*volume, volume->height) || std::find(told.begin(), told.end(), volume->holder) != told.end())
+        continue;
+      told.push_back(volume->holder);
+      lost += (lost.empty() ? "" : ", ") + volume->who + " has " + demand::storeys_left(*volume, volume->height);
     }
     if (!lost.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "from", lost + " by the rules of the plot"});
   }
@@ -223,8 +237,8 @@ struct PlotRules {
             "height " + demand::found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" + ends.ids.values[i] + "`";
         const auto volume = standing(ends, i);
         if (volume && demand::is_at_least(*volume, in.least)) {
-          low = joined(low, found + ", " + demand::held_at_least(ends.ids.values[i], *volume, in.least), "; ");
-          ways = joined(ways, demand::way_to_fewer(*volume, in.least) + " of `" + ends.ids.values[i] + "`", ", ");
+          low = joined(low, found + ", " + demand::held_at_least(volume->holder, *volume, in.least), "; ");
+          ways = joined(ways, demand::way_to_fewer(*volume, in.least) + " of `" + volume->holder + "`", ", ");
           continue;
         }
         Broken& height = !volume && is_at_least(held, i, in.least) ? stuck : sinking;

@@ -23,9 +23,12 @@ struct Schedule {
 
   static void declare(LinkBuilder<Schedule>& l) {
     l.family(LinkFamily::numbers);
-    l.id("schedule").label("Schedule").doc(
-        "Makes a number follow a clock: how much a use demands at noon, how much traffic a street has at eight. The curve is that "
-        "of one day and repeats itself every day.");
+    l.id("schedule")
+        .label("Schedule")
+        .doc(
+            "Makes a number follow a clock: how much a use demands at noon, how much traffic a street has at eight. The curve is "
+            "that "
+            "of one day and repeats itself every day.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::curve, "curve")
         .column({.id = "time",

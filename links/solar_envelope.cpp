@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 #include "core/geometry/plates_table.h"
 #include "core/sun/body_reach.h"
 #include "core/sun/moment_table.h"
@@ -31,13 +32,13 @@ struct SolarEnvelope {
   struct Ends {
     Shared<Table> moments;
     Point3 position;
-    double radius = 0, bottom = 0, height = 0, demand = 0, limit = 0, wanted = 0, volume = 0;
+    double radius = 0, footprint = 0, bottom = 0, height = 0, demand = 0, limit = 0, wanted = 0, volume = 0;
     std::string id;
     bool is_limit_locked = false, is_position_locked = false;
     double storey_height = 0;
     std::optional<int> built, wished, least_storeys;
     std::optional<double> height_limit;
-    std::optional<Shared<Table>> plates;
+    std::optional<Shared<Table>> plates, building;
     std::optional<bool> is_height_locked;
   };
   struct Out {
@@ -72,7 +73,9 @@ struct SolarEnvelope {
         .unit(Unit::ratio)
         .range(0.001, 1)
         .soft(0.005, 0.1)
-        .doc("How far a volume may reach through a plane, as a share of its radius.");
+        .doc(
+            "How far a volume may reach through a plane, as a share of its radius; of one that stands, of the radius of a disc "
+            "as large as its footprint.");
     l.param(&In::play, "play")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -96,6 +99,7 @@ struct SolarEnvelope {
     l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
+    l.reads(&Ends::footprint, End::to, "smart_volume.footprint", Unit::square_metre);
     l.reads(&Ends::bottom, End::to, "smart_volume.bottom", Unit::metre);
     l.reads(&Ends::height, End::to, "smart_volume.height", Unit::metre);
     l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
@@ -106,11 +110,10 @@ struct SolarEnvelope {
     l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.reads(&Ends::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limit, End::to, "footprint.height_limit", Unit::metre);
-    l.reads_if_there(&Ends::plates, End::to, "footprint.plates");
+    l.reads_if_there(&Ends::plates, End::to, "footprint.plates").reads_if_there(&Ends::building, End::to, "footprint.building");
     l.reads_lock_if_there(&Ends::is_height_locked, End::to, "footprint.height_limit");
   }
 
@@ -145,7 +148,7 @@ struct SolarEnvelope {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     if (in.edge.size() < 2) return Error{ErrorCode::missing, "edge", "an edge has at least two points: add them"};
-    if (!(ends.radius > 0)) return Out{};
+    if (!(radius_of(ends) > 0)) return Out{};
     Planes own;
     Planes& planes = tick.memo != nullptr ? tick.memo->of<Planes>() : own;
     planes.make(in.edge, ends.moments);
@@ -181,37 +184,61 @@ struct SolarEnvelope {
   }
 
  private:
+  // Weights of volumes that stand may be below 0, and who shares a footprint has none.
+  static double radius_of(const Ends& ends) {
+    return ends.built ? std::sqrt(std::max(0.0, ends.footprint) / std::numbers::pi) : ends.radius;
+  }
+
+  static constexpr double kSameHeight = 1e-6;  // [m] of roofs
+
   // The height up to which the plates stay below the planes. With fewer storeys plates are larger and may be no higher still, so
   // storeys do not come and go.
   static Result<Out> evaluate_standing(const In& in, const Ends& ends, const Planes& planes, const Tick& tick) {
+    // Who shares a footprint stands where its host does, not at its own position.
+    const geometry::StandingBody body = geometry::read_body(**ends.plates);
     std::vector<sun::SunPlane> above;
     for (std::size_t i = 0; i + 1 < in.edge.size(); ++i) {
-      const double side = dot(Planes::across(in.edge, i), ends.position - in.edge[i]);
+      const double side = dot(Planes::across(in.edge, i), body.centre - in.edge[i]);
       if (side == 0) continue;
       const auto& part = planes.parts[i][side > 0 ? 1 : 0];
       above.insert(above.end(), part.begin(), part.end());
     }
-    const sun::BodyReach reach = sun::reach_of(geometry::read_body(**ends.plates, ends.position), above);
-    const demand::StandingVolume volume{*ends.built,        *ends.wished,       *ends.least_storeys,
-                                        ends.storey_height, *ends.height_limit, *ends.is_height_locked};
-    const double beyond = reach.excess / ends.radius - in.tolerance;
+    const sun::BodyReach reach = sun::reach_of(body, above);
+    const auto building = demand::building_in(ends.building);
+    const demand::StandingVolume volume = demand::standing_in(
+        {*ends.built, *ends.wished, *ends.least_storeys, ends.storey_height, *ends.height_limit, *ends.is_height_locked},
+        building);
+    const double radius = radius_of(ends), beyond = reach.excess / radius - in.tolerance;
+    if (const std::string stays = demand::why_it_stays(building, ends.id); in.mode == Mode::move && !stays.empty()) {
+      if (beyond > in.play * in.tolerance)
+        remark(tick, LinkRemark::unmet,
+               {ErrorCode::infeasible, "edge",
+                "cannot be met: " + through(ends, reach.excess) + ", and " + stays +
+                    "; lead this link to that one, or let it be shaved"});
+      return Out{};
+    }
     if (in.mode == Mode::move) {
       if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
-      return beyond > 0 ? Out{reach.back * (in.gain * beyond * ends.radius), {}, {}} : Out{};
+      return beyond > 0 ? Out{reach.back * (in.gain * beyond * radius), {}, {}} : Out{};
     }
     Out out;
-    out.height_limit = demand::limit_at(volume, reach.allowed, in.least);
+    // What has others above it says nothing of them while it stays below the planes itself.
+    const bool is_covered = building && ends.bottom + ends.height < building->top - kSameHeight;
+    if (is_covered && reach.allowed >= ends.height) return out;
+    const double below = ends.bottom - demand::ground_below(building, ends.bottom);
+    out.height_limit = demand::limit_at(volume, below + reach.allowed, in.least);
     if (reach.allowed < ends.height && demand::is_at_least(volume, in.least))
       remark(tick, LinkRemark::unmet,
              {ErrorCode::infeasible, "edge",
-              "cannot be met: " + through(ends, reach.excess) + ", " + demand::held_at_least(ends.id, volume, in.least) +
+              "cannot be met: " + through(ends, reach.excess) + ", " +
+                  demand::held_at_least(demand::holder_of(building, ends.id), volume, in.least) +
                   "; move the edge or the volume, or " + demand::way_to_fewer(volume, in.least)});
-    else if (out.height_limit && demand::takes_storeys(volume, *out.height_limit) &&
+    else if (out.height_limit && volume.built < volume.wished && demand::takes_storeys(volume, *out.height_limit) &&
              demand::is_in_force(volume, *out.height_limit))
-      remark(
-          tick, LinkRemark::short_of,
-          {ErrorCode::infeasible, "edge",
-           "`" + ends.id + "` has " + demand::storeys_left(volume, *out.height_limit) + " to stay below the planes of the sun"});
+      remark(tick, LinkRemark::short_of,
+             {ErrorCode::infeasible, "edge",
+              demand::named_holder(building, ends.id) + " has " + demand::storeys_left(volume, *out.height_limit) +
+                  " to stay below the planes of the sun"});
     return out;
   }
 
@@ -221,7 +248,7 @@ struct SolarEnvelope {
 
   // Reports a volume that reaches through the planes: as being worked on, or as unmet where something holds it.
   static void tell(const In& in, const Ends& ends, double share, const Tick& tick) {
-    const std::string found = through(ends, share * ends.radius);
+    const std::string found = through(ends, share * radius_of(ends));
     const std::vector<bool> locked = {ends.is_limit_locked};
     const demand::LimitedVolumes held{{&ends.id, 1},     {&ends.demand, 1}, {&ends.limit, 1},
                                       {&ends.wanted, 1}, {&ends.volume, 1}, locked};

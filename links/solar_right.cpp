@@ -1,5 +1,7 @@
 // Makes the volumes that take most sun from a receiver give way, as long as the receiver has less sun than it needs.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +13,7 @@
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/demand/demand_limit.h"
-#include "core/demand/storey_limit.h"
+#include "core/demand/shared_storeys.h"
 #include "core/sun/loss_table.h"
 
 namespace bl {
@@ -29,18 +31,21 @@ struct SolarRight {
     Point3 place;
     double deficit = 0, required = 0, possible = 0, least = 0;
     Shared<Table> losses;
+    std::vector<std::string> held_back;
     All<std::string> ids;
     All<Point3> positions;
-    All<double> demands, limits, wanted, volumes, radii, bottoms;
+    All<double> demands, limits, wanted, volumes, radii, footprints, bottoms;
     All<double> storey_heights;
     All<std::optional<int>> built, wished, least_storeys;
     All<std::optional<double>> height_limits;
     All<bool> are_limits_locked, are_positions_locked;
     All<std::optional<bool>> are_heights_locked;
+    All<std::optional<Shared<Table>>> buildings;
   };
   struct Out {
     All<std::optional<Vector3>> moves;
     All<std::optional<double>> limits, height_limits;
+    std::optional<std::vector<std::string>> held_back;
   };
 
   static void declare(LinkBuilder<SolarRight>& l) {
@@ -66,7 +71,7 @@ struct SolarRight {
         .unit(Unit::ratio)
         .range(0.001, 1)
         .soft(0.005, 0.1)
-        .doc("The sun that may be missing as the mean over all points, as a share of the required sun.");
+        .doc("The sun that may be missing as the mean over the points that count, as a share of the required sun.");
     l.param(&In::play, "play")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -77,8 +82,8 @@ struct SolarRight {
         .range(0, 10)
         .soft(0, 2)
         .doc(
-            "A storey comes back when the worst point of the receiver has this share of the required sun beyond it. Smaller than "
-            "what a storey takes, storeys would come and go.");
+            "A storey comes back when the worst point of the receiver, within its required share, has this share of the required "
+            "sun beyond it. Smaller than what a storey takes, storeys would come and go.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
@@ -89,6 +94,7 @@ struct SolarRight {
     l.proposes(&Out::moves, End::to, "node.position", Unit::metre);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.proposes_if_there(&Out::height_limits, End::to, "footprint.height_limit", Unit::metre);
+    l.proposes(&Out::held_back, End::from, "shadow_receiver.held_back");
   }
 
   static void read_ends(LinkBuilder<SolarRight>& l) {
@@ -96,8 +102,8 @@ struct SolarRight {
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
     l.reads(&Ends::possible, End::from, "shadow_receiver.sun_possible", Unit::second);
-    l.reads(&Ends::least, End::from, "shadow_receiver.sun_min", Unit::second);
-    l.reads(&Ends::losses, End::from, "shadow_receiver.losses");
+    l.reads(&Ends::least, End::from, "shadow_receiver.sun_of_share", Unit::second);
+    l.reads(&Ends::losses, End::from, "shadow_receiver.losses").reads(&Ends::held_back, End::from, "shadow_receiver.held_back");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
@@ -105,22 +111,38 @@ struct SolarRight {
     l.reads(&Ends::volumes, End::to, "smart_volume.fitted", Unit::cubic_metre);
     l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
         .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
+    l.reads(&Ends::footprints, End::to, "smart_volume.footprint", Unit::square_metre);
     l.reads(&Ends::storey_heights, End::to, "smart_volume.storey_height", Unit::metre);
-    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held")
-        .reads_if_there(&Ends::wished, End::to, "footprint.storeys");
+    l.reads_if_there(&Ends::built, End::to, "footprint.storeys_held").reads_if_there(&Ends::wished, End::to, "footprint.storeys");
     l.reads_if_there(&Ends::least_storeys, End::to, "footprint.storeys_min");
     l.reads_if_there(&Ends::height_limits, End::to, "footprint.height_limit", Unit::metre);
     l.reads_lock(&Ends::are_limits_locked, End::to, "smart_volume.demand_limit");
     l.reads_lock(&Ends::are_positions_locked, End::to, "node.position");
     l.reads_lock_if_there(&Ends::are_heights_locked, End::to, "footprint.height_limit");
+    l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
+  }
+
+  static std::optional<demand::Building> building_of(const Ends& ends, std::size_t i) {
+    return demand::building_in(ends.buildings.values[i]);
   }
 
   // As one that stands and loses storeys; nothing for a rounded volume, and in the mode `move`.
   static std::optional<demand::StandingVolume> standing(const In& in, const Ends& ends, std::size_t i) {
     if (in.mode == Mode::move || !ends.built.values[i]) return std::nullopt;
-    return demand::StandingVolume{*ends.built.values[i],         *ends.wished.values[i],
-                                  *ends.least_storeys.values[i], ends.storey_heights.values[i],
-                                  *ends.height_limits.values[i], *ends.are_heights_locked.values[i]};
+    return demand::standing_in({*ends.built.values[i], *ends.wished.values[i], *ends.least_storeys.values[i],
+                                ends.storey_heights.values[i], *ends.height_limits.values[i], *ends.are_heights_locked.values[i]},
+                               building_of(ends, i));
+  }
+
+  // Weights of volumes that stand may be below 0, and who shares a footprint has none.
+  static double radius_of(const Ends& ends, std::size_t i) {
+    if (!ends.built.values[i]) return ends.radii.values[i];
+    return std::sqrt(std::max(0.0, ends.footprints.values[i]) / std::numbers::pi);
+  }
+
+  // Of who shares the footprint of another, and moves with that one alone.
+  static std::string why_it_stays(const Ends& ends, std::size_t i) {
+    return demand::why_it_stays(building_of(ends, i), ends.ids.values[i]);
   }
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
@@ -131,7 +153,7 @@ struct SolarRight {
     return std::clamp((ends.deficit - unavoidable) / ends.required, 0.0, 1.0) - in.tolerance;
   }
 
-  // What the worst point has beyond its need, as a share of the need.
+  // What the worst point of the required share has beyond its need, as a share of the need.
   static double surplus_of(const Ends& ends) { return std::max(0.0, (ends.least - ends.required) / ends.required); }
 
   // Direction in plan away from the receiver. Where both lie on one point, their ids give the direction.
@@ -172,7 +194,7 @@ struct SolarRight {
       if (!volume) {
         who.push_back(i);
       } else if (demand::is_at_least(*volume, in.least)) {
-        add(demand::held_at_least(ends.ids.values[i], *volume, in.least));
+        add(demand::held_at_least(demand::holder_of(building_of(ends, i), ends.ids.values[i]), *volume, in.least));
         const std::string way = demand::way_to_fewer(*volume, in.least);
         if (ways.find(way) == std::string::npos) ways += ", " + way;
       } else {
@@ -187,7 +209,11 @@ struct SolarRight {
     }
     for (const std::size_t i : who) {
       const bool is_locked = ends.are_positions_locked.values[i];
-      if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * ends.radii.values[i])) return "";
+      if (const std::string stays = why_it_stays(ends, i); !stays.empty()) {
+        add(stays);
+        continue;
+      }
+      if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * radius_of(ends, i))) return "";
       add((i == who.front() ? "held by `" : "`") + ends.ids.values[i] +
           (is_locked ? "` (its position is locked)" : "` (it has sunk as far as it can)"));
     }
@@ -215,6 +241,7 @@ struct SolarRight {
     out.limits.values.resize(shares.size());
     out.height_limits.values.resize(shares.size());
     std::string lost;
+    std::vector<std::string> held_back;
     const double missing = shortage(in, ends);
     const bool is_kept = missing <= in.play * in.tolerance;
     if (!is_kept) tell(in, ends, shares, tick);
@@ -222,25 +249,45 @@ struct SolarRight {
       if (ends.ids.values[i] == ends.receiver) continue;
       const double answer = in.gain * std::max(0.0, missing) * shares[i];
       if (const auto volume = standing(in, ends, i)) {
-        const auto own = own_word(tick, "footprint.height_limit", i, volume->limit);
+        const auto own = own_height(ends, i, volume->limit, tick);
         const auto limit = height_of(in, ends, *volume, own, is_kept, shares[i]);
-        if (own && limit && demand::is_in_force(*volume, *own) && demand::takes_storeys(*volume, *limit))
-          lost += (lost.empty() ? "`" : ", `") + ends.ids.values[i] + "` has " + demand::storeys_left(*volume, *limit);
+        const std::string who = demand::named_holder(building_of(ends, i), ends.ids.values[i]);
+        if (own && limit && volume->built < volume->wished && demand::is_in_force(*volume, *own) &&
+            demand::takes_storeys(*volume, *limit) && lost.find(who) == std::string::npos)
+          lost += (lost.empty() ? "" : ", ") + who + " has " + demand::storeys_left(*volume, *limit);
         out.height_limits.values[i] = limit;
+        if (limit) held_back.push_back(ends.ids.values[i]);
         continue;
       }
       if (in.mode == Mode::lower) {
         if (const double fall = answer * fall_left(ends, i); fall > 0) out.moves.values[i] = Vector3{0, 0, -fall};
       } else if (in.mode == Mode::move) {
-        if (const double way = answer * ends.radii.values[i]; way > 0) out.moves.values[i] = away(ends, i) * way;
+        const double way = answer * radius_of(ends, i);
+        if (way > 0 && why_it_stays(ends, i).empty()) out.moves.values[i] = away(ends, i) * way;
       } else {
         const auto own = own_word(tick, "smart_volume.demand_limit", i, ends.limits.values[i]);
         out.limits.values[i] = limit_of(in, ends, i, own, missing, is_kept ? 0 : answer, shares[i]);
       }
     }
+    if (const double beyond = ends.required - ends.possible; is_kept && ends.deficit > 0 && beyond > in.tolerance * ends.required)
+      remark(tick, LinkRemark::unmet,
+             {ErrorCode::infeasible, "from",
+              "cannot be met: `" + ends.receiver + "` can have " + fixed(ends.possible / 3600, 2) + " h of its " +
+                  fixed(ends.required / 3600, 2) +
+                  " h of sun where nobody takes any; lower `required_sun`, or choose another period at the sun"});
+    if (!held_back.empty()) out.held_back = std::move(held_back);
     if (is_kept && !lost.empty())
       remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", so that `" + ends.receiver + "` keeps its sun"});
     return out;
+  }
+
+  // What the link holds for this receiver: of several receivers the tightest word counts, and one that has taken nothing would
+  // hold on what another lets go.
+  static std::optional<double> own_height(const Ends& ends, std::size_t i, double in_force, const Tick& tick) {
+    const auto own = own_word(tick, "footprint.height_limit", i, in_force);
+    const bool is_its_own = !has_last_word(tick) ||
+                            std::find(ends.held_back.begin(), ends.held_back.end(), ends.ids.values[i]) != ends.held_back.end();
+    return is_its_own ? own : std::nullopt;
   }
 
   // Nobody knows beforehand how much sun a storey takes: it comes back only where there is much more than enough. The limit falls

@@ -23,9 +23,12 @@ struct Threshold {
 
   static void declare(LinkBuilder<Threshold>& l) {
     l.family(LinkFamily::numbers);
-    l.id("threshold").label("Threshold").doc(
-        "Switches a number when another one crosses a limit: a second stop once two thousand people live there, a lower ceiling "
-        "once the sum is reached. It switches on above the limit, and off below the limit by the band.");
+    l.id("threshold")
+        .label("Threshold")
+        .doc(
+            "Switches a number when another one crosses a limit: a second stop once two thousand people live there, a lower "
+            "ceiling "
+            "once the sum is reached. It switches on above the limit, and off below the limit by the band.");
     l.param(&In::source, "source").doc("The port that is watched, written `typification.port`.");
     l.param(&In::target, "target").doc("The port that is switched, written `typification.port`. Nobody else should change it.");
     l.param(&In::limit, "limit").unit_from("source").doc("The limit that the watched number crosses.");
@@ -44,8 +47,9 @@ struct Threshold {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     if (in.above == in.below)
-      return Error{ErrorCode::conflict, "above",
-                   "the values for above and below the limit are the same (" + shortest(in.above) + "): give them different values"};
+      return Error{
+          ErrorCode::conflict, "above",
+          "the values for above and below the limit are the same (" + shortest(in.above) + "): give them different values"};
     if (ends.value > in.limit) return Out{in.above};
     // Exactly at the limit it is off, also without a band.
     if (ends.value < in.limit - in.band || in.band == 0) return Out{in.below};

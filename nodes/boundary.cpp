@@ -1,11 +1,15 @@
 // The boundary of a power diagram: a hull of points, a plan with holes and steps, or a closed mesh, cut back and hollowed.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/domain_table.h"
+#include "core/geometry/plan_ring.h"
 #include "core/geometry/site_domain.h"
 
 namespace bl {
@@ -28,7 +32,8 @@ struct Boundary {
 
   struct Out {
     Table planes;
-    double volume = 0, ground_area = 0;
+    double volume = 0, ground_area = 0, open_area = 0;
+    Table open_areas;
     MeshPointer shape;
   };
 
@@ -70,6 +75,11 @@ struct Boundary {
         .column(index_column("b", "Second"))
         .column(index_column("c", "Third"))
         .doc("The closed surface: three corners per triangle, with one orientation throughout. Used where the form is `mesh`.");
+    declare_cuts(t);
+    declare_results(t);
+  }
+
+  static void declare_cuts(TypificationBuilder<Boundary>& t) {
     t.in(&In::setbacks, "setbacks")
         .column(component_column("x", "First"))
         .column(component_column("y", "Second"))
@@ -79,8 +89,13 @@ struct Boundary {
     ring_columns(t.in(&In::exclusions, "exclusions"))
         .column(height_column("bottom", "Height of the underside above the origin, in the first row."))
         .column(height_column("top", "Height of the top above the origin, in the first row."))
-        .doc("Solids that are cut out of the boundary, such as buildings that stay. Each is a plan between two heights.");
-    declare_results(t);
+        .column({.id = "use",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "In the first row: the use of ground that is kept open, such as `garden`; empty for all else."})
+        .doc(
+            "Solids that are cut out of the boundary, such as buildings that stay, and ground that is kept open. Each is a plan "
+            "between two heights.");
   }
 
   static void declare_results(TypificationBuilder<Boundary>& t) {
@@ -97,6 +112,16 @@ struct Boundary {
         .shown_first()
         .unit(Unit::square_metre)
         .doc("Area that the boundary covers in plan, seen from above.");
+    t.out(&Out::open_area, "open_area")
+        .unit(Unit::square_metre)
+        .doc("Ground that `exclusions` with a use keep open to the sky. It is land of the plot, and no part of `ground_area`.");
+    t.out(&Out::open_areas, "open_areas")
+        .column({.id = "use", .is_text = true, .default_value = std::string(), .doc = "The use of the open ground."})
+        .column({.id = "area",
+                 .unit = Unit::square_metre,
+                 .doc = "Ground that is open: within the boundary, without other exclusions, and counted once."})
+        .column({.id = "drawn", .unit = Unit::square_metre, .doc = "Area of the polygons of this use."})
+        .doc("The same by use, in the order of `exclusions`.");
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for display and export.");
     t.made("domain", {"planes"}, &geometry::shared_domain<Shared<Table>>)
         .doc("The solid that `planes` bound, for solvers and links.");
@@ -136,13 +161,22 @@ struct Boundary {
     return error;
   }
 
-  static Result<geometry::Domain> whole(const In& in) {
+  using Solids = std::vector<geometry::PlanSolid>;
+
+  // With these exclusions.
+  static Result<geometry::Domain> whole(const In& in, const Solids& exclusions) {
+    auto domain = whole_plan_or_body(in, exclusions);
+    // In a plan the exclusions have been cut out together with everything else.
+    return domain && in.form != Form::plan ? without_solids(*domain, exclusions) : std::move(domain);
+  }
+
+  static Result<geometry::Domain> whole_plan_or_body(const In& in, const Solids& exclusions) {
     if (in.form == Form::hull) {
       auto hull = geometry::convex_hull(in.points);
       return hull ? Result<geometry::Domain>(geometry::Domain(std::move(*hull))) : hull.error().within("points");
     }
     if (in.form == Form::plan) {
-      geometry::SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), solids_of(in.exclusions)};
+      geometry::SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), exclusions};
       for (geometry::NamedRing& hole : geometry::read_rings(in.holes)) site.holes.push_back(std::move(hole.corners));
       for (geometry::PlanSolid& step : site.steps) step.bottom = in.bottom;
       return site_domain(site);
@@ -157,21 +191,50 @@ struct Boundary {
     return domain ? domain : Result<geometry::Domain>(domain.error().within("triangles"));
   }
 
+  // What each use takes of the ground that all other exclusions leave, one after another: so nothing counts twice, nor what lies
+  // outside.
+  static Result<void> measure_open(const In& in, Out& out) {
+    Solids cut;
+    std::vector<std::string> uses;
+    std::map<std::string, Solids> open;
+    for (geometry::NamedRing& ring : geometry::read_rings(in.exclusions)) {
+      const std::string& use = in.exclusions.text(ring.first_row, "use");
+      if (!use.empty() && !open.contains(use)) uses.push_back(use);
+      (use.empty() ? cut : open[use]).push_back({std::move(ring.corners), ring.bottom, ring.top});
+    }
+    out.open_areas.columns = {"use", "area", "drawn"};
+    if (uses.empty()) return {};
+    auto left = whole(in, cut);
+    for (const std::string& use : uses) {
+      if (!left) return left.error();
+      double drawn = 0;
+      for (geometry::PlanSolid& solid : open[use]) {
+        drawn += std::abs(geometry::signed_area(solid.ring));
+        cut.push_back(std::move(solid));
+      }
+      const double before = area_in_plan(*left);
+      left = whole(in, cut);
+      const double area = left ? std::max(0.0, before - area_in_plan(*left)) : 0;
+      out.open_areas.rows.push_back({use, area, drawn});
+      out.open_area += area;
+    }
+    return left ? Result<void>() : left.error();
+  }
+
   static Result<Out> evaluate(const In& in, const Tick&) {
-    auto domain = whole(in);
+    auto domain = whole(in, solids_of(in.exclusions));
     std::vector<geometry::Plane> setbacks;
     for (std::size_t row = 0; row < in.setbacks.rows.size(); ++row) {
       const Vector3 normal{in.setbacks.number(row, "x"), in.setbacks.number(row, "y"), in.setbacks.number(row, "z")};
       setbacks.push_back({normal, in.setbacks.number(row, "offset") * norm(normal)});
     }
-    // In a plan the exclusions have been cut out together with everything else.
-    if (domain && in.form != Form::plan) domain = without_solids(*domain, solids_of(in.exclusions));
     if (domain && !setbacks.empty()) {
       auto cut = cut_domain(*domain, setbacks);
       domain = cut ? cut : Result<geometry::Domain>(cut.error().within("setbacks"));
     }
     if (!domain) return at_row(domain.error(), in);
     Out out;
+    if (auto measured = measure_open(in, out); !measured) return measured.error();
     write_domain(*domain, out.planes);
     out.volume = domain->volume;
     out.shape = std::make_shared<const Mesh>(to_mesh(*domain));

@@ -26,8 +26,9 @@ struct Footprint {
   struct Out {
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0;
-    Table plates;
+    double least_room = 0, facade_area = 0, roof_area = 0, cellar_area = 0;
+    Table plates, building;
+    Point3 stands_at;
   };
 
   static void declare(TypificationBuilder<Footprint>& t) {
@@ -111,7 +112,8 @@ struct Footprint {
         .doc(
             "Greatest depth along walls that touch neighbours or the border of the plot, where it is less than `depth`: such "
             "walls "
-            "have no windows. Without effect where no walls touch.");
+            "have no windows. Without effect where no walls touch. A side of the form that lies behind such a wall still keeps "
+            "`depth`, so that floor areas change without a jump where walls come to touch.");
     t.in(&In::has_party_walls, "party_walls").doc("Set-backs do not hold towards neighbours: their walls touch in all storeys.");
     t.in(&In::has_border_walls, "border_walls")
         .doc("Set-backs do not hold towards the border of the plot either, but for its sides along streets: fire walls.");
@@ -150,9 +152,10 @@ struct Footprint {
         .soft(0, 100)
         .combine(CombineRule::min)
         .doc(
-            "Greatest height above the ground or roof that it stands on. Links that set limits propose here. A storey that it "
-            "has "
-            "taken away comes back when the limit leaves room for 1.15 storeys.");
+            "Greatest height above the ground or roof that it stands on; of a building that several share, on which they all "
+            "stand, the least of theirs counts. Links that set limits propose here. A storey that it has taken away comes back "
+            "when the limit leaves room for it and has risen by 0.15 storeys since it was least; else when it leaves room for "
+            "1.15 storeys.");
     t.in(&In::bases, "bases")
         .collect()
         .doc(
@@ -195,6 +198,18 @@ struct Footprint {
             "Number of storeys that height limits hold: its own, or those of the whole building where others share its "
             "footprint.");
     t.out(&Out::is_limited, "is_limited").means().doc("The height limit leaves fewer storeys than are wished.");
+    t.out(&Out::least_room, "least_room")
+        .means()
+        .unit(Unit::ratio)
+        .doc(
+            "Where there are fewer storeys than are wished: the least room for storeys since there have been as many as now, in "
+            "storeys; else 0. More come back when the room has grown by 0.15 since.");
+    t.out(&Out::stands_at, "stands_at")
+        .unit(Unit::metre)
+        .doc(
+            "Where the volume stands: the place of its lowest plate that is nearest to its position; of a building that several "
+            "share, nearest to the host's. Plots count the volumes that stand on them by it. Unlike its middle it does not move "
+            "with the distance that a footprint keeps from a border.");
     t.out(&Out::facade_area, "facade_area")
         .unit(Unit::square_metre)
         .doc("Area of all walls, towards courtyards and neighbours too.");
@@ -209,7 +224,11 @@ struct Footprint {
         .column({.id = "bottom", .unit = Unit::metre, .doc = "Height of its lowest floor."})
         .column({.id = "storey_height", .unit = Unit::metre, .doc = "Height from floor to floor."})
         .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of one of its plates."})
-        .column({.id = "courtyard", .doc = "1 where the ring bounds a courtyard, 0 where it bounds the plate."})
+        .column({.id = "courtyard",
+                 .doc = "0 where the ring bounds the plate, 1 where it bounds a courtyard, 2 where it bounds a part of a shared "
+                        "plate with its part of the courtyard, as its cellar."})
+        .column({.id = "centre_x", .unit = Unit::metre, .doc = "East coordinate of the centre of the ring's arcs."})
+        .column({.id = "centre_y", .unit = Unit::metre, .doc = "North coordinate of that centre."})
         .column({.id = "corners",
                  .list = ListOf::numbers,
                  .default_value = Numbers(),
@@ -217,6 +236,24 @@ struct Footprint {
                      "Of each corner: x and y [m], the radius of the arc that begins there or 0, and what is beyond: 0 nothing, "
                      "1 the border of the plot, 2 a neighbour."})
         .doc("The plates: one row for each ring of each stack.");
+    declare_building(t);
+  }
+
+  static void declare_building(TypificationBuilder<Footprint>& t) {
+    t.out(&Out::building, "building")
+        .column({.id = "host", .is_text = true, .default_value = std::string(), .doc = "Id of the volume whose footprint it is."})
+        .column({.id = "storeys", .unit = Unit::count, .doc = "Number of storeys that is wished."})
+        .column({.id = "least", .unit = Unit::count, .doc = "Number of storeys that no height limit goes below."})
+        .column({.id = "held", .unit = Unit::count, .doc = "Number of storeys that height limits hold."})
+        .column(
+            {.id = "storey_height",
+             .unit = Unit::metre,
+             .doc = "Mean height of a storey; the largest of the means that it may have with one storey less or all of them."})
+        .column({.id = "bottom", .unit = Unit::metre, .doc = "Height of its lowest floor above the origin."})
+        .column({.id = "top", .unit = Unit::metre, .doc = "Height of its roof above the origin."})
+        .column({.id = "limit", .unit = Unit::metre, .doc = "The least height limit of the volumes that share it."})
+        .column({.id = "part", .unit = Unit::ratio, .doc = "Part of this volume in the floor area that all of them ask for."})
+        .doc("The building that several volumes share: one row, or none where the volume has a building of its own.");
   }
 };
 

@@ -7,6 +7,7 @@
 #include "core/define/typification_builder.h"
 #include "core/geometry/plan_ring.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/plot_measure.h"
 
 namespace bl {
 
@@ -19,14 +20,14 @@ struct Plot {
     double ground = 0, fsi_max = 100, gsi_max = 1, height_max = 10000, setback = 0;
   };
   struct Member {
-    std::string id;
+    std::string id, stands_on;
     Point3 position, centroid;
     double floor_area = 0, footprint = 0, bottom = 0, height = 0, storey_height = 3.2, volume = 0;
   };
   struct Standing {
     std::string id;
-    Point3 position;
     Table plates;
+    Point3 stands_at;
   };
   struct Sets {
     std::vector<Member> volumes;
@@ -42,8 +43,8 @@ struct Plot {
   static void declare(TypificationBuilder<Plot>& t) {
     t.id("plot").label("Plot");
     t.doc(
-        "A piece of land with the rules for building on it. It counts the volumes whose centre of gravity lies within its "
-        "polygon. "
+        "A piece of land with the rules for building on it. It counts the volumes that stand within its polygon, and the rounded "
+        "ones whose centre of gravity lies there. "
         "FSI is floor area over land, GSI built ground over land, OSR open ground over floor area, L floor area over built "
         "ground "
         "(Berghauser Pont and Haupt 2010).");
@@ -77,10 +78,10 @@ struct Plot {
         .reads(&Member::bottom, "smart_volume.bottom", Unit::metre);
     set.reads(&Member::height, "smart_volume.height", Unit::metre)
         .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
-    set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
+    set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre).reads(&Member::stands_on, "smart_volume.stands_on");
     auto standing = t.set("volumes", &Sets::standing);  // those of the volumes that have plates
-    standing.reads(&Standing::id, "node.id").reads(&Standing::position, "node.position", Unit::metre);
-    standing.reads(&Standing::plates, "footprint.plates");
+    standing.reads(&Standing::id, "node.id").reads(&Standing::plates, "footprint.plates");
+    standing.reads(&Standing::stands_at, "footprint.stands_at", Unit::metre);
   }
 
   static void declare_results(TypificationBuilder<Plot>& t) {
@@ -90,8 +91,8 @@ struct Plot {
     t.out(&Out::footprint, "footprint")
         .unit(Unit::square_metre)
         .doc(
-            "Built ground: the footprints of the volumes that begin within the lowest storey; other volumes stand on these. A "
-            "volume that begins in the upper half of that storey counts less, the higher it begins.");
+            "Built ground: the footprints of the volumes that stand on the ground. Rounded ones count where they begin within "
+            "the lowest storey; one that begins in the upper half of that storey counts less, the higher it begins.");
     t.out(&Out::fsi, "fsi").unit(Unit::ratio).doc("Floor space index: floor area over the area of the plot.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).soft(0, 1).doc("Ground space index: built ground over the area of the plot.");
     t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
@@ -120,26 +121,22 @@ struct Plot {
     return overshoot <= 0 ? 0 : allowed > 0 ? std::min(overshoot / allowed, kMost) : 1;
   }
 
-  // The share of a footprint that counts as built ground. A volume that shrinks lifts off gradually, and its share falls
-  // gradually as well: a step would make links that hold the GSI oscillate.
-  static double grounded(const In& in, const Member& member) {
-    return std::clamp(2 * (in.ground + member.storey_height - member.bottom) / member.storey_height, 0.0, 1.0);
-  }
-
   static constexpr double kRounding = 1e-6;  // [m] of set-backs that are kept exactly
   static constexpr double kChords = 1e-3;    // [m] between arcs of plates and their chords
 
-  // How far a volume stays inside the sides of the plot [m]: its plates where it stands, else a disc.
-  static double clearance(const In& in, const Sets& sets, const Member& member) {
-    const auto standing = std::ranges::lower_bound(sets.standing, member.id, {}, &Standing::id);
-    if (standing != sets.standing.end() && standing->id == member.id)
-      return geometry::clearance_of(geometry::read_body(standing->plates, standing->position), in.polygon, kChords);
-    const Point3 flat{member.centroid.x, member.centroid.y, 0};
-    const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
-    return distance({side.x, side.y, 0}, flat) - std::sqrt(member.footprint / 3.14159265358979323846);
+  // As one with plates; else nullptr.
+  static const Standing* standing_of(const Sets& sets, const Member& member) {
+    const auto found = std::ranges::lower_bound(sets.standing, member.id, {}, &Standing::id);
+    return found != sets.standing.end() && found->id == member.id && !found->plates.rows.empty() ? &*found : nullptr;
   }
 
-  // Rounded shapes shrink towards their positions. What stands begins on the ground, wherever its position is.
+  // How far a volume stays inside the sides of the plot [m]: its plates where it stands, else a disc.
+  static double clearance(const In& in, const Standing* standing, const Member& member) {
+    return standing != nullptr ? geometry::clearance_of(geometry::read_body(standing->plates), in.polygon, kChords)
+                               : geometry::clearance_of_disc(in.polygon, member.centroid, member.footprint);
+  }
+
+  // Of rounded shapes, which shrink towards their positions. What stands begins on its ground, wherever its position is.
   static void tell_height(const In& in, const Member& member, std::string& message) {
     const double height = member.position.z - in.ground;
     if (member.position.z > member.bottom + member.height || height < in.height_max ||
@@ -160,13 +157,16 @@ struct Plot {
     out.area = std::abs(geometry::signed_area(in.polygon));
     if (!(out.area > 0)) return Error{ErrorCode::geometry, "polygon", "the polygon encloses no area"};
     for (const Member& member : sets.volumes) {
-      if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, member.centroid)) continue;
+      const Standing* standing = standing_of(sets, member);
+      const Point3& place = standing != nullptr ? standing->stands_at : member.centroid;
+      if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, place)) continue;
       ++out.count;
       out.floor_area += member.floor_area;
-      out.footprint += grounded(in, member) * member.footprint;
-      tell_height(in, member, out.message);
+      out.footprint += member.footprint * geometry::built_share(standing != nullptr, member.stands_on, member.bottom,
+                                                                member.storey_height, in.ground);
+      if (standing == nullptr) tell_height(in, member, out.message);
       out.top = std::max(out.top, member.bottom + member.height - in.ground);
-      if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, sets, member));
+      if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, standing, member));
     }
     if (out.setback_overshoot < kRounding) out.setback_overshoot = 0;
     out.fsi = out.floor_area / out.area;

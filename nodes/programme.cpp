@@ -1,6 +1,9 @@
 // The programme of a project: the wanted floor area of each use, and the totals.
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/define/registry.h"
@@ -14,11 +17,20 @@ namespace {
 struct Programme {
   struct In {
     Table rows;
+    Selection known_uses{{}, "use", {}};
+  };
+  struct Named {
+    std::string use;
+    bool is_open = false;
+  };
+  struct Sets {
+    std::vector<Named> uses;
   };
 
   struct Out {
-    double total_floor_area = 0, total_floor_area_min = 0, total_volume = 0;
+    double total_floor_area = 0, total_floor_area_min = 0, total_volume = 0, total_open_area = 0;
     std::int64_t items = 0, uses = 0;
+    std::vector<std::string> open_uses;
   };
 
   static void declare(TypificationBuilder<Programme>& t) {
@@ -26,7 +38,7 @@ struct Programme {
     t.column(CanvasColumn::first).icon(Icon::file);
     t.doc(
         "A brief as a table: one row for each use, with the floor area of one item and the number of items. Links divide these "
-        "demands among the SmartVolumes of the same use.");
+        "demands among the SmartVolumes of the same use. A row whose use is open space asks for ground that nobody builds on.");
     const std::string area = "Floor area of one item";
     t.in(&In::rows, "rows")
         .column({.id = "use",
@@ -69,8 +81,10 @@ struct Programme {
                  .doc = "What new volumes of the use may stand on: `ground`, `stack` (also on others) or `bridge` (also between "
                         "two)."})
         .column({.id = "note", .is_text = true, .default_value = std::string(), .doc = "A remark for people."})
-        .doc("The uses that are wanted; each use stands in one row.");
+        .doc("The uses that are wanted; each use stands in one row. Of open space, floor area means area of ground.");
+    t.in(&In::known_uses, "known_uses").doc("The nodes of uses that say which uses are open space.");
     declare_totals(t);
+    t.set("known_uses", &Sets::uses).reads(&Named::use, "use.use").reads(&Named::is_open, "use.is_open");
   }
 
   static void declare_totals(TypificationBuilder<Programme>& t) {
@@ -84,8 +98,12 @@ struct Programme {
     t.out(&Out::total_volume, "total_volume")
         .unit(Unit::cubic_metre)
         .doc("Volume that the floor area aimed at takes: area times storey height, of all rows and items.");
+    t.out(&Out::total_open_area, "total_open_area")
+        .unit(Unit::square_metre)
+        .doc("Ground that rows of open space ask for; it is no part of the floor areas and the volume.");
     t.out(&Out::items, "items").shown_first().unit(Unit::count).doc("Number of items of all rows.");
     t.out(&Out::uses, "uses").shown_first().unit(Unit::count).doc("Number of uses, which is the number of rows.");
+    t.out(&Out::open_uses, "open_uses").doc("The uses of rows that are open space, sorted.");
   }
 
   // An empty sentence where the row is sound; otherwise `column` is where the fault stands.
@@ -114,8 +132,11 @@ struct Programme {
     return {};
   }
 
-  static Result<Out> evaluate(const In& in, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
     const Table& rows = in.rows;
+    std::set<std::string> open;
+    for (const Named& known : sets.uses)
+      if (known.is_open) open.insert(known.use);
     Out out;
     std::set<std::string> seen;
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
@@ -128,12 +149,16 @@ struct Programme {
         return Error{ErrorCode::duplicate, place + "use",
                      "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
       const demand::BriefSums sums = demand::brief_sums(rows, row);
-      out.total_floor_area += sums.area;
-      out.total_floor_area_min += sums.area_min;
-      out.total_volume += sums.volume;
+      const bool is_open = open.contains(use);
+      if (is_open) out.open_uses.push_back(use);
+      out.total_open_area += is_open ? sums.area : 0;
+      out.total_floor_area += is_open ? 0 : sums.area;
+      out.total_floor_area_min += is_open ? 0 : sums.area_min;
+      out.total_volume += is_open ? 0 : sums.volume;
       out.items += static_cast<std::int64_t>(rows.number(row, "count"));
     }
     out.uses = static_cast<std::int64_t>(rows.rows.size());
+    std::sort(out.open_uses.begin(), out.open_uses.end());
     return out;
   }
 };

@@ -4,12 +4,14 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/demand/shared_storeys.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain.h"
+#include "core/geometry/fit_text.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/plot_measure.h"
 #include "core/geometry/standing_text.h"
 #include "core/geometry/standing_tick.h"
 #include "core/traffic/street_line.h"
@@ -17,6 +19,7 @@
 namespace bl {
 namespace {
 
+constexpr double kPlaceChords = 0.02;                     // [m] between arcs and their chords, for the place of a volume
 constexpr double kDegree = 3.14159265358979323846 / 180;  // [rad]
 
 struct StandingSolver {
@@ -34,13 +37,14 @@ struct StandingSolver {
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
     double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0, order = 0, cellar_storeys = 0;
-    double cellar_height = 3, bottom = 0, floor_area = 0;  // the last two as they came out of the last tick
-    bool has_party_walls = true, has_border_walls = false, was_limited = false;
+    double cellar_height = 3, least_room = 0;  // the last one as it came out of the last tick
+    bool has_party_walls = true, has_border_walls = false;
     std::vector<std::string> bases, shares;
   };
   struct Plot {
     std::string id;
     std::shared_ptr<const geometry::Domain> domain;
+    double open_area = 0;  // kept open beside the domain [m²]
   };
   struct Street {
     Selection start, end;
@@ -60,16 +64,17 @@ struct StandingSolver {
     double wanted = 0, fitted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0;
     double footprint = 0, spherical_area = 0, height = 0, bottom = 0, error = 0;
     std::string state, reason, stands_on;
-    Shared<Table> neighbours, plates;
-    Point3 centroid;
+    Shared<Table> neighbours, plates, building = {};
+    Point3 centroid, stands_at = {};
     MeshPointer mesh;
     int storeys_built = 0, storeys_held = 0, cellars_built = 0;
     bool is_limited = false;
-    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0;
+    double facade_area = 0, roof_area = 0, cellar_area = 0, hang = 0, drop = 0, least_room = 0;
   };
   struct Out {
     std::int64_t count = 0;
-    double total_floor_area = 0, plot_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0, largest_error = 0;
+    double total_floor_area = 0, plot_area = 0, open_area = 0, covered = 0, fsi = 0, gsi = 0, osr = 0, mean_storeys = 0,
+           largest_error = 0;
     std::string worst, message;
     SomeReplies<Reply> replies;
   };
@@ -108,7 +113,10 @@ struct StandingSolver {
         .doc("The weights stay as they are while the error of every volume is within this share of what it wants.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
     t.out(&Out::total_floor_area, "total_floor_area").shown_first().unit(Unit::square_metre).doc("Sum of all plates.");
-    t.out(&Out::plot_area, "plot_area").unit(Unit::square_metre).doc("Area of the ground inside the boundary.");
+    t.out(&Out::plot_area, "plot_area")
+        .unit(Unit::square_metre)
+        .doc("Area of the ground inside the boundary, with what it keeps open.");
+    t.out(&Out::open_area, "open_area").unit(Unit::square_metre).doc("The part of it that the boundary keeps open.");
     t.out(&Out::covered, "covered").unit(Unit::square_metre).doc("Sum of the footprints.");
     t.out(&Out::fsi, "fsi").shown_first().unit(Unit::ratio).doc("Floor space index: floor area / plot area.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).doc("Ground space index: covered area / plot area.");
@@ -131,7 +139,10 @@ struct StandingSolver {
         .reads(&Street::end, "street.end")
         .reads(&Street::course, "street.course", Unit::metre);
     t.set("junctions", &Sets::junctions).reads(&Junction::id, "node.id").reads(&Junction::position, "node.position", Unit::metre);
-    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::domain, "boundary.domain");
+    t.set("boundary", &Sets::plots)
+        .reads(&Plot::id, "node.id")
+        .reads(&Plot::domain, "boundary.domain")
+        .reads(&Plot::open_area, "boundary.open_area");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
     set.reads(&Member::demand, "smart_volume.demand").reads(&Member::limit, "smart_volume.demand_limit");
@@ -150,10 +161,10 @@ struct StandingSolver {
     set.writes(&Reply::storeys_built, "footprint.storeys_built");
     set.reads(&Member::built, "footprint.storeys_held").writes(&Reply::storeys_held, "footprint.storeys_held");
     set.reads(&Member::shares, "footprint.shares").reads(&Member::order, "footprint.order");
-    set.reads(&Member::bottom, "smart_volume.bottom").reads(&Member::floor_area, "smart_volume.floor_area");
     set.reads(&Member::cellar_storeys, "footprint.cellar_storeys").reads(&Member::cellar_height, "footprint.cellar_height");
     set.writes(&Reply::cellars_built, "footprint.cellars_built").writes(&Reply::cellar_area, "footprint.cellar_area");
-    set.reads(&Member::was_limited, "footprint.is_limited").writes(&Reply::is_limited, "footprint.is_limited");
+    set.reads(&Member::least_room, "footprint.least_room").writes(&Reply::least_room, "footprint.least_room");
+    set.writes(&Reply::is_limited, "footprint.is_limited");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::fitted, "smart_volume.fitted");
     set.writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
@@ -165,6 +176,7 @@ struct StandingSolver {
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
     set.writes(&Reply::stands_on, "smart_volume.stands_on").writes(&Reply::hang, "smart_volume.hang");
     set.writes(&Reply::drop, "smart_volume.drop").writes(&Reply::plates, "footprint.plates");
+    set.writes(&Reply::building, "footprint.building").writes(&Reply::stands_at, "footprint.stands_at");
     set.writes(&Reply::facade_area, "footprint.facade_area").writes(&Reply::roof_area, "footprint.roof_area");
   }
 
@@ -193,7 +205,7 @@ struct StandingSolver {
     wish.least = m.storeys_min;
     wish.height_limit = m.height_limit;
     wish.built = m.built;
-    wish.was_limited = m.was_limited;
+    wish.least_room = m.least_room;
     wish.setback = m.setback;
     wish.courtyard_setback = m.courtyard_setback;
     wish.full_storeys = m.full_storeys;
@@ -230,7 +242,7 @@ struct StandingSolver {
             .state = std::string(name_of(result.state)),
             .reason = geometry::missing_text(wish, result, names),
             .stands_on = !(result.floor_area > 0) ? ""
-                         : result.stands_on < 0   ? "the ground"
+                         : result.stands_on < 0   ? std::string(geometry::kTheGround)
                                                   : names[static_cast<std::size_t>(result.stands_on)],
             .neighbours = std::move(neighbours),
             .plates = std::move(plates),
@@ -242,7 +254,8 @@ struct StandingSolver {
             .is_limited = result.storeys.is_limited,
             .facade_area = result.facade_area,
             .roof_area = result.roof_area,
-            .cellar_area = cellar.storeys * cellar.area};
+            .cellar_area = cellar.storeys * cellar.area,
+            .least_room = result.storeys.least_room};
   }
 
   // On whom each volume stands. Returns what is wrong with that, sentences after semicolons.
@@ -262,8 +275,59 @@ struct StandingSolver {
     return words;
   }
 
+  // The host of the building that a volume shares; nothing where it has one of its own.
+  static std::optional<std::size_t> host_of(const Kept& kept, std::size_t i) {
+    if (!kept.cache.shares[i].empty()) return i;
+    const std::int32_t host = kept.wishes[i].host;
+    return host >= 0 ? std::optional(static_cast<std::size_t>(host)) : std::nullopt;
+  }
+
+  // With fewer storeys the mean may be another one. A limit that leaves room for some has to do so by the mean of each number of
+  // storeys on the way there.
+  static double storey_height_of(std::span<const geometry::BuildingShare> shares, int held, int wished) {
+    double height = 0;
+    for (int storeys = std::max(1, held - 1); storeys <= std::max(held, wished); ++storeys)
+      height = std::max(height, geometry::mean_storey_height(shares, storeys));
+    return height;
+  }
+
+  // What a volume shows of the building that it shares.
+  static Table building_of(std::size_t i, std::span<const Member> members, const Kept& kept) {
+    const auto host = host_of(kept, i);
+    if (!host) return demand::table_of(std::nullopt);
+    const geometry::StandingResult& whole = kept.cache.results[*host];
+    const geometry::StandingWish& wish = kept.wishes[*host];
+    const auto floors = [&](std::size_t m) { return std::max(members[m].demand, members[m].least) / members[m].storey_height; };
+    double all = 0;
+    for (const geometry::BuildingShare& share : kept.cache.shares[*host]) all += floors(share.site);
+    return demand::table_of(
+        demand::Building{.host = kept.names[*host],
+                         .wished = wish.storeys,
+                         .least = wish.least,
+                         .held = whole.storeys.count,
+                         .storey_height = storey_height_of(kept.cache.shares[*host], whole.storeys.count, wish.storeys),
+                         .bottom = whole.bottom,
+                         .top = whole.bottom + whole.height,
+                         .limit = wish.height_limit,
+                         .part = all > 0 ? floors(i) / all : 0});
+  }
+
+  // What one of a building asks for is read of the others too.
+  static void add_sharers(const Kept& kept, std::vector<std::uint32_t>& answered) {
+    std::vector<std::size_t> hosts;
+    for (const std::uint32_t i : answered)
+      if (const auto host = host_of(kept, i)) hosts.push_back(*host);
+    if (hosts.empty()) return;
+    std::sort(hosts.begin(), hosts.end());
+    hosts.erase(std::unique(hosts.begin(), hosts.end()), hosts.end());
+    for (const std::size_t host : hosts)
+      for (const geometry::BuildingShare& share : kept.cache.shares[host]) answered.push_back(share.site);
+    std::sort(answered.begin(), answered.end());
+    answered.erase(std::unique(answered.begin(), answered.end()), answered.end());
+  }
+
   // Whose footprint each volume shares. Returns what is wrong with that, sentences after semicolons. A limit of height on one of
-  // them is one on the building, above the ground of its host.
+  // them is one on the building.
   static std::string find_hosts(std::span<const Member> members, Kept& kept) {
     std::string words;
     std::vector<std::int32_t> hosts(members.size(), geometry::StandingWish::kGround);
@@ -292,9 +356,7 @@ struct StandingSolver {
       const auto host = static_cast<std::size_t>(hosts[i]);
       kept.wishes[i].host = hosts[i];
       kept.wishes[i].base = geometry::StandingWish::kGround;
-      const double below =
-          members[i].floor_area > 0 && members[host].floor_area > 0 ? members[i].bottom - members[host].bottom : 0;
-      kept.wishes[host].height_limit = std::min(kept.wishes[host].height_limit, members[i].height_limit + std::max(0.0, below));
+      kept.wishes[host].height_limit = std::min(kept.wishes[host].height_limit, members[i].height_limit);
     }
     return words;
   }
@@ -364,7 +426,7 @@ struct StandingSolver {
     const geometry::StandingTick now{
         .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
-    if (!done) return Error{done.error().code, "members", done.error().message};
+    if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, kept.names)};
     std::vector<std::uint32_t>& answered = out.replies.members;
     std::set_union(done->differing.begin(), done->differing.end(), sets.members.changed.begin(), sets.members.changed.end(),
                    std::back_inserter(answered));
@@ -372,7 +434,9 @@ struct StandingSolver {
       answered.clear();
       for (std::uint32_t i = 0; i < kept.names.size(); ++i) answered.push_back(i);
     }
-    out.plot_area = kept.cache.plot_area;
+    add_sharers(kept, answered);
+    out.open_area = sets.plots.front().open_area;
+    out.plot_area = kept.cache.plot_area + out.open_area;
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] +
@@ -383,20 +447,23 @@ struct StandingSolver {
     for (std::size_t i = 0; i < kept.names.size(); ++i)
       if (kept.cellars[i].first > 0) words += geometry::lost_cellar_text(done->results[i], i, kept.names);
     add_up(kept, done->results, out);
-    for (const std::uint32_t i : answered)
+    for (const std::uint32_t i : answered) {
       out.replies.replies.push_back(
           reply_of(kept.wishes[i], done->results[i], cellar_of(kept.cellars[i], done->results[i]), kept.names));
+      out.replies.replies.back().building = building_of(i, sets.members.all, kept);
+      const std::size_t host = host_of(kept, i).value_or(i);
+      out.replies.replies.back().stands_at =
+          geometry::nearest_place(*kept.cache.results[host].body, sets.members.all[host].position, kPlaceChords);
+    }
     out.message = done->message;
     for (const auto& [base, text] : done->on_roofs) {
       const std::string& name = kept.names[static_cast<std::size_t>(base)];
       words += text.starts_with("has ") || text.starts_with("fills ")
                    ? "; `" + name + "` " + text + ", so that nothing stands on it"
-                   : "; on the roof of `" + name + "` " + text;
+                   : "; on the roof of `" + name + "` " + geometry::with_names(text, kept.names);
     }
     out.message += words;
-    for (std::size_t k = 0; k < done->losses.size() && k < 3; ++k)
-      out.message += "; " + kept.names[done->losses[k].demand] + " has " + fixed(done->losses[k].had, 0) + " of " +
-                     fixed(done->losses[k].wanted, 0) + " m²";
+    out.message += geometry::floor_losses_text(done->losses, kept.names);
     if (out.message.starts_with("; ")) out.message.erase(0, 2);
     return out;
   }

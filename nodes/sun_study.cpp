@@ -34,7 +34,7 @@ struct SunStudyNode {
     std::string id;
     Point3 position;
     bool upright = false;
-    double azimuth = 0, width = 0, depth = 0, rotation = 0, raised = 0, spacing = 0, required = 0;
+    double azimuth = 0, width = 0, depth = 0, rotation = 0, raised = 0, spacing = 0, required = 0, share = 1;
     std::vector<std::string> casters;
   };
   struct Sets {
@@ -51,7 +51,7 @@ struct SunStudyNode {
   };
   struct ReceiverReply {
     Vector3 half_across, half_up;
-    double area = 0, least = 0, mean = 0, most = 0, possible = 0, share_met = 0, deficit = 0;
+    double area = 0, least = 0, mean = 0, most = 0, possible = 0, share_met = 0, of_share = 0, deficit = 0;
     Table losses, map;
     std::int64_t columns = 0, rows = 0;
   };
@@ -117,12 +117,13 @@ struct SunStudyNode {
     set.reads(&Receiver::width, "shadow_receiver.width").reads(&Receiver::depth, "shadow_receiver.depth");
     set.reads(&Receiver::rotation, "shadow_receiver.rotation").reads(&Receiver::raised, "shadow_receiver.raised");
     set.reads(&Receiver::spacing, "shadow_receiver.spacing").reads(&Receiver::required, "shadow_receiver.required_sun");
-    set.reads(&Receiver::casters, "shadow_receiver.casters");
+    set.reads(&Receiver::share, "shadow_receiver.required_share").reads(&Receiver::casters, "shadow_receiver.casters");
     set.writes(&ReceiverReply::half_across, "shadow_receiver.half_across")
         .writes(&ReceiverReply::half_up, "shadow_receiver.half_up");
     set.writes(&ReceiverReply::area, "shadow_receiver.area").writes(&ReceiverReply::possible, "shadow_receiver.sun_possible");
     set.writes(&ReceiverReply::least, "shadow_receiver.sun_min").writes(&ReceiverReply::mean, "shadow_receiver.sun_mean");
     set.writes(&ReceiverReply::most, "shadow_receiver.sun_max").writes(&ReceiverReply::share_met, "shadow_receiver.share_met");
+    set.writes(&ReceiverReply::of_share, "shadow_receiver.sun_of_share");
     set.writes(&ReceiverReply::deficit, "shadow_receiver.deficit").writes(&ReceiverReply::losses, "shadow_receiver.losses");
     set.writes(&ReceiverReply::columns, "shadow_receiver.columns").writes(&ReceiverReply::rows, "shadow_receiver.rows");
     set.writes(&ReceiverReply::map, "shadow_receiver.map");
@@ -171,6 +172,7 @@ struct SunStudyNode {
     receiver.centre = from.position + Vector3{0, 0, from.raised};
     receiver.spacing = from.spacing;
     receiver.required = from.required;
+    receiver.required_share = from.share;
     if (from.upright) upright_axes(from.width, from.depth, from.azimuth, receiver);
     else level_axes(from.width, from.depth, from.rotation, receiver);
     if (from.casters.empty()) return receiver;
@@ -193,6 +195,7 @@ struct SunStudyNode {
                         record.most,
                         record.hours.possible,
                         record.share_met,
+                        record.of_share,
                         record.deficit,
                         {{"node", "lost", "shared"}, {}},
                         {{"x", "y", "z", "sun"}, {}},

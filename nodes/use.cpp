@@ -16,6 +16,7 @@ struct Use {
     std::string name, source;
     double trips_per_100 = 0, car_share = 0.5, out_share = 0.5, parking_per_100 = 0, people_per_100 = 0;
     double cost_per_area = 0, value_per_area = 0, least_sun = 0, most_noise = 0;
+    bool is_open = false;
     Selection volumes{{}, "use_figures", {}}, uses{{}, "use", {}};
   };
   struct Member {
@@ -46,6 +47,10 @@ struct Use {
         "What 100 m² of floor of a use bring and need: trips, parking places, people, cost and value. It gives these figures to "
         "the volumes of this use and adds them up. Links to traffic, budgets and parking read them there.");
     t.in(&In::name, "use").doc("The use as volumes and rows of a programme name it, such as `housing`; each use has one node.");
+    t.in(&In::is_open, "is_open")
+        .doc(
+            "The use is open space, such as a garden or a square: rows of a programme ask for ground that nobody builds on, and "
+            "exclusions of a boundary keep it. It has no volumes and no floor area.");
     declare_rates(t);
     t.in(&In::source, "source").doc("Where the figures come from, for whoever reads them later.");
     t.in(&In::volumes, "volumes").doc("The volumes that may get figures; those of this use among them do.");
@@ -126,9 +131,10 @@ struct Use {
             in.most_noise};
   }
 
+  static Reply reply_without_figures(const std::string& why) { return {"", why, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+
   static Reply reply_without_use(const std::string& name) {
-    return {"", name.empty() ? "it has no use" : "no node is the use `" + name + "`", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
-            0.0};
+    return reply_without_figures(name.empty() ? "it has no use" : "no node is the use `" + name + "`");
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
@@ -143,6 +149,11 @@ struct Use {
       const Member& volume = sets.volumes[v];
       if (clears && !known.contains(volume.use)) out.replies[v] = reply_without_use(volume.use);
       if (volume.use != in.name) continue;
+      if (in.is_open) {
+        out.replies[v] =
+            reply_without_figures("its use `" + in.name + "` is open space, which no volume has: give it another one");
+        continue;
+      }
       const Reply& reply = out.replies[v] = reply_of(in, volume.floor_area);
       ++out.count;
       out.floor_area += volume.floor_area;

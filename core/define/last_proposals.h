@@ -19,7 +19,12 @@ struct LastProposals {
   bool was_asked = false;  ///< the link has to be asked again in the tick after it has said something else
 };
 
-/// What the link said there last. Where nobody knows, what is in force counts as its own word.
+/// Does anybody know what the link said last?
+inline bool has_last_word(const Tick& tick) {
+  return tick.memo != nullptr && static_cast<bool>(tick.memo->of<LastProposals>().said);
+}
+
+/// What the link said there last, all of its pairs together. Where nobody knows, what is in force counts as its own word.
 inline std::optional<double> own_word(const Tick& tick, std::string_view path, std::size_t place, double in_force) {
   if (tick.memo == nullptr) return in_force;
   LastProposals& last = tick.memo->of<LastProposals>();

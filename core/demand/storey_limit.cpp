@@ -17,7 +17,7 @@ constexpr double kWhole = 1e-9;  // a hair less than whole storeys is whole stor
 double room_of(const StandingVolume& volume) { return std::min(volume.limit / volume.storey_height, volume.built + 1.0); }
 
 std::optional<double> limit_for(const StandingVolume& volume, double storeys) {
-  if (storeys >= volume.wished + kStoreyReturn) return std::nullopt;
+  if (storeys >= volume.wished + kStoreyPlay) return std::nullopt;
   return storeys * volume.storey_height;
 }
 
@@ -34,7 +34,7 @@ bool is_at_least(const StandingVolume& volume, double share) {
 
 bool takes_storeys(const StandingVolume& volume, double limit) {
   const double storeys = limit / volume.storey_height + kWhole;
-  return volume.built < volume.wished ? storeys < volume.wished + kStoreyReturn : std::floor(storeys) < volume.wished;
+  return volume.built < volume.wished ? storeys < volume.wished + kStoreyPlay : std::floor(storeys) < volume.wished;
 }
 
 bool is_in_force(const StandingVolume& volume, double limit) { return limit <= volume.limit * (1 + kWhole); }
@@ -45,9 +45,9 @@ std::optional<double> lower_limit(const StandingVolume& volume, double storeys, 
 }
 
 std::optional<double> higher_limit(const StandingVolume& volume) {
-  if (volume.limit >= (volume.wished + kStoreyReturn) * volume.storey_height) return std::nullopt;
+  if (volume.limit >= (volume.wished + kStoreyPlay) * volume.storey_height) return std::nullopt;
   // Beyond its return nothing is needed of the next storey, before this one is measured.
-  return limit_for(volume, std::min(volume.limit / volume.storey_height + kStoreyPace, volume.built + 1 + kStoreyReturn));
+  return limit_for(volume, std::min(volume.limit / volume.storey_height + kStoreyPace, volume.built + 1 + kStoreyPlay));
 }
 
 std::optional<double> kept_limit(const StandingVolume& volume) {
@@ -60,8 +60,11 @@ std::optional<double> limit_at(const StandingVolume& volume, double height, doub
 }
 
 std::string storeys_left(const StandingVolume& volume, double limit) {
-  return std::to_string(volume.built) + " of " + std::to_string(volume.wished) + " storeys, because it may be no higher than " +
-         fixed(limit, 2) + " m";
+  const std::string words = std::to_string(volume.built) + " of " + std::to_string(volume.wished) +
+                            " storeys, because it may be no higher than " + fixed(limit, 2) + " m";
+  // A storey that has gone with a limit that trembles does not come back with it.
+  if (volume.built >= volume.wished || limit < (volume.built + 1 - kWhole) * volume.storey_height) return words;
+  return words + " (one more comes back from " + fixed((volume.built + 1 + kStoreyPlay) * volume.storey_height, 2) + " m on)";
 }
 
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share) {

@@ -4,14 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "core/base/storey_play.h"
+
 namespace bl::demand {
 
 /// The storeys that one tick takes or gives back, at most. What a storey has changed is measured some ticks later: at a faster
 /// pace the next storey would go before it is known what the last one was worth.
 inline constexpr double kStoreyPace = 0.1;
-/// A storey that a limit has taken comes back when the limit leaves room for it and this share of a storey more.
-inline constexpr double kStoreyReturn = 0.15;
-
 /// What a rule knows of a volume that stands.
 struct StandingVolume {
   int built = 0, wished = 0;  ///< storeys
@@ -43,7 +42,8 @@ std::optional<double> kept_limit(const StandingVolume& volume);
 /// One that follows from a height up to which the volume may reach [m]; never below `share` of the storeys.
 std::optional<double> limit_at(const StandingVolume& volume, double height, double share);
 
-/// "6 of 8 storeys, because it may be no higher than 19.90 m".
+/// "6 of 8 storeys, because it may be no higher than 19.90 m"; where the limit leaves room for another storey, at which height it
+/// comes back at the latest.
 std::string storeys_left(const StandingVolume& volume, double limit);
 /// "held by `tower`, which keeps at least 3 storeys", or that its limit is locked.
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share);

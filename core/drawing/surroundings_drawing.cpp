@@ -270,8 +270,12 @@ std::vector<Label> surroundings_labels(const Sheet& sheet, const reading::Surrou
     Point3 middle;
     for (const auto& [point, sun] : field.points) middle += point / static_cast<double>(field.points.size());
     if (!is_within(frame, sheet.at(middle))) continue;
-    labels.push_back({sheet.at(middle), field.name, "sun " + reading::quantity(field.mean, Unit::second),
-                      reading::quantity(field.mean, Unit::second)});
+    // The mean of a garden may be long while half of it lies in the shade.
+    const bool has_rule = field.required > 0;
+    const std::string found = has_rule ? reading::percent(field.share_met) : reading::quantity(field.mean, Unit::second);
+    labels.push_back({sheet.at(middle), field.name,
+                      has_rule ? found + " has " + reading::quantity(field.required, Unit::second) + " of sun" : "sun " + found,
+                      found});
   }
   return labels;
 }

@@ -11,7 +11,7 @@ namespace bl::exporting {
 namespace {
 
 // Texts are of the code page 1252: what is beyond ASCII is written by its number.
-std::string dxf_text(std::string_view utf8) {
+std::string dxf_text(std::string_view utf8, bool& has_lost) {
   std::string out;
   for (std::size_t k = 0; k < utf8.size();) {
     const auto lead = static_cast<unsigned char>(utf8[k]);
@@ -20,6 +20,7 @@ std::string dxf_text(std::string_view utf8) {
       out += lead < 0x20 ? ' ' : utf8[k];
     } else if (length == 4 || k + length > utf8.size()) {
       out += '?';
+      has_lost = true;
     } else {
       unsigned code = lead & (length == 2 ? 0x1fu : 0x0fu);
       for (std::size_t b = 1; b < length; ++b) code = (code << 6) | (static_cast<unsigned char>(utf8[k + b]) & 0x3fu);
@@ -28,6 +29,18 @@ std::string dxf_text(std::string_view utf8) {
       out += escaped;
     }
     k += length;
+  }
+  return out;
+}
+
+// In texts of a drawing a caret begins a control code, and two percent signs do: both stand for themselves here.
+std::string words_as_they_are(std::string_view text) {
+  std::string out;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const bool is_pair = text[k] == '%' && ((k > 0 && text[k - 1] == '%') || text.substr(k + 1).starts_with('%'));
+    if (is_pair) out += "%%%";
+    else out += text[k];
+    if (text[k] == '^') out += ' ';
   }
   return out;
 }
@@ -189,6 +202,7 @@ void put_objects(DxfGroups& out, const DxfRoots& roots) {
 std::string DxfDrawing::layer_name(std::string_view text) {
   std::string name;
   for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xc0u) == 0x80) continue;  // within a letter of several bytes
     const bool is_small = c >= 'a' && c <= 'z', is_plain = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
     name += is_small ? static_cast<char>(c - 'a' + 'A') : is_plain ? c : '_';
   }
@@ -223,7 +237,11 @@ void DxfDrawing::line(const std::string& layer, const Point3& from, const Point3
 
 void DxfDrawing::text(const std::string& layer, const Point3& at, double height, std::string_view words, bool is_centred) {
   DxfGroups body;
-  body.put(100, "AcDbText").point(10, at).put(40, height).put(1, dxf_text(words)).put(7, "Standard");
+  body.put(100, "AcDbText")
+      .point(10, at)
+      .put(40, height)
+      .put(1, dxf_text(words_as_they_are(words), has_lost_letters_))
+      .put(7, "Standard");
   if (is_centred) body.put(72, 1).point(11, at);
   body.put(100, "AcDbText");
   if (is_centred) body.put(73, 2);
@@ -264,7 +282,8 @@ std::string DxfDrawing::str(const std::string& comment) const {
   tail.end_section();
   put_objects(tail, roots);
   tail.put(0, "EOF");
-  header.put(999, dxf_text(comment)).section("HEADER");
+  bool ignored = false;
+  header.put(999, dxf_text(comment, ignored)).section("HEADER");
   header.put(9, "$ACADVER").put(1, "AC1015").put(9, "$DWGCODEPAGE").put(3, "ANSI_1252").put(9, "$INSBASE").point(10, {0, 0, 0});
   header.put(9, "$EXTMIN").point(10, low).put(9, "$EXTMAX").point(10, high).put(9, "$LUNITS").put(70, 2);
   header.put(9, "$INSUNITS").put(70, 6).put(9, "$MEASUREMENT").put(70, 1).put(9, "$HANDSEED").put(5, handles.next());

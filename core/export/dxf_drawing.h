@@ -28,6 +28,9 @@ class DxfDrawing {
   /// `height` of capitals [m]; centred: about its place, else from its lower left.
   void text(const std::string& layer, const Point3& at, double height, std::string_view words, bool is_centred = false);
 
+  /// Are there question marks in place of letters of texts?
+  bool has_lost_letters() const { return has_lost_letters_; }
+
   /// `comment`: a line at the head of the file.
   std::string str(const std::string& comment) const;
 
@@ -38,6 +41,7 @@ class DxfDrawing {
   void reach(const Point3& p);
   std::map<std::string, int> layers_ = {{"0", 7}};
   std::vector<Entity> entities_;
+  bool has_lost_letters_ = false;
   Point3 low_ = {1e20, 1e20, 1e20}, high_ = {-1e20, -1e20, -1e20};
 };
 

@@ -26,10 +26,19 @@ struct ExportFiles {
   std::vector<std::string> notes;  ///< sentences on what the format cannot hold or had to change
 };
 
+/// By what all files of a format are known: its first bytes, and where files of other programs begin in the same way, words
+/// further on as well.
+struct FileMark {
+  std::string begin;
+  std::string within;  ///< words within the first `kMarkReach` bytes
+  std::string end;     ///< its last bytes
+};
+inline constexpr std::size_t kMarkReach = 16384;
+
 struct FormatDefinition : TypeDefinition {
   std::string ending;  ///< of its files, with the point: ".dxf"
-  /// What its files begin with, one or the other: an existing file is replaced only where it does, too.
-  std::vector<std::string> beginnings;
+  /// Its files have one or the other: an existing file is replaced only where it does, too.
+  std::vector<FileMark> marks;
   /// The file of the built page that its files are made of, such as "proposal.html"; empty: none. Who calls it puts its content
   /// into the proposal.
   std::string shell;
@@ -50,8 +59,9 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
     definition_->ending = std::move(text);
     return *this;
   }
-  FormatBuilder& begins(std::string text) {
-    definition_->beginnings.push_back(std::move(text));
+  FormatBuilder& begins(std::string text) { return marked({std::move(text), "", ""}); }
+  FormatBuilder& marked(FileMark mark) {
+    definition_->marks.push_back(std::move(mark));
     return *this;
   }
   /// `write` finds the content of that file as `Proposal::shell`.
@@ -94,7 +104,11 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
           if (formed.buildings.empty())
             return Error{ErrorCode::missing, "form",
                          std::string("no volume has a body ") + reading::choice_of(options.form).measured};
-          return written(formed);
+          auto made = written(formed);
+          // Volumes that have a body in the scene, and none in this form.
+          for (std::size_t k = proposal.shapeless.size(); made && k < formed.shapeless.size(); ++k)
+            made->notes.push_back("in tables only: " + formed.shapeless[k].label + ": " + formed.shapeless[k].why_shapeless);
+          return made;
         }
       }
       return written(proposal);
@@ -118,6 +132,8 @@ const FormatList& all_formats();
 void register_formats(FormatList& list);
 /// nullptr where there is none of that id.
 const FormatDefinition* find_format(std::string_view id);
+/// Was the file exported in that format? From its first `kMarkReach` bytes, or more, and its last ones.
+bool has_mark(const FormatDefinition& format, std::string_view head, std::string_view tail);
 
 }  // namespace bl::exporting
 

@@ -93,6 +93,8 @@ Proposal in_form(const Proposal& proposal, VolumeForm form) {
     building.mesh = building.light_mesh = nullptr;
     all.shapeless.push_back(std::move(building));
   }
+  // What has no body measures nothing in this form.
+  for (Building& building : all.shapeless) building.floor_area = building.volume = building.footprint = 0;
   all.buildings = std::move(taken);
   number_levels(all);
   add_up(all);

@@ -21,7 +21,7 @@ struct FormOptions {
 std::vector<Choice<VolumeForm>> form_choices();
 
 /// Buildings, uses and sums in that form; `as_is`: the proposal itself. Plots, indicators and conflicts stay those of the scene.
-/// A volume that has no body in that form has a place among those without a shape, and says why.
+/// A volume that has no body in that form comes behind those without a shape, says why, and measures nothing.
 Proposal in_form(const Proposal& proposal, VolumeForm form);
 
 }  // namespace bl::exporting

@@ -31,7 +31,6 @@ class WayToEarth {
  private:
   explicit WayToEarth(importing::LocalFrame frame) : frame_(std::move(frame)) {}
   importing::LocalFrame frame_;
-  double cosine_ = 1, sine_ = 0;  // of the turn to true north, where only latitude and longitude are known
 };
 
 }  // namespace bl::exporting

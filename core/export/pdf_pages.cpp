@@ -3,6 +3,8 @@
 
 #include <hpdf.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <type_traits>
 
@@ -12,8 +14,18 @@ namespace {
 
 constexpr double kPoints = 72 / 25.4;  // per millimetre
 
-// The code page 1252 has the letters of western Europe at their numbers, and some signs elsewhere.
-std::string western(const std::string& utf8, bool& has_lost) {
+// Both codes of PDF have the letters of western Europe at their numbers, and other signs from 0x80 on; 0: none.
+using WesternSigns = std::array<unsigned, 33>;
+// The code page 1252, of texts on pages.
+constexpr WesternSigns kPageSigns = {0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021, 0x02c6, 0x2030, 0x0160,
+                                     0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+                                     0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178, 0x00a0};
+// PDFDocEncoding, of the properties of a file.
+constexpr WesternSigns kPropertySigns = {0x2022, 0x2020, 0x2021, 0x2026, 0x2014, 0x2013, 0x0192, 0x2044, 0x2039, 0x203a, 0x2212,
+                                         0x2030, 0x201e, 0x201c, 0x201d, 0x2018, 0x2019, 0x201a, 0x2122, 0xfb01, 0xfb02, 0x0141,
+                                         0x0152, 0x0160, 0x0178, 0x017d, 0x0131, 0x0142, 0x0153, 0x0161, 0x017e, 0,      0x20ac};
+
+std::string western(const std::string& utf8, const WesternSigns& signs, bool& has_lost) {
   std::string out;
   for (std::size_t k = 0; k < utf8.size();) {
     const auto lead = static_cast<unsigned char>(utf8[k]);
@@ -22,9 +34,9 @@ std::string western(const std::string& utf8, bool& has_lost) {
     for (std::size_t b = 1; b < length && k + b < utf8.size(); ++b)
       code = (code << 6) | (static_cast<unsigned char>(utf8[k + b]) & 0x3fu);
     k += length;
-    if (code == 0x2013 || code == 0x2014) code = code == 0x2013 ? 0x96 : 0x97;
-    else if (code == 0x2019) code = 0x92;
-    else if (code == 0x202f || code == 0x2009) code = 0x20;
+    const auto sign = code < 0x80 ? signs.end() : std::find(signs.begin(), signs.end(), code);
+    if (sign != signs.end()) code = 0x80 + static_cast<unsigned>(sign - signs.begin());
+    else if (code == 0x202f || code == 0x2009 || code == 0xa0) code = ' ';
     else if (code > 0xff || (code >= 0x80 && code < 0xa0)) code = '?', has_lost = true;
     out += code < 0x20 ? ' ' : static_cast<char>(code);
   }
@@ -87,7 +99,7 @@ class PdfPage {
   }
 
   void draw(const SheetText& text) {
-    const std::string words = western(text.words, has_lost_);
+    const std::string words = western(text.words, kPageSigns, has_lost_);
     HPDF_Page_SetRGBFill(page_, 0.13f, 0.15f, 0.19f);
     HPDF_Page_SetFontAndSize(page_, text.is_bold ? bold_ : plain_, points(text.size));
     const HPDF_REAL width = HPDF_Page_TextWidth(page_, words.c_str());
@@ -115,9 +127,9 @@ Result<PdfBook> pdf_pages(const std::vector<PlanSheet>& sheets, const std::strin
   PdfBook book;
   HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
   bool ignored = false;
-  HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, western(title, ignored).c_str());
+  HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, western(title, kPropertySigns, ignored).c_str());
   HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "BehaviourLinks");
-  HPDF_SetInfoAttr(document.get(), HPDF_INFO_SUBJECT, western(about, ignored).c_str());
+  HPDF_SetInfoAttr(document.get(), HPDF_INFO_SUBJECT, western(about, kPropertySigns, ignored).c_str());
   const HPDF_Font plain = HPDF_GetFont(document.get(), "Helvetica", "WinAnsiEncoding"),
                   bold = HPDF_GetFont(document.get(), "Helvetica-Bold", "WinAnsiEncoding");
   for (const PlanSheet& sheet : sheets) {

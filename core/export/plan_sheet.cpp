@@ -18,6 +18,8 @@ namespace bl::exporting {
 
 namespace {
 
+constexpr drawing::Colour kOpenFill{0.86, 0.92, 0.82}, kOpenLine{0.44, 0.58, 0.36};
+
 class PlanMaker : SheetFrame {
  public:
   PlanMaker(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options)
@@ -40,6 +42,7 @@ class PlanMaker : SheetFrame {
     sheet_.origin = {middle.x - metres * window_width() / 2, middle.y + metres * window_height() / 2, 0};
     add_surroundings();
     add_lands();
+    add_open_spaces();
     add_storeys();
     add_dimensions();
     if (height_) {
@@ -132,6 +135,31 @@ class PlanMaker : SheetFrame {
     sheet_.groups.push_back(std::move(group));
   }
 
+  // Nothing is built on them at any level.
+  void add_open_spaces() {
+    if (proposal_.open_spaces.empty()) return;
+    SheetGroup group{"open_space", "Open space", true, {}, {}};
+    for (const OpenSpace& open : proposal_.open_spaces)
+      for (const geometry::PlateFace& face : open.faces) {
+        SheetShape shape = shape_of({face}, open.use);
+        shape.is_filled = true;
+        shape.fill = kOpenFill;
+        shape.stroke = kOpenLine;
+        group.shapes.push_back(std::move(shape));
+        if (options_.labels) add_open_label(open.use, face, group);
+      }
+    sheet_.groups.push_back(std::move(group));
+  }
+
+  void add_open_label(const std::string& use, const geometry::PlateFace& face, SheetGroup& group) {
+    const LabelPlace place = label_place({face});
+    const double longest = 0.58 * static_cast<double>(use.size());
+    const double size = std::min({2.5, 0.9 * millimetres() * place.width / longest, 0.9 * millimetres() * place.height});
+    const SheetPoint middle = at(place.middle);
+    if (size >= 1.2 && takes_place(middle, size * longest, size))
+      group.texts.push_back({{middle.x, middle.y + 0.35 * size}, size, SheetAnchor::middle, false, use});
+  }
+
   // What the level cuts of buildings whose storey belongs to another level: their storeys are higher.
   const Storey* passing(const Building& building, double cut) const {
     for (const Storey& storey : building.storeys)
@@ -192,7 +220,9 @@ class PlanMaker : SheetFrame {
     shape.fill = b.colour;
     shape.width = 0.5;  // heavier than a plan: it is a cut
     use.shapes.push_back(std::move(shape));
-    if (options_.labels) add_label(b, *part.storey, labels);
+    Storey cut = *part.storey;
+    cut.faces = part.faces;
+    if (options_.labels) add_label(b, cut, labels, *height_ < cut.top);
   }
 
   // In a size that fits into the plate, as far as it can be read and nothing else is written there; else the area alone; else

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,12 @@ struct Land {
   std::string id, name;
   bool is_boundary = false;
   std::vector<geometry::PlateFace> faces;
-  double area = 0;          ///< [m²]
-  double ground = 0;        ///< height above the origin [m]
-  double fsi = 0, gsi = 0;  ///< of a plot
-  double fsi_max = 0, gsi_max = 0;
-  double height_max = 0;  ///< [m]
+  double area = 0;                         ///< [m²]
+  double open_area = 0;                    ///< kept open beside it by a boundary [m²]
+  double ground = 0;                       ///< height above the origin [m]
+  double fsi = 0, gsi = 0;                 ///< of a plot
+  std::optional<double> fsi_max, gsi_max;  ///< none where there is no rule
+  std::optional<double> height_max;        ///< [m]
 };
 
 /// A building of the surroundings, which stands already.
@@ -83,6 +85,14 @@ struct UseRow {
   std::size_t buildings = 0;
   double asked_area = 0, floor_area = 0;  ///< [m²]
   double asked_volume = 0, volume = 0;    ///< [m³]
+};
+
+/// Ground that nobody builds on, for a use such as a garden: it has neither volumes nor floor area.
+struct OpenSpace {
+  std::string use;
+  double asked_area = 0, area = 0;         ///< asked for by programmes, and kept open [m²]
+  std::string why_short;                   ///< empty where it is enough
+  std::vector<geometry::PlateFace> faces;  ///< as they are drawn; parts of them may lie outside of the boundary
 };
 
 /// A number that people have agreed to look at, with its goal.
@@ -126,10 +136,11 @@ struct Proposal {
   std::vector<Trouble> troubles;
   std::vector<UseRow> uses;
   UseRow all;
-  double ground = 0;        ///< of level 0 [m]
-  double level_height = 3;  ///< of one level: the smallest storey height [m]
-  int levels = 0;           ///< number of plans that show all storeys
-  std::string shell;        ///< the built page, where a format asks for it; empty: there is none
+  std::vector<OpenSpace> open_spaces;  ///< in the order of programmes; no part of `uses` and `all`
+  double ground = 0;                   ///< of level 0 [m]
+  double level_height = 3;             ///< of one level: the least height of a storey with another one above it [m]
+  int levels = 0;                      ///< number of plans that show all storeys
+  std::string shell;                   ///< the built page, where a format asks for it; empty: there is none
 
   /// Where a use stands in `uses`; their number where it is none of them.
   std::size_t use_number(const std::string& use) const {

@@ -8,11 +8,13 @@
 
 #include "core/base/hash.h"
 #include "core/geometry/cellar.h"
+#include "core/geometry/domain_table.h"
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
 #include "core/reading/views/building.h"
 #include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
+#include "core/reading/views/solver.h"
 #include "core/reading/views/surroundings.h"
 
 namespace bl::exporting {
@@ -105,6 +107,12 @@ void add_building(const State& state, const reading::VolumeRow& volume, const dr
   all.shapeless.push_back(std::move(building));
 }
 
+// A limit at the end of its port's range forbids nothing, and is no rule.
+std::optional<double> rule_of(const State& state, std::uint32_t node, const char* port, double limit) {
+  const auto ref = state.plan->find(node, {reading::type_of<reading::PlotFigures>(), port, {}});
+  return ref && limit >= state.plan->port(*ref).hard_maximum ? std::nullopt : std::optional(limit);
+}
+
 void add_lands(const State& state, const reading::ReportModel& model, Proposal& all) {
   for (const reading::SiteRow& site : model.sites) {
     if (!site.shape) continue;
@@ -113,6 +121,7 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
     land.is_boundary = true;
     land.faces = faces_of_rings(rings_of(site.ground));
     land.area = site.ground_area;
+    land.open_area = site.open_area;
     land.ground = site.bottom;
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }
@@ -122,12 +131,13 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
               false,
               faces_of_rings({plot.polygon}),
               0,
+              0,
               plot.ground,
               plot.fsi,
               plot.gsi,
-              plot.fsi_max,
-              plot.gsi_max,
-              plot.height_max};
+              rule_of(state, node, "fsi_max", plot.fsi_max),
+              rule_of(state, node, "gsi_max", plot.gsi_max),
+              rule_of(state, node, "height_max", plot.height_max)};
     land.area = area_of(land.faces);
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }
@@ -185,9 +195,21 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
   all.all.buildings = model.volumes.size();
 }
 
+void add_open_spaces(const State& state, const reading::ReportModel& model, Proposal& all) {
+  std::map<std::string, std::vector<PlateFace>> faces;
+  for (const auto& [node, ground] : reading::rows<reading::OpenGround>(state))
+    for (geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions))
+      if (const std::string& use = ground.exclusions->text(ring.first_row, "use"); !use.empty())
+        for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) faces[use].push_back(std::move(face));
+  for (const reading::OpenAccount& open : model.accounts.open)
+    all.open_spaces.push_back(
+        {open.use, open.asked, open.area, why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
+}
+
 }  // namespace
 
-// Levels are as high as the lowest storeys, so that no two storeys of a building fall on one.
+// No floor lies closer above another one of its building than a level is high, so that no two of them fall on one level. In a
+// building of shops and flats the storey that both have is as high as those of the shops, whichever it is called by.
 void number_levels(Proposal& all) {
   all.level_height = std::numeric_limits<double>::infinity();
   all.levels = 0;
@@ -195,6 +217,8 @@ void number_levels(Proposal& all) {
   for (const Building& building : all.buildings) {
     all.ground = std::min(all.ground, building.storeys.front().bottom);
     all.level_height = std::min(all.level_height, building.storey_height);
+    for (std::size_t k = 1; k < building.storeys.size(); ++k)
+      all.level_height = std::min(all.level_height, building.storeys[k].bottom - building.storeys[k - 1].bottom);
   }
   for (Building& building : all.buildings)
     for (Storey& storey : building.storeys) {
@@ -281,6 +305,7 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
     if (ground && !ground->triangles.empty()) all.terrains.push_back(std::make_shared<const Mesh>(*ground));
   add_story(state, model, all);
   add_uses(model, palette, all);
+  add_open_spaces(state, model, all);
   return all;
 }
 

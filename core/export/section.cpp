@@ -215,6 +215,10 @@ LevelPart level_part(const Building& building, double height) {
   LevelPart part;
   for (const Storey* storey : drawn_storeys(building))
     if (storey->bottom <= height && height < storey->top) part.storey = storey;
+  // What a rounded volume has above its last storey belongs to that.
+  if (part.storey == nullptr && !building.is_standing && building.bottom <= height && height < building.top)
+    for (const Storey& storey : building.storeys)
+      if (part.storey == nullptr || storey.bottom <= height) part.storey = &storey;
   if (part.storey == nullptr) return part;
   if (building.is_standing || part.storey->number < 0) {
     part.faces = part.storey->faces;

@@ -46,7 +46,7 @@ Section section_of(const Proposal& proposal, const SectionLine& line, bool with_
 
 /// What a level plane cuts of a building.
 struct LevelPart {
-  const Storey* storey = nullptr;  ///< that it goes through; none: the plane misses the building
+  const Storey* storey = nullptr;  ///< that it goes through, or that what it cuts belongs to; none: it misses the building
   std::vector<geometry::PlateFace> faces;
 };
 /// A standing volume and a cellar have the plate of that storey; of a rounded one the mesh is cut at just that height.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "core/geometry/polygon_triangles.h"
@@ -40,6 +39,22 @@ std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings, b
   return solids;
 }
 
+std::vector<Solid> printable_solids_of(const Proposal& proposal, bool with_surroundings, bool with_cellars,
+                                       std::vector<std::string>& notes) {
+  std::vector<Solid> solids = solids_of(proposal, false, with_cellars);
+  if (!with_surroundings) return solids;
+  for (const Neighbour& n : proposal.neighbours) {
+    if (!n.mesh) continue;
+    std::shared_ptr<const Mesh> mesh = n.mesh;
+    if (!is_closed(*mesh)) {
+      mesh = std::make_shared<const Mesh>(geometry::prism_mesh(n.face.outer, n.face.holes, n.bottom, n.top));
+      notes.push_back(n.name + " has a mesh with holes, which no printer takes: it is an upright body over its outline");
+    }
+    solids.push_back({n.name, "existing", kExistingColour, std::move(mesh), nullptr});
+  }
+  return solids;
+}
+
 std::vector<std::string> left_out_cellars(const Proposal& proposal, bool with_cellars) {
   const auto count = static_cast<std::size_t>(
       std::count_if(proposal.buildings.begin(), proposal.buildings.end(), [](const Building& b) { return !b.cellars.empty(); }));
@@ -65,12 +80,15 @@ ModelScale::ModelScale(const std::vector<Solid>& solids, double denominator) : f
 }
 
 bool is_closed(const Mesh& mesh) {
-  std::multiset<std::pair<std::uint32_t, std::uint32_t>> sides;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides, opposite;
   for (const auto& triangle : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sides.emplace(triangle[k], triangle[(k + 1) % 3]);
-  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
-    return sides.count(side) == 1 && sides.count({side.second, side.first}) == 1;
-  });
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides.emplace_back(triangle[k], triangle[(k + 1) % 3]);
+      opposite.emplace_back(triangle[(k + 1) % 3], triangle[k]);
+    }
+  std::sort(sides.begin(), sides.end());
+  std::sort(opposite.begin(), opposite.end());
+  return !sides.empty() && sides == opposite && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
 }
 
 }  // namespace bl::exporting

@@ -33,6 +33,11 @@ std::vector<Solid> solids_of(const Proposal& proposal, bool with_surroundings, b
 /// A sentence on the cellars of the proposal that are not wanted, none where nothing is left out.
 std::vector<std::string> left_out_cellars(const Proposal& proposal, bool with_cellars);
 
+/// The same for programs that print, which want bodies without a hole: of what stands already and has an open mesh they get an
+/// upright body over its outline. `notes` names these.
+std::vector<Solid> printable_solids_of(const Proposal& proposal, bool with_surroundings, bool with_cellars,
+                                       std::vector<std::string>& notes);
+
 /// A model at a scale in millimetres, with its lowest corner at (0, 0, 0): slicers expect it on the plate.
 class ModelScale {
  public:

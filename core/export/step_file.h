@@ -25,7 +25,6 @@ class StepFile {
   std::string add(std::string_view entity, std::initializer_list<std::string> arguments);
   /// `description`, `name`, `schema`: of the header. No clock: the date is that of the beginning of time.
   std::string str(const std::string& description, const std::string& name, const std::string& schema) const;
-  std::size_t size() const { return count_; }
 
  private:
   std::string body_;

@@ -14,16 +14,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kTailReach = 256;  // no end of a mark is longer
+
+// Was the file exported in that format, or is it empty?
+Result<bool> is_own(const std::string& path, const FormatDefinition& format) {
+  std::ifstream file(path, std::ios::binary);
+  const auto part = [&](std::size_t most) {
+    std::string bytes(most, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(most));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+    return bytes;
+  };
+  const std::string head = part(kMarkReach);
+  std::string tail = head;
+  if (head.size() == kMarkReach) {
+    file.clear();
+    file.seekg(-static_cast<std::streamoff>(kTailReach), std::ios::end);
+    tail = part(kTailReach);
+  }
+  if (!file.is_open() || file.bad())
+    return Error{ErrorCode::io, path,
+                 "exists already and cannot be read, so that nobody knows whether it was exported as " + format.id +
+                     "; choose another name, or remove it first"};
+  return head.empty() || has_mark(format, head, tail);
+}
+
 Result<void> may_replace(const std::string& path, const FormatDefinition& format) {
   // Devices and pipes take what they are given.
   if (std::error_code none; !fs::is_regular_file(path, none)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::string begin(256, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
-  if (begin.empty()) return {};
-  for (const std::string& known : format.beginnings)
-    if (begin.starts_with(known)) return {};
+  const auto own = is_own(path, format);
+  if (!own) return own.error();
+  if (*own) return {};
   return Error{ErrorCode::conflict, path,
                "exists already and was not exported as " + format.id + "; choose another name, or remove it first"};
 }
@@ -59,6 +80,35 @@ std::string shell_of(const FormatDefinition& format, const std::string& page_fol
   return text ? *text : "";
 }
 
+// A file of a folder that is there, so that none is written where another one cannot be.
+Result<void> may_write_into(const std::string& path, const FormatDefinition& format) {
+  if (auto may = may_replace(path, format); !may) return may.error();
+  if (std::error_code none; !fs::is_directory(fs::path(path).parent_path(), none)) return {};
+  return may_write_file(path);
+}
+
+constexpr std::size_t kNamedFiles = 4;
+
+std::string some_of(const std::vector<std::string>& names) {
+  std::string text = names.front();
+  for (std::size_t k = 1; k < std::min(names.size(), kNamedFiles); ++k) text += ", " + names[k];
+  return names.size() > kNamedFiles ? text + " and " + std::to_string(names.size() - kNamedFiles) + " more" : text;
+}
+
+// Of an earlier export into the same folder, ascending: who opens the folder takes them for a part of this one.
+std::vector<std::string> left_over(const Order& order, const std::vector<ExportFile>& made) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (fs::directory_iterator entry(order.out, none), end; !none && entry != end; entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    const bool is_made = std::any_of(made.begin(), made.end(), [&](const ExportFile& file) { return file.name == name; });
+    if (is_made || !name.ends_with(order.format->ending) || !fs::is_regular_file(entry->path(), none)) continue;
+    if (const auto own = is_own(entry->path().string(), *order.format); own && *own) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace
 
 Result<Products> make_products(std::span<const Order> orders, Proposal proposal, const std::string& page_folder) {
@@ -69,13 +119,16 @@ Result<Products> make_products(std::span<const Order> orders, Proposal proposal,
     auto made = order.format->write(proposal, order.options, order.is_folder);
     if (!made) return made.error().within(order.format->id);
     for (const std::string& note : made->notes) products.notes.push_back(order.format->id + ": " + note);
+    const std::vector<std::string> others = order.is_folder ? left_over(order, made->files) : std::vector<std::string>{};
+    if (!others.empty())
+      products.notes.push_back(order.format->id + ": " + order.out + " also holds " + some_of(others) + " of an earlier export");
     for (ExportFile& file : made->files) {
       const std::string path = order.is_folder ? (fs::path(order.out) / file.name).string() : order.out;
       std::error_code none;
       if (!taken.emplace(fs::weakly_canonical(fs::absolute(path), none).string(), order.format->id).second)
         return Error{ErrorCode::conflict, path, "would be written twice in this call; choose another name or folder"};
-      if (auto may = may_replace(path, *order.format); !may && order.is_folder && path.ends_with(order.format->ending))
-        return may.error();
+      if (order.is_folder)
+        if (auto may = may_write_into(path, *order.format); !may) return may.error();
       products.files.push_back({path, std::move(file.content)});
     }
   }

@@ -10,7 +10,7 @@
 namespace bl::exporting {
 
 /// How a number is shown.
-enum class XlsxStyle { plain, bold, one_decimal, two_decimals, percent, bold_one_decimal };
+enum class XlsxStyle { plain, bold, two_decimals, percent };
 
 struct XlsxCell {
   enum class Kind { empty, text, number } kind = Kind::empty;
@@ -43,6 +43,8 @@ struct XlsxSheet {
   std::vector<std::vector<XlsxCell>> rows;  ///< the first one is the header, and stays in sight
 };
 
+/// The last bytes of each workbook: the comment of its archive.
+inline constexpr const char* kXlsxEnd = "BehaviourLinks xlsx";
 /// "A", "B", ..., "AA": of the column counted from 0.
 std::string column_name(std::size_t column);
 /// The bytes of the workbook. `title`, `about`: of its properties.

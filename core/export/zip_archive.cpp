@@ -23,7 +23,7 @@ Result<std::string> bytes_of(zip_source_t* buffer) {
 
 }  // namespace
 
-Result<std::string> zip_archive(const std::vector<std::pair<std::string, std::string>>& files) {
+Result<std::string> zip_archive(const std::vector<std::pair<std::string, std::string>>& files, const std::string& comment) {
   constexpr zip_uint16_t kNoTime = 0, kFirstDay = (1 << 5) | 1;
   zip_error_t error;
   zip_error_init(&error);
@@ -42,6 +42,7 @@ Result<std::string> zip_archive(const std::vector<std::pair<std::string, std::st
     if (place >= 0) zip_file_set_dostime(archive, static_cast<zip_uint64_t>(place), kNoTime, kFirstDay, 0);
     else zip_source_free(source);
   }
+  zip_set_archive_comment(archive, comment.c_str(), static_cast<zip_uint16_t>(comment.size()));
   if (zip_close(archive) != 0) {
     const Error failed = zip_failure("the archive cannot be closed", zip_get_error(archive));
     zip_discard(archive);

@@ -10,6 +10,7 @@
 namespace bl::exporting {
 
 /// Names and contents in this order, compressed; all with the date 1980-01-01, since a clock would change the bytes.
-Result<std::string> zip_archive(const std::vector<std::pair<std::string, std::string>>& files);
+/// `comment` stands at the end of the archive.
+Result<std::string> zip_archive(const std::vector<std::pair<std::string, std::string>>& files, const std::string& comment);
 
 }  // namespace bl::exporting

@@ -32,10 +32,11 @@ PlateStack cellar_of(const StandingBody& body, int storeys, double height) {
   cellar.storey_height = height;
   if (body.stacks.empty() || storeys <= 0) return cellar;
   cellar.storeys = storeys;
-  cellar.bottom = body.stacks.front().bottom - storeys * height;
-  cellar.outlines = body.stacks.front().outlines;
+  const PlateStack& lowest = body.stacks.front();
+  cellar.bottom = lowest.bottom - storeys * height;
+  cellar.outlines = lowest.enclosed.empty() ? lowest.outlines : lowest.enclosed;
   // Of a plate without a courtyard the area is known to the bit.
-  if (body.stacks.front().courtyards.empty()) cellar.area = body.stacks.front().area;
+  if (lowest.courtyards.empty() && lowest.enclosed.empty()) cellar.area = lowest.area;
   else
     for (const PlateRing& ring : cellar.outlines) cellar.area += area_of(ring, body.centre);
   return cellar;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -59,6 +60,7 @@ Result<void> FootprintDiagram::set_domain(const Domain& domain, std::span<const 
   return {};
 }
 
+bool FootprintDiagram::is_of(const Domain& domain) const { return workshop_->has_plot && workshop_->domain == domain; }
 double FootprintDiagram::plot_area() const { return workshop_->plot.area(); }
 std::span<const FootprintMeasure> FootprintDiagram::footprints() const { return workshop_->measures; }
 std::span<const std::uint32_t> FootprintDiagram::made() const { return workshop_->made; }
@@ -68,11 +70,7 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   if (auto sound = check(sites); !sound) return sound.error();
   w.find_made(sites);
   if (w.made.empty() && !sites.empty()) return std::span<const FootprintMeasure>(w.measures);
-  for (const std::uint32_t i : w.made)
-    for (const StoreyRun& run : sites[i].runs) {
-      w.plot.eroded(outer_offset(sites[i], run).plot);
-      if (std::isfinite(sites[i].depth)) w.plot.eroded(courtyard_offset(sites[i], run).plot);
-    }
+  w.erode_plots(sites);
   w.sites.assign(sites.begin(), sites.end());
   w.measures.resize(sites.size());
   w.reaches.resize(sites.size());
@@ -86,6 +84,7 @@ Result<std::span<const FootprintMeasure>> FootprintDiagram::update(std::span<con
   };
   if (pool != nullptr) pool->for_each_chunk(w.made.size(), kGrain, measure);
   else measure(0, w.made.size());
+  w.find_largest_reach();
   return std::span<const FootprintMeasure>(w.measures);
 }
 
@@ -95,6 +94,24 @@ std::vector<std::uint32_t> FootprintDiagram::take_touched() {
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (std::exchange(marks[i], std::uint8_t{0}) != 0) touched.push_back(i);
   return touched;
+}
+
+void FootprintDiagram::Workshop::erode_plots(std::span<const StandingSite> now) {
+  const auto each_offset = [](const StandingSite& site, const auto& take) {
+    for (const StoreyRun& run : site.runs) {
+      take(outer_offset(site, run).plot);
+      if (!std::isfinite(site.depth)) continue;
+      const PlateOffset court = courtyard_offset(site, run);
+      if (leaves_form(site, court)) take(court.plot);
+    }
+  };
+  for (const std::uint32_t i : made) each_offset(now[i], [this](const PlotOffset& by) { plot.eroded(by); });
+  if (plot.kept() <= most_kept) return;
+  std::vector<PlotOffset> used;
+  for (const StandingSite& site : now) each_offset(site, [&used](const PlotOffset& by) { used.push_back(by); });
+  plot.keep_only(std::move(used));
+  // Where so many are used they are not looked through in each frame.
+  most_kept = std::max(kMostUnused, 2 * plot.kept());
 }
 
 void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
@@ -109,11 +126,38 @@ void FootprintDiagram::Workshop::find_made(std::span<const StandingSite> now) {
   if (changed.empty()) return;
   // Whoever had a part of a changed site within its reach, or has it now. Where many have changed, nearly all are touched.
   const bool is_all = changed.size() * 8 > now.size();
-  for (std::uint32_t i = 0; i < now.size(); ++i) {
-    bool is_met = is_all;
-    for (std::size_t k = 0; !is_met && k < changed.size(); ++k)
-      is_met = changed[k] == i || cuts(sites[changed[k]], i) || cuts(now[changed[k]], i);
-    if (is_met) made.push_back(i);
+  std::vector<std::uint8_t> is_met(now.size(), is_all ? 1 : 0);
+  for (const std::uint32_t i : endless) is_met[i] = 1;
+  if (!is_all)
+    for (const std::uint32_t k : changed) {
+      is_met[k] = 1;
+      mark_cut(sites[k], is_met);
+      mark_cut(now[k], is_met);
+    }
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (is_met[i] != 0) made.push_back(i);
+}
+
+// A site at the distance d with the weight v cuts what lies within the reach R of one with the weight w where d² + w - v < 2 R d:
+// no farther away than R + sqrt(R² - w + v).
+void FootprintDiagram::Workshop::mark_cut(const StandingSite& other, std::vector<std::uint8_t>& is_met) const {
+  const double weight = std::max(0.0, other.site.weight);
+  const double farthest = largest_reach + std::sqrt(largest_excess + weight);
+  grid.around(other.site.position, 1e-9 + (1 + 1e-9) * farthest, [&](std::uint32_t i) {
+    if (is_met[i] == 0 && cuts(other, i)) is_met[i] = 1;
+  });
+}
+
+void FootprintDiagram::Workshop::find_largest_reach() {
+  largest_reach = largest_excess = 0;
+  endless.clear();
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) {
+    if (std::isinf(reaches[i])) {
+      endless.push_back(i);
+      continue;
+    }
+    largest_reach = std::max(largest_reach, reaches[i]);
+    largest_excess = std::max(largest_excess, reaches[i] * reaches[i] - sites[i].site.weight);
   }
 }
 
@@ -129,9 +173,14 @@ void FootprintDiagram::Workshop::find_coincident() {
   order.resize(sites.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto place = [this](std::uint32_t i) { return std::pair(sites[i].site.position.x, sites[i].site.position.y); };
+  // A form without a weight has no footprint, and takes none from a cell, whose weight may be below zero.
+  const auto weight = [this](std::uint32_t i) {
+    const double own = sites[i].site.weight;
+    return sites[i].form == FootprintForm::cell || own > 0 ? own : -std::numeric_limits<double>::infinity();
+  };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (place(a) != place(b)) return place(a) < place(b);
-    return sites[a].site.weight != sites[b].site.weight ? sites[a].site.weight > sites[b].site.weight : a < b;
+    return weight(a) != weight(b) ? weight(a) > weight(b) : a < b;
   });
   is_covered.assign(sites.size(), 0);
   for (std::size_t k = 1; k < order.size(); ++k) is_covered[order[k]] = place(order[k]) == place(order[k - 1]) ? 1 : 0;

@@ -89,6 +89,8 @@ class FootprintDiagram {
   /// The plot is the horizontal section of the domain a little above its bottom. Fails where nothing is left of it.
   Result<void> set_domain(const Domain& domain, std::span<const StreetAxis> streets = {});
   double plot_area() const;  ///< [m²]
+  /// Is the plot the ground of this domain?
+  bool is_of(const Domain& domain) const;
   /// Valid until the next call. Fails on input that is not finite or absurd.
   Result<std::span<const FootprintMeasure>> update(std::span<const StandingSite> sites, ThreadPool* pool = nullptr);
   std::span<const FootprintMeasure> footprints() const;

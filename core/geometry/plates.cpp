@@ -8,6 +8,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/geometry/inside/footprint_workshop.h"
+#include "core/geometry/inside/open_courtyards.h"
 #include "core/geometry/polygon_triangles.h"
 
 namespace bl::geometry {
@@ -122,6 +123,29 @@ double angle_of(const Point3& from, const Point3& to, const Point3& centre) {
   return angle;
 }
 
+// Can a courtyard have sides on those of the plate?
+bool may_meet(const PlateOffset& outer, const PlateOffset& court) {
+  return court.neighbour - outer.neighbour < kSame || court.plot.border - outer.plot.border < kSame ||
+         court.plot.street - outer.plot.street < kSame;
+}
+
+// A place a millimetre inside of a line that has what it encloses, or the rest around a hole, on its left.
+Point3 inside_of(const Ring& line, const Point3& at) {
+  constexpr double kInside = 1e-3;  // [m]
+  Vector3 inwards;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const Point3 &from = line[k], &to = line[(k + 1) % line.size()];
+    const Vector3 along{to.x - from.x, to.y - from.y, 0}, way{at.x - from.x, at.y - from.y, 0};
+    const double length = norm(along), s = dot(along, way);
+    // At a corner both sides count.
+    if (!(length > 0) || s < -kSame * length || s > (length + kSame) * length || std::abs(cross(along, way).z) > kSame * length)
+      continue;
+    inwards = inwards + Vector3{-along.y / length, along.x / length, 0};
+  }
+  const double length = norm(inwards);
+  return length > kSame ? at + inwards * (kInside / length) : at;
+}
+
 }  // namespace
 
 StandingBody body_of(const FootprintDiagram& diagram, std::uint32_t site) {
@@ -145,8 +169,10 @@ StandingBody body_of(const FootprintDiagram& diagram, std::uint32_t site) {
     PlateStack stack{run.storeys, bottom, own.storey_height, measure.plates[r], {}, {}};
     bottom = stack.top();
     if (!(stack.area > 0)) continue;
-    stack.outlines = rings(outer_offset(own, run));
-    if (std::isfinite(own.depth)) stack.courtyards = rings(courtyard_offset(own, run));
+    const PlateOffset outer = outer_offset(own, run), court = courtyard_offset(own, run);
+    stack.outlines = rings(outer);
+    if (std::isfinite(own.depth)) stack.courtyards = rings(court);
+    if (!stack.courtyards.empty() && may_meet(outer, court)) open_courtyards(stack, body.centre);
     body.stacks.push_back(std::move(stack));
   }
   return body;
@@ -234,6 +260,27 @@ double clearance_of(const StandingBody& body, std::span<const Point3> border, do
       for (const Point3& corner : border) take(corner, line, false);
   }
   return least;
+}
+
+Point3 nearest_place(const StandingBody& body, const Point3& position, double tolerance) {
+  if (body.stacks.empty()) return position;
+  const PlateStack& lowest = body.stacks.front();
+  const Point3 flat{position.x, position.y, 0};
+  int around = 0;  // outer lines less holes
+  double least = std::numeric_limits<double>::infinity();
+  Point3 nearest = flat;
+  for (const PlateRing& outline : lowest.enclosed.empty() ? lowest.outlines : lowest.enclosed) {
+    const Ring line = chords_of(outline, body.centre, tolerance);
+    if (line.size() < 3) continue;
+    if (ring_contains(line, flat)) around += signed_area(line) > 0 ? 1 : -1;
+    const Point3 side = nearest_on_ring(line, flat);
+    const double away = distance({side.x, side.y, 0}, flat);
+    if (away >= least) continue;
+    least = away;
+    nearest = inside_of(line, side);
+  }
+  if (around > 0) nearest = flat;
+  return {nearest.x, nearest.y, lowest.bottom};
 }
 
 Mesh mesh_of(const StandingBody& body, double tolerance) {

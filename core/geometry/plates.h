@@ -33,7 +33,8 @@ struct PlateStack {
   double bottom = 0, storey_height = 3;  ///< [m]
   double area = 0;                       ///< of one plate [m²]
   std::vector<PlateRing> outlines;       ///< of the footprint; several where the plot is not convex
-  std::vector<PlateRing> courtyards;     ///< what is not built of it
+  std::vector<PlateRing> courtyards;     ///< what is not built of it, where that does not reach an outer wall
+  std::vector<PlateRing> enclosed = {};  ///< of a part of a plate with courtyards: its outlines with what it has of these
   double top() const { return bottom + storeys * storey_height; }
   bool operator==(const PlateStack&) const = default;
 };
@@ -64,6 +65,10 @@ Mesh mesh_of(const StandingBody& body, double tolerance);
 /// How far its footprint stays inside a border [m], with arcs as chords within `tolerance`; negative where it reaches out of it,
 /// by so much. Infinity without plates.
 double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance);
+/// The place of its lowest plate, courtyards included, that is nearest to `position`: where it stands. Of places on its edge one
+/// a millimetre inside, because the border of the plot may run there. At the height of its lowest floor; `position` itself
+/// without plates. Arcs are chords within `tolerance`.
+Point3 nearest_place(const StandingBody& body, const Point3& position, double tolerance);
 /// Length of a ring's sides that border on a site (`beyond` from 0 on), on the plot or on nothing [m].
 double length_of(const PlateRing& ring, const Point3& centre, std::int32_t beyond);
 

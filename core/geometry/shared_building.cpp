@@ -228,6 +228,10 @@ void add_storey(StandingBody& body, const PlateStack& plate, std::size_t plate_n
 void cut_storey(const PlateStack& plate, const SharedStorey& storey, double bottom, double angle,
                 std::span<const BuildingShare> shares, std::vector<StandingBody>& parts) {
   const CutPlate cut(plate, parts.front().centre, angle);
+  // Courtyards are no part of what is shared out. But below the ground there are none.
+  PlateStack filled = plate;
+  filled.courtyards.clear();
+  const CutPlate ground(filled, parts.front().centre, angle);
   double before = 0;
   double from = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < storey.portions.size(); ++k) {
@@ -238,6 +242,7 @@ void cut_storey(const PlateStack& plate, const SharedStorey& storey, double bott
     const auto site_of = [&](std::size_t p) { return static_cast<std::int32_t>(shares[storey.portions[p].share].site); };
     const std::int32_t below = k > 0 ? site_of(k - 1) : PlateRing::kFree, above = is_last ? PlateRing::kFree : site_of(k + 1);
     parts[portion.share].stacks.push_back({1, bottom, storey.height, portion.area, cut.between(from, to, below, above), {}});
+    if (!plate.courtyards.empty()) parts[portion.share].stacks.back().enclosed = ground.between(from, to, below, above);
     from = to;
   }
 }

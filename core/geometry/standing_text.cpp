@@ -1,10 +1,23 @@
 // Sentences about volumes that stand, with people's names of them.
 #include "core/geometry/standing_text.h"
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string_view>
+#include <vector>
+
 #include "core/base/plural.h"
 #include "core/base/text.h"
 
 namespace bl::geometry {
+
+Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) {
+  constexpr std::string_view kSites = "sites/";
+  const auto site = error.place.starts_with(kSites) ? parse_number(error.place.substr(kSites.size())) : std::nullopt;
+  if (!site || !(*site < static_cast<double>(members.size()))) return error;
+  return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
+}
 
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names) {
   if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
@@ -15,6 +28,26 @@ std::string missing_text(const StandingWish& wish, const StandingResult& result,
            "set-backs leave it no roof where it stands";
   return "has no footprint: its neighbours, its set-backs and the plot leave it nothing where it stands";
 }
+
+namespace {
+
+// Of a footprint that streets, water or its neighbours part.
+std::string pieces_text(const StandingBody& body, const std::string& name) {
+  if (body.stacks.empty() || body.stacks.front().outlines.size() < 2) return "";
+  constexpr double kChords = 0.01;  // [m] between arcs and their chords
+  double least = 0, most = 0;
+  const std::vector<PlateFace> pieces = faces_of(body.stacks.front(), body.centre, kChords);
+  for (const PlateFace& piece : pieces) {
+    const double area = area_of(std::span(&piece, 1));
+    least = least == 0 ? area : std::min(least, area);
+    most = std::max(most, area);
+  }
+  if (pieces.size() < 2) return "";
+  return "; `" + name + "` stands in " + std::to_string(pieces.size()) + " pieces of " + fixed(least, 0) + " to " +
+         fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in one";
+}
+
+}  // namespace
 
 std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
                                std::span<const StandingResult> buildings, double top, double tolerance,
@@ -36,16 +69,41 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
     if (whole.body && whole.bottom + whole.height > top + 1e-6)
       words += "; `" + names[i] + "` reaches " + fixed(whole.bottom + whole.height, 1) + " m, and the boundary " + fixed(top, 1) +
                " m: the least of its storeys need more height than there is";
+    else if (whole.outside.storey > 0)
+      words += "; `" + names[i] + "` reaches out of the boundary from storey " + std::to_string(whole.outside.storey) + " on, " +
+               fixed(whole.outside.height, 1) + " m high, by up to " + fixed(whole.outside.area, 1) +
+               " m² of a plate: lower its `storeys`, or move it";
+    if (whole.body) words += pieces_text(*whole.body, names[i]);
     // On their way to what they want, volumes are smaller.
     if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
     int with_area = 0;
     for (const PlateStack& stack : whole.body->stacks) with_area += stack.storeys;
+    // Without a set-back there are plates, and a courtyard as large as they are.
+    const bool is_by_courtyard = !(wish.setback > 0) || wish.courtyard_setback >= wish.site.depth;
     if (with_area < whole.storeys.count)
-      words += "; the set-back of `" + names[i] + "` leaves nothing of its upper " +
-               how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
+      words += (is_by_courtyard ? "; the `courtyard_setback` of `" : "; the set-back of `") + names[i] +
+               "` leaves nothing of its upper " + how_many(static_cast<std::size_t>(whole.storeys.count - with_area), "storey") +
                ": lower it, or the number of storeys";
   }
   return words;
+}
+
+std::string floor_losses_text(std::span<const FloorLoss> losses, std::span<const std::string> names) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::uint32_t> order(losses.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto loss_of = [&](std::uint32_t k) { return losses[k].wanted - losses[k].had; };
+  const std::size_t named = std::min(kNamed, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(named), order.end(),
+                    [&](std::uint32_t a, std::uint32_t b) {
+                      return loss_of(a) != loss_of(b) ? loss_of(a) > loss_of(b) : losses[a].demand < losses[b].demand;
+                    });
+  std::string words;
+  for (std::size_t k = 0; k < named; ++k) {
+    const FloorLoss& loss = losses[order[k]];
+    words += "; " + names[loss.demand] + " has " + fixed(loss.had, 0) + " of " + fixed(loss.wanted, 0) + " m²";
+  }
+  return losses.size() > named ? words + " and " + std::to_string(losses.size() - named) + " more have too little" : words;
 }
 
 std::string lost_cellar_text(const StandingResult& result, std::size_t i, std::span<const std::string> names) {

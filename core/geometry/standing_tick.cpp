@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/domain_makers.h"
+#include "core/geometry/standing_text.h"
 
 namespace bl::geometry {
 
@@ -30,7 +31,8 @@ void measure_body(StandingResult& result) {
   double last_area = 0;
   for (const PlateStack& stack : result.body->stacks) {
     const double height = stack.top() - stack.bottom;
-    const auto add_sides = [&](const PlateRing& ring) {
+    // The sides of a courtyard have the courtyard beyond them, whatever moved them there.
+    const auto add_sides = [&](const PlateRing& ring, bool is_courtyard) {
       const std::size_t count = ring.corners.size();
       const double free =
           length_of(ring, result.body->centre, PlateRing::kFree) + length_of(ring, result.body->centre, PlateRing::kPlot);
@@ -39,6 +41,10 @@ void measure_body(StandingResult& result) {
         const PlateRing::Corner& c = ring.corners[k];
         if (c.beyond < 0) continue;
         const double area = height * distance(c.at, ring.corners[(k + 1) % count].at);
+        if (is_courtyard) {
+          result.free_facade_area += area;
+          continue;
+        }
         const auto site = static_cast<std::uint32_t>(c.beyond);
         const auto known =
             std::find_if(result.walls.begin(), result.walls.end(), [site](const auto& wall) { return wall.first == site; });
@@ -47,8 +53,8 @@ void measure_body(StandingResult& result) {
         result.facade_area += area;
       }
     };
-    for (const PlateRing& ring : stack.outlines) add_sides(ring);
-    for (const PlateRing& ring : stack.courtyards) add_sides(ring);
+    for (const PlateRing& ring : stack.outlines) add_sides(ring, false);
+    for (const PlateRing& ring : stack.courtyards) add_sides(ring, true);
     // What a smaller plate leaves free of the one below is roof.
     result.roof_area += std::max(0.0, last_area - stack.area);
     last_area = stack.area;
@@ -170,7 +176,7 @@ StandingResult part_of(const StandingResult& whole, const SharedBuilding& buildi
   part.bottom = whole.bottom;
   part.centroid = whole.centroid;
   part.is_shared = true;
-  part.storeys = {0, whole.storeys.is_limited};
+  part.storeys = {0, whole.storeys.is_limited, is_host ? whole.storeys.least_room : 0};
   const StandingBody& body = building.parts[share];
   if (!body.stacks.empty()) part.bottom = body.stacks.front().bottom;
   else if (part.state == SiteState::alive) part.state = SiteState::starved;
@@ -215,18 +221,19 @@ std::vector<StandingTick::Level> levels_of(std::span<const StandingWish> wishes,
   std::map<std::int32_t, std::vector<std::uint32_t>> members;
   for (std::uint32_t i = 0; i < bases.size(); ++i)
     if (!is_member(wishes, i)) members[bases[i]].push_back(i);
+  std::map<std::int32_t, std::size_t> kept_of;
+  for (std::size_t k = 0; k < kept.size(); ++k) kept_of.emplace(kept[k].base, k);
   std::vector<StandingTick::Level> levels;
   const auto add = [&](std::int32_t base) {
     const auto found = members.find(base);
     if (found == members.end()) return;
-    const auto known =
-        std::find_if(kept.begin(), kept.end(), [&](const auto& k) { return k.base == base && k.members == found->second; });
-    if (known != kept.end()) levels.push_back(std::move(*known));
+    const auto known = kept_of.find(base);
+    if (known != kept_of.end() && kept[known->second].members == found->second) levels.push_back(std::move(kept[known->second]));
     else levels.push_back({base, std::move(found->second), {}, {}, nullptr, 0});
   };
   add(StandingWish::kGround);
   for (std::size_t k = 0; members.size() > levels.size() && k < levels.size(); ++k)
-    for (const std::uint32_t i : std::vector(levels[k].members)) add(static_cast<std::int32_t>(i));
+    for (std::size_t m = 0; m < levels[k].members.size(); ++m) add(static_cast<std::int32_t>(levels[k].members[m]));
   return levels;
 }
 
@@ -276,14 +283,14 @@ Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::s
   if (steps > 0) {
     auto fit = fit_footprints(level.diagram, sites, demands,
                               {.tolerance = tolerance, .most_steps = steps, .is_local = true, .pool = pool, .progress = {}});
-    if (!fit) return fit.error();
+    if (!fit) return error_of_wish(fit.error(), level.members);
     // Where only the steps of a tick did not suffice, nobody goes without: the next tick goes on.
     if (!fit->infeasible.empty())
       for (const FloorLoss& loss : fit->losses) outcome.losses.push_back({level.members[loss.demand], loss.wanted, loss.had});
     if (is_roof && !fit->infeasible.empty()) outcome.on_roofs.push_back({level.base, std::move(fit->infeasible)});
     else if (!is_roof) outcome.message = std::move(fit->infeasible);
   } else if (auto made = level.diagram.update(sites, pool); !made) {
-    return made.error();
+    return error_of_wish(made.error(), level.members);
   }
   std::vector<std::uint32_t> touched = level.diagram.take_touched();
   for (std::uint32_t k = 0; k < sites.size(); ++k)
@@ -344,6 +351,17 @@ Result<void> StandingTick::run_roof(const Domain& ground, std::span<const Standi
     outcome.differing.push_back(i);
   }
   return {};
+}
+
+// The plot is the ground of the boundary, and storeys end at its top: between them it may be narrower.
+void StandingTick::measure_outside(const Domain& domain, bool is_known, Cache& kept, const Outcome& outcome) {
+  const bool may_reach_out = !is_upright(domain);
+  const auto measure = [&](StandingResult& result) {
+    result.outside = may_reach_out && result.body ? reach_out_of(domain, *result.body) : BoundaryReach();
+  };
+  if (!is_known) std::ranges::for_each(kept.results, measure);
+  else if (may_reach_out)
+    for (const std::uint32_t i : outcome.differing) measure(kept.results[i]);
 }
 
 // Gives what buildings have to those who share them.
@@ -407,6 +425,7 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
   kept.shares = shares_of(wishes);
   kept.shares_before.resize(wishes.size());
   kept.buildings.resize(wishes.size());
+  const bool is_known = !kept.levels.empty() && kept.levels.front().diagram.is_of(domain);
   for (Level& level : kept.levels) {
     const bool is_roof = level.base >= 0;
     auto done = is_roof ? run_roof(domain, wishes, level, kept, outcome)
@@ -414,6 +433,7 @@ Result<StandingTick::Outcome> StandingTick::run(const Domain& domain, std::span<
     if (!done) return done.error();
     if (!is_roof) kept.plot_area = level.diagram.plot_area();
   }
+  measure_outside(domain, is_known, kept, outcome);
   share_buildings(wishes, kept, outcome);
   std::sort(outcome.differing.begin(), outcome.differing.end());
   outcome.differing.erase(std::unique(outcome.differing.begin(), outcome.differing.end()), outcome.differing.end());

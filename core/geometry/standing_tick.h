@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/boundary_reach.h"
 #include "core/geometry/footprint_fit.h"
 #include "core/geometry/plates.h"
 #include "core/geometry/shared_building.h"
@@ -23,7 +24,7 @@ struct StandingWish {
   int storeys = 1, least = 1;    ///< wished, and insisted on
   double height_limit = 1e9;     ///< [m] above its lowest floor
   int built = 0;                 ///< storeys of the last tick; 0: none yet
-  bool was_limited = false;      ///< by the height limit, in the last tick
+  double least_room = 0;         ///< of the last tick, see Storeys
   double setback = 0;            ///< [m], of the storeys above the first `full_storeys`
   double courtyard_setback = 0;  ///< [m], of the same storeys behind the edge that a constant depth would give the courtyard
   int full_storeys = 0;
@@ -34,13 +35,12 @@ struct StandingWish {
   bool operator==(const StandingWish&) const = default;
 };
 
-/// A storey that a height limit has taken away comes back when the limit leaves room for it and this share of a storey more, so
-/// that storeys do not come and go with a limit that trembles.
-inline constexpr double kStoreyPlay = 0.15;
-
 struct Storeys {
   int count = 1;            ///< whole, at least 1
   bool is_limited = false;  ///< fewer than wished, by the height limit
+  /// Where there are fewer than wished: the least room, in storeys, since there have been as many as now; else 0. `kStoreyPlay`
+  /// says when more come back.
+  double least_room = 0;
   bool operator==(const Storeys&) const = default;
 };
 /// `highest`: the height of the boundary above the lowest floor [m].
@@ -65,6 +65,7 @@ struct StandingResult {
   double facade_area = 0, free_facade_area = 0, roof_area = 0;  ///< [m²]; free: towards no neighbour
   Point3 centroid;
   std::vector<std::pair<std::uint32_t, double>> walls;  ///< area of the walls shared with other sites [m²]
+  BoundaryReach outside;                                ///< of the boundary
   std::shared_ptr<const StandingBody> body;
   MeshPointer mesh;
 };
@@ -117,12 +118,14 @@ struct StandingTick {
     std::vector<LevelWord> on_roofs;          ///< the same of roofs, by their bases, and why a roof carries nothing
     std::vector<std::uint32_t> in_circles;    ///< those that would stand upon themselves: they are put on the ground
   };
+  /// Errors call wish 3 "site 3" (`with_names` of fit_text.h).
   Result<Outcome> run(const Domain& domain, std::span<const StandingWish> wishes, Cache& kept) const;
 
  private:
   Result<void> run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                          Outcome& outcome) const;
   void share_buildings(std::span<const StandingWish> wishes, Cache& kept, Outcome& outcome) const;
+  static void measure_outside(const Domain& domain, bool is_known, Cache& kept, const Outcome& outcome);
   static void split_losses(std::span<const StandingWish> wishes, const Cache& kept, Outcome& outcome);
   Result<void> run_roof(const Domain& ground, std::span<const StandingWish> wishes, Level& level, Cache& kept,
                         Outcome& outcome) const;

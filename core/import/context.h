@@ -28,6 +28,10 @@ enum class HeightSource {
 };
 std::string_view name_of(HeightSource source);
 
+/// Ids of features that have none of their own begin so; a hash of their geometry follows, so that they hold wherever a feature
+/// stands in its file. So do ids of junctions that are mere places.
+inline constexpr const char* kGeometryId = "geo-";
+
 /// For an element without a row in the report.
 inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/hash.h"
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/csv/csv_reader.h"
@@ -71,6 +72,23 @@ class Properties {
   std::map<std::string, std::string> values_;
 };
 
+std::string geometry_id(const Hash& hash) { return kGeometryId + hash.hex().substr(0, 8); }
+
+std::string geometry_id(const GeoFeature& feature) {
+  Hash hash;
+  const auto add = [&hash](const std::vector<std::array<double, 2>>& points) {
+    hash.add(static_cast<std::uint64_t>(points.size()));
+    for (const auto& [x, y] : points) {
+      hash.add(x);
+      hash.add(y);
+    }
+  };
+  for (const GeoPolygon& polygon : feature.polygons)
+    for (const auto& ring : polygon.rings) add(ring);
+  for (const GeoLine& line : feature.lines) add(line.points);
+  return geometry_id(hash);
+}
+
 void note_of_feature(std::string& text, const std::string& more) {
   if (!more.empty()) text += (text.empty() ? "" : ", ") + more;
 }
@@ -80,10 +98,10 @@ class GeoImporter {
   GeoImporter(const ContextOptions& options, const LocalFrame& frame, Context& context)
       : options_(options), frame_(frame), context_(context) {}
 
-  void read(const GeoFeature& feature, std::size_t index) {
+  void read(const GeoFeature& feature) {
     const Properties properties(feature, options_);
     id_ = properties.get("id");
-    if (id_.empty()) id_ = std::to_string(index);
+    if (id_.empty()) id_ = geometry_id(feature);
     const std::string shown = feature.place.empty() ? "the feature" : feature.place;
     if (feature.fault) context_.report.skip("feature", shown, feature.unread(), feature.fault->text());
     else if (!feature.polygons.empty()) polygons(feature, properties, shown);
@@ -287,7 +305,11 @@ class GeoImporter {
 
   std::size_t junction(const Point3& p) {
     const auto [it, is_new] = junctions_.emplace(key(p), context_.junctions.size());
-    if (is_new) context_.junctions.push_back({"j" + std::to_string(it->second + 1), p});
+    if (is_new) {
+      Hash hash;
+      for (const double number : it->first) hash.add(number);
+      context_.junctions.push_back({geometry_id(hash), p});
+    }
     return it->second;
   }
 
@@ -346,7 +368,7 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   GeoImporter importer(options, *frame, context);
   for (std::size_t i = 0; i < document->features.size(); ++i) {
     if (i % 256 == 0 && !goes_on(options.watch, "features", i, document->features.size())) return stopped_error();
-    importer.read(document->features[i], i);
+    importer.read(document->features[i]);
   }
   importer.cut_streets();
   if (importer.unsure > 0)

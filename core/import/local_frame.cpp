@@ -23,9 +23,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double whole(double number, double step) { return std::round(number / step) * step; }
 
-std::string own_projection(double latitude, double longitude) {
-  return "+proj=tmerc +lat_0=" + fixed(latitude, 6) + " +lon_0=" + fixed(longitude, 6) +
-         " +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs";
+std::string projection_about(const std::string& latitude, const std::string& longitude) {
+  return "+proj=tmerc +lat_0=" + latitude + " +lon_0=" + longitude + " +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs";
 }
 
 }  // namespace
@@ -36,6 +35,8 @@ struct LocalFrame::Transforms {
   PJ* to_metres = nullptr;   // longitude, latitude [rad] → own projection; null where the CRS is kept
   PJ* to_target = nullptr;   // longitude, latitude [deg] → CRS of a scene; null where there is none, or it is the file's
   bool is_of_scene = false;  // the coordinates are local metres already
+  bool is_turned = false;    // the scene lies about its latitude and longitude alone, turned to true north
+  double cosine = 1, sine = 0;
 
   ~Transforms() {
     proj_destroy(to_degrees);
@@ -110,7 +111,7 @@ LocalFrame::~LocalFrame() = default;
 
 Result<void> LocalFrame::use_own_projection() {
   proj_destroy(transforms_->to_metres);
-  reference_.crs = own_projection(reference_.latitude, reference_.longitude);
+  reference_.crs = projection_about(fixed(reference_.latitude, 6), fixed(reference_.longitude, 6));
   transforms_->to_metres = proj_create(transforms_->context, reference_.crs.c_str());
   if (transforms_->to_metres == nullptr)
     return Error{ErrorCode::internal, "crs", "PROJ refused the local projection `" + reference_.crs + "`."};
@@ -192,13 +193,23 @@ Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& 
     frame.notes_.push_back("The coordinates were taken as metres from the origin of the scene.");
     return frame;
   }
-  if (target.crs == kLocalCrs)
+  if (target.crs == kLocalCrs && !target.is_on_earth())
     return Error{
         ErrorCode::conflict, "crs",
         "The scene has metres of its own and no place on Earth, so that nothing in " + crs +
             " has a place in it. Set its coordinate system first, or give `--crs local` if the file is in these metres."};
   if (!is_longitude_latitude(crs)) {
     if (auto opened = transforms.open(crs, database); !opened) return opened.error();
+  }
+  if (!target.has_system() && target.is_on_earth()) {
+    const std::string about = projection_about(shortest(target.latitude), shortest(target.longitude));
+    transforms.to_metres = proj_create(transforms.context, about.c_str());
+    if (transforms.to_metres == nullptr)
+      return Error{ErrorCode::internal, "latitude", "PROJ refused the projection `" + about + "` about the scene."};
+    transforms.is_turned = true;
+    transforms.cosine = mathematics::cosine(target.true_north * kDegree);
+    transforms.sine = mathematics::sine(target.true_north * kDegree);
+    return frame;
   }
   if (target.crs.starts_with("+proj=")) {
     transforms.to_metres = proj_create(transforms.context, target.crs.c_str());
@@ -223,12 +234,21 @@ Point3 LocalFrame::to_local(double x, double y) const {
   }
   if (transforms_->to_metres == nullptr) return {x - reference_.origin_x, y - reference_.origin_y, 0};
   const PJ_COORD point = transforms_->metres(transforms_->degrees(x, y));
+  if (transforms_->is_turned) {
+    const double east = point.xy.x, north = point.xy.y;
+    return {transforms_->cosine * east + transforms_->sine * north, transforms_->cosine * north - transforms_->sine * east, 0};
+  }
   return {point.xy.x - reference_.origin_x, point.xy.y - reference_.origin_y, 0};
 }
 
 Point3 LocalFrame::from_local(double x, double y) const {
   if (transforms_->is_of_scene) return {x, y, 0};
-  const double there_x = x + reference_.origin_x, there_y = y + reference_.origin_y;
+  double there_x = x + reference_.origin_x, there_y = y + reference_.origin_y;
+  // North is `sine, cosine` in local metres, east a quarter turn right of it.
+  if (transforms_->is_turned) {
+    there_x = transforms_->cosine * x - transforms_->sine * y;
+    there_y = transforms_->sine * x + transforms_->cosine * y;
+  }
   PJ_COORD degree;
   if (transforms_->to_target != nullptr) {
     degree = proj_trans(transforms_->to_target, PJ_INV, proj_coord(there_x, there_y, 0, 0));

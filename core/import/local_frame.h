@@ -11,6 +11,9 @@
 
 namespace bl::importing {
 
+/// The name for coordinates in metres without a place on Earth, such as those of a drawn model.
+inline constexpr const char* kLocalCrs = "local";
+
 /// Where a local frame lies. A local point (x, y) is (origin_x + x, origin_y + y) in `crs`.
 struct GeoReference {
   std::string crs;                     ///< "EPSG:28992", a PROJ text of the projection made for the site, or kLocalCrs
@@ -19,14 +22,14 @@ struct GeoReference {
   double true_north = 0;               ///< direction of true north, clockwise from local +y [deg]
   /// Is the place on Earth known? Zeros mean that it is not.
   bool is_on_earth() const { return latitude != 0 || longitude != 0; }
+  /// Does it have a coordinate system of the Earth?
+  bool has_system() const { return !crs.empty() && crs != kLocalCrs; }
   bool operator==(const GeoReference&) const = default;
 };
 
 /// "urn:ogc:def:crs:EPSG::28992", "http://www.opengis.net/def/crs/EPSG/0/28992", "epsg:28992" as "EPSG:28992";
 /// all spellings of WGS84 longitude and latitude as "OGC:CRS84"; anything else as it is.
 std::string tidy_crs_name(std::string_view name);
-/// The name for coordinates in metres without a place on Earth, such as those of a drawn model.
-inline constexpr const char* kLocalCrs = "local";
 /// Does the tidy name mean WGS84 longitude and latitude in degrees?
 bool is_longitude_latitude(std::string_view crs);
 
@@ -50,7 +53,8 @@ class LocalFrame {
   /// Coordinates of kLocalCrs about an origin.
   static LocalFrame local(double x, double y);
   /// The way from `crs` into a frame that exists already: that of a scene. Coordinates in kLocalCrs are those of a scene that has
-  /// another CRS itself.
+  /// another CRS itself. A scene without a CRS that knows its latitude and longitude is placed by these and its true north: its
+  /// metres are those of a transverse Mercator projection about them.
   static Result<LocalFrame> into(const std::string& crs, const GeoReference& target, const std::string& database = "");
   LocalFrame(LocalFrame&&) noexcept;
   LocalFrame& operator=(LocalFrame&&) noexcept;

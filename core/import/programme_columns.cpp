@@ -225,6 +225,7 @@ const std::array<ProgrammeColumnInfo, kProgrammeColumns>& programme_columns() {
       {ProgrammeColumn::tags, "tags", Unit::none, {"tags", "tag", "labels", "keywords"}},
       {ProgrammeColumn::standing, "standing", Unit::none, {"standing", "stands_on", "support"}},
       {ProgrammeColumn::storeys, "storeys", Unit::count, {"storeys", "stories", "floors", "levels", "number_of_storeys"}},
+      {ProgrammeColumn::open, "open", Unit::none, {"open", "is_open", "open_space", "unbuilt"}},
   }};
   return columns;
 }

@@ -26,9 +26,10 @@ enum class ProgrammeColumn {
   adjacent_to,
   tags,
   standing,
-  storeys
+  storeys,
+  open
 };
-constexpr std::size_t kProgrammeColumns = 11;
+constexpr std::size_t kProgrammeColumns = 12;
 
 /// The name of a column and its aliases. Names are compared in the form of normal_header.
 struct ProgrammeColumnInfo {

@@ -48,6 +48,7 @@ class ProgrammeImporter {
   Result<ProgrammeRow> read_row(const csv::CsvRecord& record);
   Result<void> settle_area(const csv::CsvRecord& record, ProgrammeRow& row);
   Result<void> read_standing(const csv::CsvRecord& record, ProgrammeRow& row) const;
+  Result<void> read_open(const csv::CsvRecord& record, ProgrammeRow& row) const;
   void make_unique();
   void tell_storey_heights();
   Result<void> join_neighbours();
@@ -176,6 +177,20 @@ Result<void> ProgrammeImporter::read_standing(const csv::CsvRecord& record, Prog
   return {};
 }
 
+Result<void> ProgrammeImporter::read_open(const csv::CsvRecord& record, ProgrammeRow& row) const {
+  const std::string written = field(record, ProgrammeColumn::open), word = lower_case(written);
+  const auto is_one = [&word](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&word](const char* one) { return word == one; });
+  };
+  if (word.empty()) row.is_open = options_.is_open_space && options_.is_open_space(row.use);
+  else if (is_one({"yes", "true", "1", "x", "open"})) row.is_open = true;
+  else if (!is_one({"no", "false", "0", "-"}))
+    return Error{
+        ErrorCode::parse, place(record, ProgrammeColumn::open),
+        "`" + written + "` is not understood. Write `yes` for ground that nobody builds on, `no` for floor area, or nothing."};
+  return {};
+}
+
 Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
   if (auto fits = check_width(record); !fits) return fits.error();
   ProgrammeRow row;
@@ -184,6 +199,7 @@ Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
   if (row.use.empty())
     return Error{ErrorCode::missing, place(record, ProgrammeColumn::use), "The use is empty. Name it, or remove the row."};
   row.name = field(record, ProgrammeColumn::name);
+  if (auto open = read_open(record, row); !open) return open.error();
   if (auto area = settle_area(record, row); !area) return area.error();
   auto count = number(record, ProgrammeColumn::count);
   if (!count) return count.error();
@@ -199,7 +215,7 @@ Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
     return Error{
         ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
         "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
-  if (!*height) without_storey_height_.push_back(row.use);
+  if (!*height && !row.is_open) without_storey_height_.push_back(row.use);
   auto storeys = number(record, ProgrammeColumn::storeys);
   if (!storeys) return storeys.error();
   if (const double wished = storeys->value_or(1); !(wished >= 1 && wished <= kMostStoreys && wished == std::floor(wished)))
@@ -264,6 +280,13 @@ Result<void> ProgrammeImporter::join_neighbours() {
         if (other == i && row.count == 1 && found->second.size() == 1)
           import_.notes.push_back("Line " + std::to_string(row.line) + ": `" + row.use +
                                   "` cannot be adjacent to itself alone; this was left out.");
+        const ProgrammeRow& partner = import_.rows[other];
+        if (row.is_open || partner.is_open) {
+          import_.notes.push_back("Line " + std::to_string(row.line) + ": `" + (row.is_open ? row.use : partner.use) +
+                                  "` is open space and no body that `" + (row.is_open ? partner.use : row.use) +
+                                  "` could touch; this was left out.");
+          continue;
+        }
         const bool wanted = other != i || row.count > 1;
         if (wanted && std::find(joined.begin(), joined.end(), import_.rows[other].use) == joined.end())
           joined.push_back(import_.rows[other].use);
@@ -294,8 +317,10 @@ Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
   for (std::size_t i = 1; i < csv_.records.size(); ++i) {
     auto row = read_row(csv_.records[i]);
     if (!row) return row.error();
-    import_.items += static_cast<std::size_t>(row->count);
-    import_.floor_area += row->count * row->floor_area;
+    if (!row->is_open) {
+      import_.items += static_cast<std::size_t>(row->count);
+      import_.floor_area += row->count * row->floor_area;
+    }
     import_.rows.push_back(*std::move(row));
   }
   tell_storey_heights();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,11 +16,13 @@ namespace bl::importing {
 struct ProgrammeOptions {
   /// Our column → the header in the file, where that is called otherwise: {"use", "Room Name"}. Columns: use, name,
   /// floor_area_m2, floor_area_min_m2, floor_area_max_m2, count, storey_height_m, adjacent_to, tags,
-  /// standing, storeys.
+  /// standing, storeys, open.
   std::map<std::string, std::string> columns;
   std::optional<char> separator;  ///< ',', ';' or '\t'; nothing: found out
   std::optional<char> decimal;    ///< '.' or ','; nothing: found out per column
   double storey_height = 3.2;     ///< of rows that give none [m]
+  /// Is a use open space where its row does not say so? Empty: none is.
+  std::function<bool(const std::string& use)> is_open_space;
 };
 
 /// One row: `count` alike items, each with its own floor area.
@@ -33,6 +36,7 @@ struct ProgrammeRow {
   double storey_height = 0;              ///< [m]
   int storeys = 0;                       ///< that its volumes wish for; 0: nothing is said
   int count = 1;
+  bool is_open = false;                  ///< open space: its areas are ground that nobody builds on, and its items are no volumes
   std::vector<std::string> adjacent_to;  ///< uses of this import
   std::vector<std::string> tags;
   std::string standing = "stack";  ///< what its volumes may stand on: "ground", "stack" (also on others) or "bridge"
@@ -40,6 +44,7 @@ struct ProgrammeRow {
 
 struct ProgrammeImport {
   std::vector<ProgrammeRow> rows;
+  // Of rows that are not open space.
   std::size_t items = 0;  ///< sum of the counts
   double floor_area = 0;  ///< sum of count · floor area [m²]
   char separator = ',';

@@ -70,6 +70,20 @@ std::optional<Error> foreign_to_name(const std::string& path, Format format, std
   return std::nullopt;
 }
 
+std::string where(const importing::GeoReference& place) {
+  if (place.has_system() || !place.is_on_earth()) return "in " + place.crs;
+  return "at latitude " + shortest(place.latitude) + "°, longitude " + shortest(place.longitude) + "°";
+}
+
+std::set<std::string> elements_of(const importing::Context& context) {
+  std::set<std::string> ids;
+  for (const auto& one : context.buildings) ids.insert(one.id);
+  for (const auto& one : context.junctions) ids.insert(one.id);
+  for (const auto& one : context.streets) ids.insert(one.id);
+  for (const auto& one : context.areas) ids.insert(one.id);
+  return ids;
+}
+
 class Import {
  public:
   Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
@@ -86,6 +100,9 @@ class Import {
       for (std::size_t i = 0; i < o_.files.size() && !is_stopped(); ++i) {
         if (context_.watch != nullptr) context_.watch->file = i;
         (void)goes_on(context_.watch, "reading", 0, 0);
+        is_last_of_source_ = true;
+        for (std::size_t later = i + 1; later < o_.files.size(); ++later)
+          if (source_of(o_.files[later]) == source_of(o_.files[i])) is_last_of_source_ = false;
         read(o_.files[i]);
       }
     if (is_stopped() && result_.errors.empty()) fail("", importing::stopped_error());
@@ -97,7 +114,7 @@ class Import {
     tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
     // A site that was to be cleared and had all of a file's buildings is cleared: nothing is missing then.
-    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared() && !nodes_.is_again() &&
+    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared() && !nodes_.is_again() && !sites_.is_again() &&
         sites_.exclusions().empty()) {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
       return std::move(result_);
@@ -147,9 +164,9 @@ class Import {
     for (const ImportKind& kind : kImportKinds)
       if (kind.is_of_features && kind.id == o_.kind) context_.feature_kind = kind.id;
     const Settings settings = settings_of(scene_);
-    if (!settings.coordinate_system.empty())
-      context_.target = importing::GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
-                                                settings.latitude,          settings.longitude, settings.true_north};
+    const importing::GeoReference place{settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                                        settings.latitude,          settings.longitude, settings.true_north};
+    if (!place.crs.empty() || place.is_on_earth()) context_.target = place;
     // What was drawn without a place on Earth is drawn in the metres of the model.
     if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() &&
         importing::tidy_crs_name(context_.crs) == importing::kLocalCrs)
@@ -162,7 +179,7 @@ class Import {
     if (context_.target)
       return fail(
           "", {ErrorCode::conflict, "--origin",
-               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave the origin out"});
+               "the scene lies " + where(*context_.target) + " already, and its origin stays where it is: leave the origin out"});
     context_.origin = {*x, *y};
   }
 
@@ -190,8 +207,14 @@ class Import {
     }
   }
 
-  // The first file decides where the scene lies; all others follow it.
+  // The first file decides where the scene lies, unless the scene says so; all others follow it.
   void settle(const importing::GeoReference& reference) {
+    const bool is_model = importing::tidy_crs_name(context_.crs) == importing::kLocalCrs;
+    if (context_.target && !context_.target->has_system() && context_.target->is_on_earth() && !is_model) {
+      const char* sentence = "The scene has no coordinate system: the files lie in it by its latitude, longitude and true north.";
+      if (std::find(result_.notes.begin(), result_.notes.end(), sentence) == result_.notes.end())
+        result_.notes.push_back(sentence);
+    }
     if (context_.target) return;
     if (!scene_.nodes.empty() && reference.crs != importing::kLocalCrs)
       result_.notes.push_back(
@@ -207,7 +230,7 @@ class Import {
       questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
     if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
     if (questions.empty() && context_.target)
-      questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+      questions = "do the files lie where the scene does (" + where(*context_.target) + ")? ";
     return questions + "--report FILE lists every element with its reason";
   }
 
@@ -233,6 +256,11 @@ class Import {
                               " at 0, and the terrain, whose heights count from the sea, lies above or below.");
   }
 
+  // By its source an import knows again what it brought before.
+  std::string source_of(const std::string& file) const {
+    return o_.source.empty() ? file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1) : o_.source;
+  }
+
   template <class Read>
   bool told(const std::string& file, const Read& read) {
     if (read) return true;
@@ -245,15 +273,8 @@ class Import {
     if (!bytes) return fail(file, bytes.error());
     auto text = importing::unpacked(*bytes);
     if (!text) return fail(file, text.error());
-    const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
     const Format format = format_of(file, *text);
-    making_ = {o_.source.empty() ? name : o_.source,
-               o_.licence,
-               o_.unit,
-               o_.is_extruded,
-               o_.takes_all_streets,
-               format == Format::osm,
-               context_.watch};
+    making_ = {source_of(file), o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, format == Format::osm, context_.watch};
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
       return fail(
           file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
@@ -275,11 +296,12 @@ class Import {
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
-    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets);
+    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets,
+                         {making_.source, making_.has_lasting_ids});
     take(file, context->report, context->notes, context->reference);
-    nodes_.begin(making_);
+    nodes_.begin(making_, elements_of(*context));
     nodes_.add(*context, making_, sites_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -293,7 +315,7 @@ class Import {
     take(file, terrain->report, notes, terrain->reference);
     nodes_.begin(making_);
     nodes_.add(*terrain, making_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   void read_layer(const std::string& file, const std::string& text, Format format) {
@@ -309,7 +331,7 @@ class Import {
     take(file, layer->report, layer->notes, layer->reference);
     nodes_.begin(making_);
     nodes_.add(*layer, making_, result_.reports.back().second);
-    nodes_.end(file);
+    nodes_.end(file, is_last_of_source_);
   }
 
   const Scene& scene_;
@@ -319,6 +341,7 @@ class Import {
   ContextNodes nodes_;
   SiteBuildings sites_;
   std::set<std::string> properties_;  // of all features
+  bool is_last_of_source_ = true;     // no file after it has the same source
   bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
   NodeMaking making_;
   std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea

@@ -13,6 +13,8 @@
 #include "core/geometry/height_grid.h"
 #include "core/geometry/plan_ring.h"
 #include "core/import/thin_line.h"
+#include "core/making/port_fitting.h"
+#include "core/making/tidy_length.h"
 
 namespace bl::making {
 
@@ -21,25 +23,19 @@ namespace {
 // No street has more bends; where its file has more, those that count most are taken.
 constexpr std::size_t kMostBends = 500;
 
-// A tenth of a millimetre: files stay readable, and far finer than any survey.
-double tidy(double number) {
-  const double rounded = std::round(number * 1e4) / 1e4;
-  return rounded == 0 ? 0 : rounded;
-}
-
-Json points_json(const std::vector<Point3>& points, bool with_heights) {
-  Json list = Json::array();
-  for (const Point3& p : points) list.push_back({tidy(p.x), tidy(p.y), with_heights ? tidy(p.z) : 0.0});
-  return list;
-}
-
 Point3 middle(const std::vector<Point3>& points) {
   Point3 sum;
   for (const Point3& p : points) sum += p;
   return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
 }
 
-Json position_json(const Point3& p) { return {tidy(p.x), tidy(p.y), tidy(p.z)}; }
+Point3 place_of(const importing::ContextBuilding& building) {
+  Point3 place = middle(building.outer);
+  place.z = building.base;
+  return place;
+}
+
+Json position_json(const Point3& p) { return {tidy_length(p.x), tidy_length(p.y), tidy_length(p.z)}; }
 
 double length_of(const std::vector<Point3>& line) {
   double length = 0;
@@ -52,35 +48,6 @@ void name_all(importing::ImportReport& report, const std::string& id) {
   for (std::size_t row = 0; row < report.rows().size(); ++row)
     if (report.rows()[row].outcome != importing::ImportOutcome::skipped) report.made(row, id);
 }
-
-// Values for ports that this program's typification really has, in the kind that it wants.
-class Fitting {
- public:
-  explicit Fitting(const TypificationDefinition& type) : type_(type) {}
-  void set(const char* port, double value) {
-    const PortDefinition* found = type_.find_port(port);
-    if (found == nullptr || found->is_computed) return;
-    const double fitted = std::clamp(value, found->hard_minimum, found->hard_maximum);
-    if (found->kind == ValueKind::integer) values[port] = static_cast<std::int64_t>(std::llround(fitted));
-    else if (found->kind == ValueKind::number) values[port] = fitted;
-  }
-  void set(const char* port, bool value) {
-    const PortDefinition* found = type_.find_port(port);
-    if (found != nullptr && !found->is_computed && found->kind == ValueKind::boolean) values[port] = value;
-  }
-  void set_node(const char* port, const std::string& id) {
-    const PortDefinition* found = type_.find_port(port);
-    if (found != nullptr && !found->is_computed && found->kind == ValueKind::selection) values[port] = Json::array({id});
-  }
-  void set(const char* port, const std::vector<Point3>& points) {
-    const PortDefinition* found = type_.find_port(port);
-    if (found != nullptr && !found->is_computed && found->kind == ValueKind::points) values[port] = points_json(points, false);
-  }
-  Json values = Json::object();
-
- private:
-  const TypificationDefinition& type_;
-};
 
 }  // namespace
 
@@ -97,17 +64,24 @@ std::string ContextNodes::fresh_id(const std::string& wanted) {
   return id;
 }
 
+std::string ContextNodes::known_id(const std::string& kind, const std::string& wanted, const std::string& element,
+                                   const Point3& place) {
+  return earlier_.claim(kind, to_identifier(wanted), element, {tidy_length(place.x), tidy_length(place.y), tidy_length(place.z)});
+}
+
 std::string ContextNodes::id_of(const std::string& kind, const std::string& wanted, const std::string& element,
                                 const Point3& place) {
-  std::string known = earlier_.claim(kind, to_identifier(wanted), element, {tidy(place.x), tidy(place.y), tidy(place.z)});
+  std::string known = known_id(kind, wanted, element, place);
   return known.empty() ? fresh_id(wanted) : known;
 }
 
-void ContextNodes::begin(const NodeMaking& making) { earlier_.begin(making.source, making.licence, making.has_lasting_ids); }
+void ContextNodes::begin(const NodeMaking& making, std::set<std::string> elements) {
+  earlier_.begin(making.source, making.licence, making.has_lasting_ids, std::move(elements));
+}
 
-void ContextNodes::end(const std::string& file) {
+void ContextNodes::end(const std::string& file, bool is_last) {
   bool is_first = true;
-  for (const std::string& note : earlier_.end()) {
+  for (const std::string& note : earlier_.end(is_last)) {
     notes_.push_back(is_first ? file + " " + note : note);
     is_first = false;
     is_again_ = true;
@@ -192,7 +166,12 @@ void ContextNodes::add_buildings(const importing::Context& context, const NodeMa
     if (b % 256 == 0) (void)goes_on(making.watch, "buildings", b, context.buildings.size());
     const importing::ContextBuilding& building = context.buildings[b];
     if (sites.is_cleared(b)) {
-      if (building.row != importing::kNoRow) unused[building.row] = SiteBuildings::kClearedReason;
+      const std::string spared = clear_building(building, b, sites);
+      if (building.row != importing::kNoRow && spared.empty()) unused[building.row] = SiteBuildings::kClearedReason;
+      if (building.row != importing::kNoRow && !spared.empty()) {
+        report.made(building.row, spared);
+        report.remark(building.row, std::string(SiteBuildings::kClearedReason) + ", and people have changed it: it stays");
+      }
       cleared.insert(building.whole);
       continue;
     }
@@ -214,16 +193,29 @@ void ContextNodes::add_buildings(const importing::Context& context, const NodeMa
   }
 }
 
+std::string ContextNodes::clear_building(const importing::ContextBuilding& building, std::size_t number, SiteBuildings& sites) {
+  const std::string id = known_id("existing_building", "building_" + building.id, building.id, place_of(building));
+  if (id.empty()) return "";
+  if (auto removal = earlier_.remove(id)) {
+    commands_.push_back(std::move(*removal));
+    sites.remove(number, id);
+    return "";
+  }
+  sites.spare(number, id);
+  return id;
+}
+
 std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(const importing::ContextBuilding& building,
                                                                         const NodeMaking& making) {
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
-      ports["holes"].push_back({{"name", "court " + std::to_string(h + 1)}, {"x", tidy(corner.x)}, {"y", tidy(corner.y)}});
-  ports["base"] = tidy(building.base);
-  ports["height"] = std::max(0.01, tidy(building.height));
+      ports["holes"].push_back(
+          {{"name", "court " + std::to_string(h + 1)}, {"x", tidy_length(corner.x)}, {"y", tidy_length(corner.y)}});
+  ports["base"] = tidy_length(building.base);
+  ports["height"] = std::max(0.01, tidy_length(building.height));
   ports["height_source"] = std::string(name_of(building.height_source));
-  if (building.storey_height > 0) ports["storey_height"] = tidy(building.storey_height);
+  if (building.storey_height > 0) ports["storey_height"] = tidy_length(building.storey_height);
   if (!building.use.empty()) ports["use"] = building.use;
   ports["origin"] =
       building.id + (making.source.empty() ? "" : " of " + making.source) + (making.licence.empty() ? "" : ", " + making.licence);
@@ -232,8 +224,7 @@ std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(const im
     ports["vertices"] = points_json(building.solid->vertices, true);
     for (const auto& [a, b, c] : building.solid->triangles) ports["triangles"].push_back({{"a", a}, {"b", b}, {"c", c}});
   }
-  Point3 position = middle(building.outer);
-  position.z = building.base;
+  const Point3 position = place_of(building);
   const std::string id = id_of("existing_building", "building_" + building.id, building.id, position);
   const Json node = {{"name", building.name.empty() ? building.id : building.name},
                      {"position", position_json(position)},
@@ -320,7 +311,7 @@ std::string ContextNodes::add_junction(const importing::ContextJunction& junctio
   const std::string id = id_of("junction", "junction_" + junction.id, junction.id, junction.position);
   Json types = {{"junction", Json::object()}};
   if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
-  Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  Json node = {{"position", position_json(junction.position)}, {"types", types}};
   add_node("junction", id, junction.id, node);
   return id;
 }
@@ -389,8 +380,8 @@ void ContextNodes::add(const importing::LocalTerrain& terrain, const NodeMaking&
     rows.push_back({{"heights", geometry::height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns),
                                                      lowest, step)}});
   const Json ports = {{"rows", rows},
-                      {"west", tidy(terrain.west)},
-                      {"north", tidy(terrain.north)},
+                      {"west", tidy_length(terrain.west)},
+                      {"north", tidy_length(terrain.north)},
                       {"cell", terrain.cell},
                       {"lowest", lowest},
                       {"step", step},
@@ -409,7 +400,7 @@ void ContextNodes::add(const importing::DataLayer& layer, const NodeMaking& maki
   Json rows = Json::array();
   std::vector<Point3> places;
   for (const importing::LayerPoint& point : layer.points) {
-    rows.push_back({{"x", tidy(point.x)}, {"y", tidy(point.y)}, {"value", point.value}});
+    rows.push_back({{"x", tidy_length(point.x)}, {"y", tidy_length(point.y)}, {"value", point.value}});
     places.push_back({point.x, point.y, 0});
   }
   const Json ports = {{"values", rows},

@@ -39,9 +39,9 @@ class ContextNodes {
   void add(const importing::LocalTerrain& terrain, const NodeMaking& making, importing::ImportReport& report);
   void add(const importing::DataLayer& layer, const NodeMaking& making, importing::ImportReport& report);
 
-  /// Around all that is added of one file.
-  void begin(const NodeMaking& making);
-  void end(const std::string& file);
+  /// Around all that is added of one file. `elements`: ids of all that it has; `is_last`: no other file of its source follows.
+  void begin(const NodeMaking& making, std::set<std::string> elements = {});
+  void end(const std::string& file, bool is_last);
 
   /// Sets a port of a node that is there already.
   void set_port(const std::string& node, const std::string& path, const Value& value);
@@ -63,8 +63,12 @@ class ContextNodes {
   /// By row of the report: why an element became no node.
   using Unused = std::map<std::size_t, std::string>;
   std::string fresh_id(const std::string& wanted);
-  /// The id of the node that the element became before, else a new one.
+  /// The id of the node that the element became before; empty where it became none.
+  std::string known_id(const std::string& kind, const std::string& wanted, const std::string& element, const Point3& place);
+  /// That id, else a new one.
   std::string id_of(const std::string& kind, const std::string& wanted, const std::string& element, const Point3& place);
+  /// Removes the node that a building which is cleared became before; its id where people have changed it, so that it stays.
+  std::string clear_building(const importing::ContextBuilding& building, std::size_t number, SiteBuildings& sites);
   void add_buildings(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites,
                      importing::ImportReport& report, Unused& unused);
   std::pair<std::string, EarlierImports::Fate> add_building(const importing::ContextBuilding& building, const NodeMaking& making);

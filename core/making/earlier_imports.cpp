@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
 #include "core/base/plural.h"
 #include "core/file/scene_file.h"
+#include "core/import/context.h"
+#include "core/making/named_list.h"
 #include "core/session/commands.h"
 
 namespace bl::making {
@@ -20,7 +23,8 @@ constexpr const char* kRecord = "imported";
 constexpr std::array kImportedTypes{"existing_building", "street", "junction", "turn_rules", "plot", "terrain", "data_layer"};
 // Elements of different files that stand so near and have the same id are the same.
 constexpr double kSamePlace = 1;  // [m]
-constexpr std::size_t kMostNamed = 8;
+// A feature without an id whose geometry has changed lies no farther from where it lay before.
+constexpr double kMovedPlace = 5;  // [m]
 // Of scenes without records: so many nodes of one name are looked at.
 constexpr int kMostOfOneName = 200;
 
@@ -71,13 +75,16 @@ EarlierImports::EarlierImports(const Scene& scene, const Registry& registry) : s
   }
 }
 
-void EarlierImports::begin(const std::string& source, const std::string& licence, bool has_lasting_ids) {
+void EarlierImports::begin(const std::string& source, const std::string& licence, bool has_lasting_ids,
+                           std::set<std::string> elements) {
   source_ = source;
   licence_ = licence;
   has_lasting_ids_ = has_lasting_ids;
+  elements_ = std::move(elements);
+  left_.clear();
+  claimed_before_.merge(claimed_);
   claimed_.clear();
   for (auto& [key, nodes] : known_) nodes.first = 0;
-  kinds_.clear();
   counts_ = {};
   both_.clear();
 }
@@ -89,27 +96,84 @@ bool EarlierImports::is_near(const std::string& node, const Point3& place) const
   return distance_in_plan(other, place) <= kSamePlace;
 }
 
+// The nearest place first: in files where one id stands for several elements their order says nothing. What a file before has
+// claimed in this import is that element, and not another one of the same name.
+std::string EarlierImports::claim_known(Knowns& knowns, const Point3& place) {
+  auto& [nodes, first] = knowns;
+  while (first < nodes.size() && !is_free(nodes[first].node)) ++first;
+  const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(first);
+  auto found = std::find_if(begin, nodes.end(), [&](const Known& one) {
+    return distance_in_plan(one.place, place) <= kSamePlace && is_free(one.node);
+  });
+  if (found == nodes.end())
+    found = std::find_if(begin, nodes.end(), [&](const Known& one) {
+      return (has_lasting_ids_ || (one.source == source_ && !claimed_before_.contains(one.node))) && is_free(one.node);
+    });
+  if (found == nodes.end()) return "";
+  claimed_.insert(found->node);
+  return found->node;
+}
+
+// Of what the source brought before and its file does not have any more.
+std::string EarlierImports::claim_near(const std::string& kind, const Point3& place) {
+  const auto [entry, is_new] = left_.try_emplace(kind);
+  std::vector<Known>& left = entry->second;
+  if (is_new) {
+    for (const auto& [key, knowns] : known_)
+      if (key.starts_with(key_of(kind, "")) && !elements_.contains(key.substr(kind.size() + 1)))
+        for (const Known& one : knowns.nodes)
+          if (one.source == source_ && !claimed_before_.contains(one.node)) left.push_back(one);
+    std::sort(left.begin(), left.end(), [](const Known& a, const Known& b) {
+      return std::tie(a.place.x, a.place.y, a.node) < std::tie(b.place.x, b.place.y, b.node);
+    });
+  }
+  const Known* nearest = nullptr;
+  double least = kMovedPlace;
+  for (auto one = std::lower_bound(left.begin(), left.end(), place.x - kMovedPlace,
+                                   [](const Known&known, double west) { return known.place.x < west; });
+       one != left.end() && one->place.x <= place.x + kMovedPlace; ++one) {
+    const double aside = distance_in_plan(one->place, place);
+    if (aside > least || (aside == least && nearest != nullptr) || !is_free(one->node)) continue;
+    nearest = &*one;
+    least = aside;
+  }
+  if (nearest == nullptr) return "";
+  claimed_.insert(nearest->node);
+  return nearest->node;
+}
+
 std::string EarlierImports::claim(const std::string& kind, const std::string& id, const std::string& element,
                                   const Point3& place) {
-  kinds_.insert(kind);
-  if (const auto known = known_.find(key_of(kind, element)); known != known_.end()) {
-    auto& [nodes, first] = known->second;
-    while (first < nodes.size() && is_claimed(nodes[first].node)) ++first;
-    for (std::size_t i = first; i < nodes.size(); ++i) {
-      const Known& one = nodes[i];
-      const bool is_same = one.source == source_ || has_lasting_ids_ || distance_in_plan(one.place, place) <= kSamePlace;
-      if (is_same && claimed_.insert(one.node).second) return one.node;
-    }
-  }
+  kinds_[source_].insert(kind);
+  std::string node;
+  if (const auto known = known_.find(key_of(kind, element)); known != known_.end()) node = claim_known(known->second, place);
+  if (node.empty() && element.starts_with(importing::kGeometryId)) node = claim_near(kind, place);
+  if (!node.empty()) return node;
   std::string candidate = id;
   for (int number = 2; number < kMostOfOneName; ++number) {
     const auto found = scene_->nodes.find(candidate);
     if (found == scene_->nodes.end() || found->second.types.contains(kRecord) || !found->second.types.contains(kind)) return "";
-    const bool is_same = is_near(candidate, place);
+    const bool is_same = is_near(candidate, place) && !removed_.contains(candidate);
     if (is_same && claimed_.insert(candidate).second) return candidate;
     candidate = id + "_" + std::to_string(number);
   }
   return "";
+}
+
+bool EarlierImports::is_left_alone(const std::string& node) const {
+  const NodeRecord& whole = scene_->nodes.at(node);
+  const auto record = whole.types.find(kRecord);
+  return record != whole.types.end() && hash_of_node(set_by_import(whole), *registry_) == text_of(record->second, "as_read");
+}
+
+std::optional<Command> EarlierImports::remove(const std::string& id) {
+  if (!made_now_.contains(id) && !is_left_alone(id)) {
+    ++counts_.edited;
+    return std::nullopt;
+  }
+  removed_.insert(id);
+  ++counts_.removed;
+  return command<RemoveNode>({id});
 }
 
 Json EarlierImports::record(const std::string& element, const std::string& hash) const {
@@ -157,6 +221,7 @@ Result<EarlierImports::Change> EarlierImports::put(const std::string& kind, cons
         change.commands.push_back(command<SetPort>({id, {std::string(kRecord) + "." + port}, JsonValue::of(Json(value))}));
     };
     set("source", source_);
+    set("element", element);
     if (is_left_alone || is_same) set("as_read", hash);
   }
   if (is_same) ++counts_.unchanged;
@@ -206,35 +271,40 @@ void EarlierImports::update(const std::string& id, const NodeRecord& now, const 
   }
 }
 
-std::vector<std::string> EarlierImports::end() {
+std::vector<std::string> EarlierImports::end(bool is_last) {
   std::vector<std::string> gone;
+  const std::set<std::string>& kinds = kinds_[source_];
   for (const auto& [key, nodes] : known_)
     for (const Known& one : nodes.nodes)
-      if (one.source == source_ && kinds_.contains(key.substr(0, key.find('\n'))) && !is_claimed(one.node))
+      if (is_last && one.source == source_ && kinds.contains(key.substr(0, key.find('\n'))) && is_free(one.node) &&
+          !claimed_before_.contains(one.node))
         gone.push_back(one.node);
-  for (auto& [key, one] : made_here_) known_[key].nodes.push_back(std::move(one));
+  std::vector<std::string> made;
+  for (auto& [key, one] : made_here_) {
+    made.push_back(one.node);
+    known_[key].nodes.push_back(std::move(one));
+  }
   made_here_.clear();
-  if (counts_.updated + counts_.unchanged + counts_.edited + gone.size() == 0) return {};
+  if (counts_.updated + counts_.unchanged + counts_.edited + counts_.removed + gone.size() == 0) return {};
   std::sort(gone.begin(), gone.end());
-  const auto listed = [](const std::vector<std::string>& ids) {
-    std::string list;
-    for (std::size_t i = 0; i < ids.size() && i < kMostNamed; ++i) list += (i == 0 ? "`" : ", `") + ids[i] + "`";
-    return ids.size() > kMostNamed ? list + " and " + std::to_string(ids.size() - kMostNamed) + " more" : list;
-  };
   std::vector<std::string> notes{"was imported before, and nothing is doubled: " + std::to_string(counts_.made) + " new, " +
                                  std::to_string(counts_.updated) + " updated, " + std::to_string(counts_.unchanged) +
                                  " unchanged, " + std::to_string(counts_.edited) + " changed by people, " +
-                                 std::to_string(gone.size()) + " gone."};
+                                 std::to_string(gone.size()) + " gone" +
+                                 (counts_.removed > 0 ? ", " + std::to_string(counts_.removed) + " removed." : ".")};
   if (counts_.edited > 0)
     notes.push_back("What people have changed stays as they made it" +
                     (both_.empty() ? std::string(".")
-                                   : "; the import has something else of " + listed(both_) +
+                                   : "; the import has something else of " + named_list(both_) +
                                          ": remove a node and import again to have it as in the file."));
+  if (!made.empty())
+    notes.push_back("New means that the scene does not have it (it came into the file, the options take it in, or people have " +
+                    std::string("removed it, which no import knows): ") + named_list(made) + ".");
   if (!gone.empty())
     notes.push_back(
         "Gone means that this import does not bring it any more (it left the file, or the options leave it out). It "
         "stays in the scene: " +
-        listed(gone) + ".");
+        named_list(gone) + ".");
   return notes;
 }
 

@@ -43,10 +43,11 @@ std::string fresh_id(const std::string& wanted, std::set<std::string>& taken) {
 // Storeys with which all footprints together cover so much of the plan, as many as fit under the height.
 constexpr double kCoverage = 0.45;
 
+// Of the ground that can be built on.
 double plan_area(const SceneParts& parts) {
   double area = geometry::signed_area(parts.plan);
   for (const geometry::Ring& hole : parts.holes) area += geometry::signed_area(hole);
-  return area;
+  return area - parts.open_area();
 }
 
 int storeys_for(const SceneParts& parts, const importing::ProgrammeRow& row) {
@@ -60,17 +61,16 @@ int storeys_for(const SceneParts& parts, const importing::ProgrammeRow& row) {
 // as well.
 double block_angle(const geometry::Ring& plan) {
   constexpr double kHalfTurn = 3.14159265358979323846;
-  double longest = 0, angle = 0;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    const Vector3 side = plan[(i + 1) % plan.size()] - plan[i];
-    const double length = norm(Vector3{side.x, side.y, 0});
-    // Of equal sides the first, whatever their last digits are.
-    if (length < longest * (1 + 1e-6) + 1e-9) continue;
-    longest = length;
-    angle = mathematics::arc_tangent(side.y, side.x) * 180 / kHalfTurn;
-  }
+  const Vector3 side = main_direction(plan);
+  double angle = mathematics::arc_tangent(side.y, side.x) * 180 / kHalfTurn;
   angle -= 90 * std::round(angle / 90);
   return std::round(angle * 1000) / 1000 + 0.0;
+}
+
+// Figures of built uses are not those of open space of the same name, and the other way round.
+const UseRates* rates_of(const importing::ProgrammeRow& row) {
+  const UseRates* rates = use_rates(row.use);
+  return rates != nullptr && rates->is_open == row.is_open ? rates : nullptr;
 }
 
 class Builder {
@@ -102,6 +102,14 @@ class Builder {
     for (std::size_t h = 0; h < parts_.holes.size(); ++h)
       for (const Point3& corner : parts_.holes[h])
         boundary["holes"].push_back({{"name", "hole " + std::to_string(h + 1)}, {"x", corner.x}, {"y", corner.y}});
+    for (const OpenPlace& place : parts_.open_places)
+      for (const Point3& corner : place.ring)
+        boundary["exclusions"].push_back({{"name", place.name},
+                                          {"x", corner.x},
+                                          {"y", corner.y},
+                                          {"bottom", 0.0},
+                                          {"top", parts_.height},
+                                          {"use", parts_.programme.rows[place.row].use}});
     node(kSite, {{"name", "Site"}, {"types", {{"boundary", boundary}}}});
     Json rows = Json::array();
     for (const importing::ProgrammeRow& row : parts_.programme.rows)
@@ -124,8 +132,17 @@ class Builder {
     std::set<std::string> taken, named;
     for (const NewVolume& volume : volumes) taken.insert(volume.id);
     for (const importing::ProgrammeRow& row : parts_.programme.rows) {
-      const UseRates* rates = use_rates(row.use);
-      if (rates == nullptr || !named.insert(row.use).second) continue;
+      const UseRates* rates = rates_of(row);
+      if ((rates == nullptr && !row.is_open) || !named.insert(row.use).second) continue;
+      if (row.is_open) {
+        const Json ground = {
+            {"use", row.use},
+            {"is_open", true},
+            {"least_sun", rates == nullptr ? 0 : rates->least_sun},
+            {"source", rates == nullptr ? "open space by its row of the programme" : std::string(rates->source)}};
+        node(fresh_id("use_" + to_identifier(row.use), taken), {{"name", "Use: " + row.use}, {"types", {{"use", ground}}}});
+        continue;
+      }
       const Json figures = {{"use", row.use},
                             {"people_per_100", rates->people},
                             {"parking_per_100", rates->parking},
@@ -144,7 +161,7 @@ class Builder {
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
     Json types = {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}};
-    if (use_rates(row.use) != nullptr) types["use_figures"] = Json::object();
+    if (rates_of(row) != nullptr) types["use_figures"] = Json::object();
     if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row)}};
     if (parts_.is_standing && angle_ != 0) types["footprint"]["angle"] = angle_;
     node(volume.id, {{"name", volume.name},
@@ -202,7 +219,7 @@ std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme) {
   std::vector<NewVolume> volumes;
   for (std::size_t r = 0; r < programme.rows.size(); ++r) {
     const importing::ProgrammeRow& row = programme.rows[r];
-    const auto count = static_cast<std::size_t>(row.count);
+    const std::size_t count = row.is_open ? 0 : static_cast<std::size_t>(row.count);
     for (std::size_t i = 1; i <= count; ++i) {
       const std::string suffix = count > 1 ? "_" + numbered(i, count) : "", number = count > 1 ? " " + std::to_string(i) : "";
       volumes.push_back({fresh_id(to_identifier(row.use).substr(0, 48) + suffix, taken),
@@ -258,7 +275,9 @@ Result<Command> new_scene_command(const SceneParts& parts) {
       on_ground[v] = 1;
     }
   const double height = parts.is_standing ? 1 : parts.height;
-  const auto points = spread_points(parts.plan, 0, height, demands, parts.seed, neighbours, parts.holes, on_ground);
+  std::vector<geometry::Ring> holes = parts.holes;
+  for (const OpenPlace& place : parts.open_places) holes.emplace_back(place.ring.rbegin(), place.ring.rend());
+  const auto points = spread_points(parts.plan, 0, height, demands, parts.seed, neighbours, holes, on_ground);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };

@@ -7,6 +7,7 @@
 
 #include "core/import/plan_boundary.h"
 #include "core/import/programme_csv.h"
+#include "core/making/open_places.h"
 #include "core/session/commands.h"
 
 namespace bl::making {
@@ -23,7 +24,14 @@ struct SceneParts {
   double height = 0, margin = 0;      ///< [m]
   bool is_standing = false;           ///< volumes stand in whole storeys; else they are cells cut to balls
   importing::ProgrammeImport programme;
+  std::vector<OpenPlace> open_places;  ///< of its rows that are open space
   std::uint64_t seed = 1;
+
+  double open_area() const {
+    double area = 0;
+    for (const OpenPlace& place : open_places) area += place.area;
+    return area;
+  }
 };
 
 /// One SmartVolume to be: an item of a row of the programme.

@@ -10,8 +10,9 @@
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
-#include "core/geometry/domain_table.h"
 #include "core/geometry/plan_ring.h"
+#include "core/making/site.h"
+#include "core/making/use_rates.h"
 #include "core/session/commands.h"
 
 namespace bl::making {
@@ -22,6 +23,8 @@ constexpr double kHighestRule = 10000;  // [m]
 constexpr double kHalfTurn = 3.14159265358979323846;
 // A garden whose corners leave out less of its rectangle is said to be one.
 constexpr double kRectangle = 0.02;  // [ratio]
+// A garden of which less lies in a boundary touches it only.
+constexpr double kTouch = 1e-6;  // [ratio]
 
 Error refused(const std::string& place, const std::string& sentence) { return {ErrorCode::out_of_range, place, sentence}; }
 
@@ -82,10 +85,7 @@ class Adding {
   void role(const std::string& node, const char* type, const Json& values = Json::object()) {
     add(command<Typify>({node, type, JsonValue::of(values)}));
   }
-  void row(const std::string& node, const std::string& port, const Json& row) {
-    add(command<AddRow>({node, {port}, JsonValue::of(row)}));
-  }
-  void leave_out(const std::string& name, const std::vector<Point3>& corners);
+  Result<void> leave_out(const std::string& name, const std::string& use, const std::vector<Point3>& corners);
   void say(const std::string& sentence) { result_.said.push_back(sentence); }
   std::string new_node(const std::string& wanted) const { return fresh_id(scene_.nodes, wanted); }
   std::string new_link(const std::string& wanted) const { return fresh_id(scene_.links, wanted); }
@@ -110,6 +110,7 @@ class Adding {
     const auto node = scene_.nodes.find(id);
     return node != scene_.nodes.end() && selects(registry_, selection, id, node->second);
   }
+  Result<void> open_use(const std::string& use);
   Json sun_ports(const SunAddition& o, bool is_new);
   void casters();
 
@@ -187,25 +188,53 @@ std::vector<Point3> plan_of(const Scene& scene, const Registry& registry, const 
   return *std::get<Shared<std::vector<Point3>>>(set_value(scene, node, *type, *type->find_port("plan")));
 }
 
-// From the underside of a boundary to its top, so that nothing hangs above open space.
-void Adding::leave_out(const std::string& name, const std::vector<Point3>& corners) {
-  bool is_inside_any = false;
+// The node that says that the use is open space: so rows of programmes ask for its ground.
+Result<void> Adding::open_use(const std::string& use) {
+  const TypificationDefinition& type = *registry_.typification("use");
   for (const auto& [id, node] : scene_.nodes) {
-    const std::vector<Point3> plan = plan_of(scene_, registry_, node);
-    if (plan.empty() ||
-        std::none_of(corners.begin(), corners.end(), [&](const Point3& corner) { return geometry::ring_contains(plan, corner); }))
+    if (!node.types.contains("use") || std::get<std::string>(set_value(scene_, node, type, *type.find_port("use"))) != use)
       continue;
-    is_inside_any = true;
-    const TypificationDefinition& type = *registry_.typification("boundary");
-    const double bottom = as_number(set_value(scene_, node, type, *type.find_port("bottom"))),
-                 height = as_number(set_value(scene_, node, type, *type.find_port("height")));
-    for (const Point3& corner : corners)
-      row(id, "boundary.exclusions",
-          {{"name", name}, {"x", corner.x}, {"y", corner.y}, {"bottom", bottom}, {"top", bottom + height}});
-    say("The boundary `" + id + "` leaves out its " + fixed(std::abs(geometry::signed_area(corners)), 1) +
-        " m²: open space, which plots count as not built.");
+    if (std::get<bool>(set_value(scene_, node, type, *type.find_port("is_open")))) return {};
+    return Error{ErrorCode::conflict, "--use",
+                 "`" + use + "` is no open space: set `is_open` of `" + id + "`, or name another use"};
   }
-  if (!is_inside_any) say("No boundary reaches it, so that none leaves its ground out.");
+  const UseRates* rates = use_rates(use);
+  const bool is_known = rates != nullptr && rates->is_open;
+  const std::string id = new_node("use_" + to_identifier(use));
+  node(id, {{"name", "Use: " + use},
+            {"types",
+             {{"use",
+               {{"use", use},
+                {"is_open", true},
+                {"least_sun", is_known ? rates->least_sun : 0},
+                {"source", is_known ? std::string(rates->source) : "open space by whoever added it"}}}}}});
+  say("New: the node `" + id + "`, by which `" + use + "` is open space: a row of the programme with this use asks for ground.");
+  return {};
+}
+
+// From the underside of a boundary to its top, so that nothing hangs above open space. Rows of a garden that has gone give way.
+Result<void> Adding::leave_out(const std::string& name, const std::string& use, const std::vector<Point3>& corners) {
+  if (auto known = open_use(use); !known) return known;
+  const double whole = std::abs(geometry::signed_area(corners));
+  bool reaches_any = false;
+  for (Site& site : sites_of(scene_, registry_)) {
+    double common = 0;
+    for (const std::vector<geometry::Ring>& ground : site.grounds) common += area_on(ground, {&corners});
+    common = std::min(common, whole);
+    if (!(common > kTouch * whole)) continue;
+    reaches_any = true;
+    const bool had_some = site.replace(name, {{name, use, corners, site.bottom, site.top}});
+    const PortDefinition& port = *registry_.typification("boundary")->find_port("exclusions");
+    set(site.id, "boundary.exclusions", value_to_json(Shared<Table>(site.rows), port));
+    say("The boundary `" + site.id + "` leaves out " +
+        (whole - common <= kTouch * whole
+             ? "its " + fixed(whole, 1) + " m²"
+             : "the " + fixed(common, 1) + " m² of it that lie inside, of " + fixed(whole, 1) + " m²") +
+        ": open space, which plots count as not built." +
+        (had_some ? " What it left out as `" + name + "` before is replaced." : ""));
+  }
+  if (!reaches_any) say("No boundary reaches it, so that none leaves its ground out.");
+  return {};
 }
 
 Result<std::vector<Point3>> read_corners(const std::vector<std::string>& texts) {
@@ -327,6 +356,7 @@ namespace {
 // Is it said where the garden is, in one way only?
 Result<void> check_garden(const Scene& scene, const GardenAddition& garden) {
   if (auto sound = within("--hours", garden.hours, 0, 24, " h"); !sound) return sound.error();
+  if (auto sound = within("--share", garden.share, 0.01, 1, ""); !sound) return sound.error();
   if (garden.id.empty() && garden.corners.empty())
     return Error{ErrorCode::missing, "--corners", "say where the garden is: by --corners X,Y X,Y X,Y ..., or by --id of a node"};
   const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
@@ -340,6 +370,7 @@ Result<void> check_garden(const Scene& scene, const GardenAddition& garden) {
   if (garden.corners.empty() && !node->second.types.contains("shadow_receiver") && !node->second.types.contains("plot"))
     return Error{ErrorCode::wrong_kind, "--id",
                  "`" + garden.id + "` is neither a plot nor a shadow receiver: give the garden --corners"};
+  if (garden.is_open && garden.use.empty()) return Error{ErrorCode::missing, "--use", "name the use of the open space"};
   if (garden.is_open && garden.corners.empty() && node->second.types.contains("shadow_receiver"))
     return Error{ErrorCode::conflict, "--open", "`" + garden.id + "` is there already: open space is laid with a new garden"};
   return {};
@@ -351,13 +382,13 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
   if (auto sound = check_garden(scene, garden); !sound) return sound.error();
   const auto node = garden.id.empty() ? scene.nodes.end() : scene.nodes.find(garden.id);
   Adding adding(scene, registry);
-  if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.latitude ||
-      !garden.sun.date.empty())
+  if (nodes_with(scene, "sun_study").empty() || nodes_with(scene, "sun_and_sky").empty() || garden.sun.is_given())
     if (auto added = adding.sun(garden.sun); !added) return added.error();
-  const double hours = garden.hours.value_or(2);
+  const double hours = garden.hours.value_or(2), share = garden.share.value_or(0.5);
   std::string id = garden.id;
   if (garden.corners.empty() && node->second.types.contains("shadow_receiver")) {
     if (garden.hours) adding.set(id, "shadow_receiver.required_sun", hours * 3600);
+    if (garden.share) adding.set(id, "shadow_receiver.required_share", share);
   } else {
     std::vector<Point3> corners;
     if (garden.corners.empty()) {
@@ -380,10 +411,12 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
                         {{"width", to_millimetres(box.width)},
                          {"depth", to_millimetres(box.depth)},
                          {"rotation", to_millimetres(box.rotation)},
-                         {"required_sun", hours * 3600}}}}}});
+                         {"required_sun", hours * 3600},
+                         {"required_share", share}}}}}});
     adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
-               shortest(hours) + " h of sun a day.");
-    if (garden.is_open) adding.leave_out(id, corners);
+               shortest(hours) + " h of sun a day on " + shortest(100 * share) + " % of its area.");
+    if (garden.is_open)
+      if (auto open = adding.leave_out(id, garden.use, corners); !open) return open.error();
     if (box.beyond > kRectangle)
       adding.say("A garden is a rectangle: " + fixed(100 * box.beyond, 0) + " % of this one lies outside of the corners.");
   }

@@ -24,14 +24,17 @@ struct SunAddition {
   std::optional<double> latitude, longitude;  ///< [degree]; nothing: where the scene lies
   std::string date;                           ///< such as 2026-03-21; empty: stays as it is
   std::optional<double> utc_offset;           ///< [h]; nothing: by the longitude
+  bool is_given() const { return latitude || longitude || !date.empty() || utc_offset; }
 };
 /// A garden whose sun is protected.
 struct GardenAddition {
   std::string id;                    ///< of a node that is a garden or becomes one; empty: a new node
   std::vector<std::string> corners;  ///< each "X,Y" [m]; three or more
   std::optional<double> hours;       ///< of sun a day
+  std::optional<double> share;       ///< of its area that has them; of a new garden a half (BRE report 209)
   bool is_open = false;              ///< boundaries leave its ground out: open space that nobody builds on
-  SunAddition sun;                   ///< used where the scene has no sun study
+  std::string use = "garden";        ///< of that open space
+  SunAddition sun;                   ///< used where something of it is given, or the scene has no sun study
 };
 
 struct Addition {

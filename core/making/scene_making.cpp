@@ -37,6 +37,7 @@ class Maker {
     parts.is_standing = o_.form == "standing";
     parts.programme = *programme;
     parts.seed = o_.seed;
+    parts.open_places = lay_open_places(parts.plan, parts.holes, parts.programme.rows, made_.notes);
     made_.plan_area = takes_hull ? hull.area : made_.plan->area;
     for (const NewVolume& volume : volumes_of(parts.programme)) made_.demand += volume.demand;
     const auto command = new_scene_command(parts);
@@ -112,6 +113,10 @@ class Maker {
     if (!text) return std::nullopt;
     importing::ProgrammeOptions options;
     options.storey_height = o_.storey_height;
+    options.is_open_space = [](const std::string& use) {
+      const UseRates* rates = use_rates(use);
+      return rates != nullptr && rates->is_open;
+    };
     for (const std::string& column : o_.columns) {
       const std::size_t equals = column.find('=');
       if (equals == std::string::npos || equals == 0) {

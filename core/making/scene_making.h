@@ -41,7 +41,7 @@ struct MadeScene {
   std::vector<std::pair<std::string, Error>> errors;    ///< each with the file that it is in; empty: in the options
 
   /// Demanded volume as a share of the boundary's.
-  double fill() const { return demand / (plan_area * parts.height); }
+  double fill() const { return demand / ((plan_area - parts.open_area()) * parts.height); }
 };
 MadeScene make_scene(const NewOptions& options, const Registry& registry);
 

@@ -7,8 +7,8 @@
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/geometry/domain_table.h"
-#include "core/import/box_grid.h"
 #include "core/import/plan_cover.h"
+#include "core/making/named_list.h"
 #include "core/making/site_grounds.h"
 
 namespace bl::making {
@@ -23,28 +23,6 @@ constexpr double kOwnShare = 0.5;  // [ratio]
 // An area of the map that covers more of a site is what the site lies in, not something in it.
 constexpr double kMostLeftOut = 0.9;  // [ratio]
 
-const Value& port_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type, const char* port) {
-  static const Value nothing;
-  const PortDefinition* found = type.find_port(port);
-  return found == nullptr ? nothing : set_value(scene, node, type, *found);
-}
-
-std::vector<Point3> points_in(const Value& value) {
-  const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value);
-  return points == nullptr ? std::vector<Point3>() : **points;
-}
-
-std::vector<geometry::NamedRing> rings_in(const Value& value) {
-  const auto* table = std::get_if<Shared<Table>>(&value);
-  return table == nullptr ? std::vector<geometry::NamedRing>() : geometry::read_rings(**table);
-}
-
-importing::PlanShape shape_of(const std::vector<geometry::Ring>& rings) {
-  importing::PlanShape shape;
-  for (const geometry::Ring& ring : rings) shape.push_back(&ring);
-  return shape;
-}
-
 importing::PlanShape shape_of(const importing::ContextBuilding& building) {
   importing::PlanShape shape{&building.outer};
   for (const geometry::Ring& hole : building.holes) shape.push_back(&hole);
@@ -57,60 +35,31 @@ double footprint_of(const importing::ContextBuilding& building) {
   return area;
 }
 
-std::string share_text(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
+// Names of exclusions: kind and element, the source, and the number of each part where there are several.
+constexpr const char *kOf = " of ", *kPart = " part ";
 
-double tidy_length(double number) { return std::round(number * 1e4) / 1e4 + 0.0; }
+// Is it the name of that exclusion, or of a part of it?
+bool is_named(const std::string& name, const std::string& exclusion) {
+  if (!name.starts_with(exclusion)) return false;
+  const std::string rest = name.substr(exclusion.size());
+  return rest.empty() ||
+         (rest.starts_with(kPart) && rest.find_first_not_of("0123456789", std::string(kPart).size()) == std::string::npos);
+}
+
+std::string share_text(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
 
 }  // namespace
 
 SiteBuildings::SiteBuildings(const Scene& scene, const Registry& registry, InsideChoice choice, AskToClear ask)
     : choice_(choice), ask_(std::move(ask)) {
-  const TypificationDefinition* type = registry.typification("boundary");
-  const PortDefinition* table = type == nullptr ? nullptr : type->find_port("exclusions");
-  if (table == nullptr) return;
-  for (const auto& [id, node] : scene.nodes) {
-    if (!node.types.contains("boundary")) continue;
-    const auto value = [&, &record = node](const char* port) -> const Value& { return port_value(scene, record, *type, port); };
-    const std::string form = std::get<std::string>(value("form"));
-    Site site;
-    site.id = id;
-    site.rows = *std::get<Shared<Table>>(value("exclusions"));
-    site.rows.columns.clear();
-    for (const ColumnDefinition& column : table->columns) site.rows.columns.push_back(column.id);
-    site.rows_before = site.rows;
-    std::vector<Point3> corners = points_in(value(form == "plan" ? "plan" : form == "hull" ? "points" : "vertices"));
-    if (corners.size() < 3) continue;
-    if (form == "plan") {
-      std::vector<geometry::Ring> rings{corners};
-      for (geometry::NamedRing& hole : rings_in(value("holes"))) rings.push_back(std::move(hole.corners));
-      site.grounds.push_back(std::move(rings));
-      site.bottom = as_number(value("bottom"));
-      site.top = site.bottom + as_number(value("height"));
-      for (geometry::NamedRing& step : rings_in(value("steps"))) {
-        site.top = std::max(site.top, step.top);
-        site.grounds.push_back({std::move(step.corners)});
-      }
-    } else {
-      // Of a hull or a mesh all that lies under it: its corners' hull in plan.
-      site.bottom = site.top = corners.front().z;
-      for (const Point3& corner : corners) site.bottom = std::min(site.bottom, corner.z), site.top = std::max(site.top, corner.z);
-      site.grounds.push_back({geometry::hull_of_plan(corners)});
-    }
-    std::erase_if(site.grounds, [](const std::vector<geometry::Ring>& rings) { return rings.front().size() < 3; });
-    sites_.push_back(std::move(site));
-  }
+  for (Site& site : sites_of(scene, registry)) static_cast<Site&>(sites_.emplace_back()) = std::move(site);
 }
 
 // What of a building lies inside of a site [m²], where it stands in its heights at all.
 double SiteBuildings::inside(const Site& site, const importing::ContextBuilding& building) const {
   if (building.base >= site.top || building.base + building.height <= site.bottom) return 0;
-  const importing::PlanBox box = importing::plan_box(building.outer);
   double area = 0;
-  for (const std::vector<geometry::Ring>& ground : site.grounds) {
-    const importing::PlanBox other = importing::plan_box(ground.front());
-    if (box.west >= other.east || box.east <= other.west || box.south >= other.north || box.north <= other.south) continue;
-    area = std::max(area, importing::common_area(shape_of(building), shape_of(ground)));
-  }
+  for (const std::vector<geometry::Ring>& ground : site.grounds) area = std::max(area, area_on(ground, shape_of(building)));
   return area;
 }
 
@@ -166,106 +115,131 @@ bool SiteBuildings::is_cleared(std::size_t building) const {
          std::any_of(stays->second.begin(), stays->second.end(), [](const Stay& stay) { return stay.is_cleared; });
 }
 
-// The parts of the ground that lie in the site replace those of the same name that were left out before.
-bool SiteBuildings::leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings) {
-  std::vector<const geometry::Ring*> inside;
+// What of the rings lies in the site; nothing where that is nearly all of it.
+std::vector<Exclusion> SiteBuildings::left_out(const Site& site, const std::string& name, const std::string& use,
+                                               const std::vector<geometry::Ring>& rings) {
+  std::vector<Exclusion> inside;
   double area = 0, whole = 0;
-  for (const std::vector<geometry::Ring>& ground : site.grounds) {
-    whole += std::abs(geometry::signed_area(ground.front()));
-    for (const geometry::Ring& ring : rings) {
-      const importing::PlanBox box = importing::plan_box(ring), other = importing::plan_box(ground.front());
-      if (box.west >= other.east || box.east <= other.west || box.south >= other.north || box.north <= other.south) continue;
-      const double common = importing::common_area({&ring}, shape_of(ground));
+  for (const std::vector<geometry::Ring>& ground : site.grounds) whole += std::abs(geometry::signed_area(ground.front()));
+  for (const geometry::Ring& ring : rings) {
+    bool is_inside = false;
+    for (const std::vector<geometry::Ring>& ground : site.grounds) {
+      const double common = area_on(ground, {&ring});
       area += common;
-      if (common > kInexactArea && std::find(inside.begin(), inside.end(), &ring) == inside.end()) inside.push_back(&ring);
+      is_inside = is_inside || common > kInexactArea;
     }
+    if (is_inside) inside.push_back({name, use, ring, site.bottom, site.top});
   }
-  if (inside.empty()) return false;
-  if (area > kMostLeftOut * whole) {
-    ground_notes_.push_back("`" + name + "` covers " + share_text(area / whole) + " of the site `" + site.id +
-                            "`, and the site keeps that ground: nothing would be left to build on.");
-    return false;
-  }
-  const std::size_t column = site.rows.column("name");
-  std::erase_if(site.rows.rows, [&](const TableRow& row) {
-    const std::string& other = std::get<std::string>(row[column]);
-    return other == name || other.starts_with(name + " part ");
-  });
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const std::string part = inside.size() == 1 ? name : name + " part " + std::to_string(i + 1);
-    for (const Point3& corner : *inside[i]) {
-      TableRow& row = site.rows.rows.emplace_back();
-      for (const std::string& id : site.rows.columns)
-        if (id == "name") row.emplace_back(part);
-        else
-          row.emplace_back(id == "x"     ? tidy_length(corner.x)
-                           : id == "y"   ? tidy_length(corner.y)
-                           : id == "top" ? tidy_length(site.top)
-                                         : tidy_length(site.bottom));
-    }
-  }
-  return true;
+  if (inside.empty() || area <= kMostLeftOut * whole) return inside;
+  ground_notes_.push_back("`" + name + "` covers " + share_text(area / whole) + " of the site `" + site.id +
+                          "`, and the site keeps that ground: nothing would be left to build on.");
+  return {};
 }
 
-void SiteBuildings::clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets) {
+// Its exclusions replace those of an import before; of a name that this import has had already they are further ones.
+void SiteBuildings::put(Judged& site, const Ground& ground, std::vector<Exclusion> exclusions, const GroundSource& from) {
+  const std::string name = ground.name + kOf + from.name;
+  std::size_t& number = site.brought[name];
+  const bool is_first = number == 0, is_alone = is_first && exclusions.size() == 1;
+  for (Exclusion& exclusion : exclusions) {
+    ++number;
+    exclusion.name = is_alone ? name : name + kPart + std::to_string(number);
+  }
+  if (!exclusions.empty()) ++site.grounds_left_out[ground.kind];
+  const auto is_old = [&](const std::string& other) {
+    return is_named(other, name) || (from.has_lasting_ids && other.starts_with(ground.name + kOf));
+  };
+  if (!is_first) return site.extend(is_old, exclusions);
+  if (site.replace(is_old, exclusions) && exclusions.empty()) ++site.grounds_given_back[ground.kind];
+}
+
+void SiteBuildings::clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets,
+                                  const GroundSource& from) {
   left_out_.clear();
-  if (kinds.empty()) return;
   if (sites_.empty()) {
-    ground_notes_.push_back("The scene has no site, so that nothing is kept clear: add one, and import again.");
+    if (!kinds.empty())
+      ground_notes_.push_back("The scene has no site, so that nothing is kept clear: add one, and import again.");
     return;
   }
-  for (Site& site : sites_) {
-    if (kinds.contains("streets"))
-      for (const importing::ContextStreet& street : context.streets)
-        if ((street.for_cars || takes_all_streets) && leave_out(site, "street " + street.id, street_ground(street)))
-          ++site.grounds_left_out["streets"];
+  sources_.insert(from.name);
+  for (Judged& site : sites_) {
+    std::set<std::string> had;
+    for (std::size_t row = 0; row < site.rows.rows.size(); ++row) {
+      const std::string& name = site.rows.text(row, "name");
+      had.insert(name);
+      is_again_ = is_again_ || name.find(kOf + from.name) != std::string::npos;
+    }
+    // An import before has left it out, or an import of another source the same element.
+    const auto is_known = [&](const std::string& ground) {
+      const std::string name = ground + kOf + from.name, prefix = from.has_lasting_ids ? ground + kOf : name;
+      for (auto other = had.lower_bound(prefix); other != had.end() && other->starts_with(prefix); ++other)
+        if (from.has_lasting_ids || is_named(*other, name)) return true;
+      return false;
+    };
+    // What is wanted now, and what is known: that may have moved.
+    const auto take = [&](const Ground& ground, const std::string& use, const auto& rings) {
+      site.brought.try_emplace(ground.name + kOf + from.name, 0);
+      const bool was_left_out = is_known(ground.name);
+      if (!was_left_out && !kinds.contains(ground.kind)) return false;
+      std::vector<Exclusion> exclusions = left_out(site, ground.name, use, rings());
+      const bool is_left_out = !exclusions.empty();
+      if (is_left_out || was_left_out) put(site, ground, std::move(exclusions), from);
+      return is_left_out;
+    };
+    for (const importing::ContextStreet& street : context.streets)
+      if (street.for_cars || takes_all_streets)
+        (void)take({"streets", "street " + street.id}, "", [&] { return street_ground(street); });
     for (const importing::ContextArea& area : context.areas) {
       const std::string kind(ground_kind(area.use));
-      if (area.is_plot || !kinds.contains(kind) || !leave_out(site, kind + " " + area.id, {area.outer})) continue;
-      ++site.grounds_left_out[kind];
-      left_out_[area.id] = site.id;
+      if (area.is_plot || kind.empty()) continue;
+      if (take({kind, kind + " " + area.id}, open_use_of(area.use), [&] { return std::vector<geometry::Ring>{area.outer}; }))
+        left_out_[{area.row, area.id}] = site.id;
     }
   }
 }
 
 std::string SiteBuildings::site_without(const importing::ContextArea& area) const {
-  const auto site = left_out_.find(area.id);
+  const auto site = left_out_.find({area.row, area.id});
   return site == left_out_.end() ? "" : site->second;
 }
 
 bool SiteBuildings::has_cleared() const {
-  return std::any_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.cleared > 0; });
+  return std::any_of(sites_.begin(), sites_.end(), [](const Judged& site) { return site.cleared > 0; });
 }
 
 void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
                          importing::ImportReport& report) {
-  const auto stays = stays_.find(building);
-  if (stays == stays_.end()) return;
-  for (const Stay& stay : stays->second) {
-    Site& site = sites_[stay.site];
+  const auto found = stays_.find(building);
+  const std::vector<Stay> stays = found == stays_.end() ? std::vector<Stay>() : found->second;
+  for (std::size_t s = 0; s < sites_.size(); ++s) {
+    Judged& site = sites_[s];
+    const auto stay = std::find_if(stays.begin(), stays.end(), [s](const Stay& one) { return one.site == s; });
+    if (stay == stays.end()) {
+      if (is_changed && site.replace(node)) site.left.push_back(node);
+      continue;
+    }
     if (made.row != importing::kNoRow)
-      report.remark(made.row, share_text(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
+      report.remark(made.row, share_text(stay->share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
     // Only now: another site may have cleared what this one would keep.
-    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
-    const std::size_t before = site.rows.row_of("name", node);
-    if (!is_changed && before < site.rows.rows.size()) continue;
-    if (before < site.rows.rows.size()) {
-      const std::size_t name = site.rows.column("name");
-      std::erase_if(site.rows.rows, [&](const TableRow& row) { return std::get<std::string>(row[name]) == node; });
-    }
+    (stay->is_own ? site.kept : site.reaching).insert(stay->whole);
+    if (!is_changed && site.rows.row_of("name", node) < site.rows.rows.size()) continue;
     // From the underside of the site: nothing is built below a building that stays.
-    const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
-    for (const Point3& corner : made.outer) {
-      TableRow& row = site.rows.rows.emplace_back();
-      for (const std::string& column : site.rows.columns)
-        if (column == "name") row.emplace_back(node);
-        else
-          row.emplace_back(column == "x"     ? tidy_length(corner.x)
-                           : column == "y"   ? tidy_length(corner.y)
-                           : column == "top" ? top
-                                             : bottom);
-    }
+    site.replace(node, {{node, "", made.outer, std::min(made.base, site.bottom), made.base + made.height}});
   }
+}
+
+void SiteBuildings::remove(std::size_t building, const std::string& node) {
+  for (Judged& site : sites_) site.replace(node);
+  for (const Stay& stay : stays_.at(building))
+    if (stay.is_cleared) sites_[stay.site].removed.push_back(node);
+}
+
+void SiteBuildings::spare(std::size_t building, const std::string& node) {
+  for (const Stay& stay : stays_.at(building))
+    if (stay.is_cleared) {
+      sites_[stay.site].spared.push_back(node);
+      sites_[stay.site].spared_wholes.insert(stay.whole);
+    }
 }
 
 std::vector<std::pair<std::string, Table>> SiteBuildings::exclusions() const {
@@ -275,22 +249,60 @@ std::vector<std::pair<std::string, Table>> SiteBuildings::exclusions() const {
   return changed;
 }
 
+// How many of each kind: "2 pieces of street, 1 area of green".
+std::string SiteBuildings::grounds_text(const std::map<std::string, std::size_t>& grounds) {
+  std::string text;
+  for (const auto& [kind, number] : grounds)
+    text += (text.empty() ? "" : ", ") +
+            (kind == "streets" ? how_many(number, "piece") + " of street" : how_many(number, "area") + " of " + kind);
+  return text;
+}
+
+void SiteBuildings::note_grounds(const Judged& site, std::vector<std::string>& notes) const {
+  if (!site.grounds_left_out.empty())
+    notes.push_back("The site `" + site.id + "` leaves out the ground of " + grounds_text(site.grounds_left_out) +
+                    " (streets: in the width that the file gives, else by their lanes with a path on each side).");
+  if (!site.grounds_given_back.empty())
+    notes.push_back("The site `" + site.id + "` leaves out the ground of " + grounds_text(site.grounds_given_back) +
+                    " no longer: it does not reach into the site any more.");
+  std::vector<std::string> gone;
+  for (const geometry::NamedRing& ring : geometry::read_rings(site.rows)) {
+    std::string name = ring.name;
+    if (const std::size_t part = name.rfind(kPart); part != std::string::npos && is_named(name, name.substr(0, part)))
+      name.resize(part);
+    const bool is_ours =
+        std::any_of(sources_.begin(), sources_.end(), [&](const std::string& source) { return name.ends_with(kOf + source); });
+    if (is_ours && !site.brought.contains(name) && std::find(gone.begin(), gone.end(), name) == gone.end()) gone.push_back(name);
+  }
+  if (!gone.empty())
+    notes.push_back("The site `" + site.id +
+                    "` still leaves out what this import does not bring any more (it left the file, or " +
+                    "the options leave it out): " + named_list(gone) + ". Where that ground is free, remove its rows from the " +
+                    "exclusions of the site.");
+}
+
+void SiteBuildings::note_cleared(const Judged& site, std::vector<std::string>& notes) const {
+  const std::string where = " inside the site `" + site.id + "`";
+  if (const std::size_t cleared = site.cleared - site.spared_wholes.size(); cleared > 0)
+    notes.push_back(how_many(cleared, "building") + by_number(cleared, " that stands", " that stand") + where +
+                    by_number(cleared, " was left out.", " were left out.") +
+                    (site.removed.empty() ? ""
+                                          : " Removed, with the ground that the site left out for " +
+                                                std::string(by_number(site.removed.size(), "it", "them")) + ": " +
+                                                named_list(site.removed) + "."));
+  if (const std::size_t spared = site.spared.size(); spared > 0)
+    notes.push_back(named_list(site.spared) + by_number(spared, " stands", " stand") + where + " and" +
+                    by_number(spared, " stays", " stay") + ", because people have changed " + by_number(spared, "it", "them") +
+                    " since the import: remove " + by_number(spared, "the node", "the nodes") + " by hand to clear the site.");
+}
+
 std::vector<std::string> SiteBuildings::notes() const {
   std::vector<std::string> notes = ground_notes_;
-  for (const Site& site : sites_) {
-    std::string grounds;
-    for (const auto& [kind, number] : site.grounds_left_out)
-      grounds += (grounds.empty() ? "" : ", ") +
-                 (kind == "streets" ? how_many(number, "piece") + " of street" : how_many(number, "area") + " of " + kind);
-    if (!grounds.empty())
-      notes.push_back("The site `" + site.id + "` leaves out the ground of " + grounds +
-                      " (streets: in the width that the file gives, else by their lanes with a path on each side).");
-    const std::string where = " inside the site `" + site.id + "`";
-    if (site.cleared > 0)
-      notes.push_back(how_many(site.cleared, "building") + by_number(site.cleared, " that stands", " that stand") + where +
-                      by_number(site.cleared, " was left out.", " were left out."));
+  for (const Judged& site : sites_) {
+    note_grounds(site, notes);
+    note_cleared(site, notes);
     if (const std::size_t kept = site.kept.size(); kept > 0)
-      notes.push_back(how_many(kept, "building") + by_number(kept, " stands", " stand") + where +
+      notes.push_back(how_many(kept, "building") + by_number(kept, " stands", " stand") + " inside the site `" + site.id + "`" +
                       by_number(kept, " and stays", " and stay") + ": the site leaves out the ground under " +
                       by_number(kept, "it", "them") + ", courts included, up to " + by_number(kept, "its roof.", "their roofs.") +
                       (is_assumed_ ? " That is what --keep does; --clear leaves such buildings out of the scene." : ""));
@@ -298,6 +310,9 @@ std::vector<std::string> SiteBuildings::notes() const {
       notes.push_back(how_many(reaching, "building") + by_number(reaching, " reaches", " reach") + " into the site `" + site.id +
                       "` with less than half of " + by_number(reaching, "its", "their") + " ground and " +
                       by_number(reaching, "stays", "stay") + ": the site leaves that ground out.");
+    if (const std::size_t left = site.left.size(); left > 0)
+      notes.push_back(named_list(site.left) + by_number(left, " does", " do") + " not reach into the site `" + site.id +
+                      "` any more, and the site leaves nothing out for " + by_number(left, "it", "them") + ".");
   }
   return notes;
 }

@@ -11,6 +11,7 @@
 #include "core/define/registry.h"
 #include "core/graph/scene.h"
 #include "core/import/context.h"
+#include "core/making/site.h"
 
 namespace bl::making {
 
@@ -20,6 +21,12 @@ enum class InsideChoice { unsaid, keep, clear };
 
 /// Asked once where the choice was not given; true clears the buildings. Empty: nobody can be asked.
 using AskToClear = std::function<bool(std::size_t buildings, const std::string& site)>;
+
+/// Where streets and areas come from, by which an import again knows what it left out before.
+struct GroundSource {
+  std::string name;
+  bool has_lasting_ids = false;  ///< ids of elements hold beyond the source
+};
 
 /// The boundaries of a scene in plan, and the buildings of an import that meet them.
 /// A building counts as inside where more of its footprint lies in the site than drawings are inexact by. It is judged as a
@@ -33,16 +40,24 @@ class SiteBuildings {
   /// Is that building of the file left out?
   bool is_cleared(std::size_t building) const;
   /// Adds a detail to the row of a building that stays, and makes its site leave out its ground. `is_changed`: the node is new,
-  /// or another than before.
+  /// or another than before; sites that it does not meet any more leave nothing out for it.
   void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node, bool is_changed,
             importing::ImportReport& report);
+  /// A building that is cleared was a node of the scene, and is none any more: no site leaves its ground out.
+  void remove(std::size_t building, const std::string& node);
+  /// A building that is cleared is a node that people have changed, and stays.
+  void spare(std::size_t building, const std::string& node);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
 
-  /// Makes sites leave out the streets and areas of these kinds (`kClearGrounds`) that reach into them, up to their whole height.
-  void clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets);
+  /// Makes sites leave out the streets and areas of these kinds (`kClearGrounds`) that reach into them, up to their whole height,
+  /// and brings up to date what an import left out before.
+  void clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets,
+                     const GroundSource& from);
   /// The site that leaves out an area of the file; empty: none.
   std::string site_without(const importing::ContextArea& area) const;
 
+  /// Did an import leave out ground of one of these sources before?
+  bool is_again() const { return is_again_; }
   /// Was any building left out?
   bool has_cleared() const;
   /// The new values of the sites' exclusions, by node.
@@ -51,14 +66,16 @@ class SiteBuildings {
   std::vector<std::string> notes() const;
 
  private:
-  struct Site {
-    std::string id;
-    std::vector<std::vector<geometry::Ring>> grounds;  // each an outline with its holes
-    double bottom = 0, top = 0;
-    Table rows, rows_before;                              // its exclusions
-    std::map<std::string, std::size_t> grounds_left_out;  // by kind
-    std::set<std::size_t> kept, reaching;                 // whole buildings that stay, by their number in `judged_`
+  struct Judged : Site {
+    std::map<std::string, std::size_t> grounds_left_out, grounds_given_back;  // by kind
+    std::map<std::string, std::size_t> brought;           // grounds of the files, by name: how many exclusions each became
+    std::set<std::size_t> kept, reaching, spared_wholes;  // whole buildings that stay, by their number in `judged_`
     std::size_t cleared = 0;
+    std::vector<std::string> left, removed, spared;  // nodes that stand here no more; of those that are cleared
+  };
+  /// A street or an area of a file; its name without its source.
+  struct Ground {
+    std::string kind, name;
   };
   struct Stay {
     std::size_t site = 0;
@@ -69,16 +86,22 @@ class SiteBuildings {
   };
 
   double inside(const Site& site, const importing::ContextBuilding& building) const;
-  bool leave_out(Site& site, const std::string& name, const std::vector<geometry::Ring>& rings);
+  std::vector<Exclusion> left_out(const Site& site, const std::string& name, const std::string& use,
+                                  const std::vector<geometry::Ring>& rings);
+  void put(Judged& site, const Ground& ground, std::vector<Exclusion> exclusions, const GroundSource& from);
+  static std::string grounds_text(const std::map<std::string, std::size_t>& grounds);
+  void note_cleared(const Judged& site, std::vector<std::string>& notes) const;
+  void note_grounds(const Judged& site, std::vector<std::string>& notes) const;
   bool clears(std::size_t buildings, const std::string& site);
 
-  std::vector<Site> sites_;
+  std::vector<Judged> sites_;
   std::size_t judged_ = 0;  // whole buildings of all files
   InsideChoice choice_;
-  bool is_assumed_ = false;
+  bool is_assumed_ = false, is_again_ = false;
   AskToClear ask_;
-  std::map<std::size_t, std::vector<Stay>> stays_;  // by building of the file
-  std::map<std::string, std::string> left_out_;     // areas of the file, and the site without them
+  std::map<std::size_t, std::vector<Stay>> stays_;                       // by building of the file
+  std::map<std::pair<std::size_t, std::string>, std::string> left_out_;  // areas of the file by row and id: the site without them
+  std::set<std::string> sources_;                                        // of all files
   std::vector<std::string> ground_notes_;
 };
 

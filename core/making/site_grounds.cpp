@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "core/making/use_rates.h"
 
 namespace bl::making {
 
@@ -65,6 +66,12 @@ std::string_view ground_kind(std::string_view use) {
   return is_one(kWater) || use.starts_with("water") || use.starts_with("WaterBody") ? "water"
          : is_one(kGreen) || use.starts_with("PlantCover")                          ? "green"
                                                                                     : "";
+}
+
+std::string open_use_of(std::string_view use) {
+  const std::string word = lower_case(std::string(use.substr(use.find('=') == std::string_view::npos ? 0 : use.find('=') + 1)));
+  const UseRates* rates = use_rates(word);
+  return rates != nullptr && rates->is_open ? word : "";
 }
 
 double street_width(const importing::ContextStreet& street) {

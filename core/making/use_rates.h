@@ -16,13 +16,14 @@ struct UseRates {
   double least_sun = 0;                       ///< [s] a day
   double most_noise = 0;                      ///< [dB(A)] outside, by day
   std::string_view source;
+  bool is_open = false;  ///< open space, which has neither volumes nor floor area
 };
 
 /// A sentence about the uses of volumes that no node of the scene is the use of; empty where there are none, and in scenes
 /// without any use and programme, where nobody looks for figures.
 std::string tell_uses_without_figures(const Scene& scene, const Registry& registry);
 
-/// The figures of a use by its name, in small letters; nothing where there are none.
+/// The figures of a use by its name, in one or several; nothing where there are none.
 const UseRates* use_rates(std::string_view use);
 
 }  // namespace bl::making

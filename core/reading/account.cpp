@@ -133,10 +133,12 @@ void Account::add(const Account& other) {
 Brief brief_of(const State& state) {
   Brief brief;
   std::map<std::string, std::size_t> index;
+  const std::set<std::string> open = open_uses(state);
   for (const auto& [node, programme] : reading::rows<reading::ProgrammeFigures>(state)) {
     const Table& table = *programme.rows;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       if (table.text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
+      if (open.contains(table.text(r, "use"))) continue;
       const auto [found, is_new] = index.emplace(table.text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
@@ -237,6 +239,8 @@ void add_up(const State& state, const Brief& brief, Accounts& accounts) {
     accounts.all.brief_area += use.brief_area;
     note_worst(accounts, use.short_share(), [&] { return use.use.empty() ? "what has no use" : use.use; });
   }
+  accounts.open = open_accounts(state);
+  for (const OpenAccount& open : accounts.open) note_worst(accounts, open.missing_share(), [&] { return open.use; });
   accounts.all.use = "all";
   accounts.all.is_by_area = accounts.all.is_in_programme;
 }
@@ -296,7 +300,12 @@ std::string why_some_are_short(const State& state, const Accounts& accounts, con
 
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use) {
   if (!use.is_short(accounts.tolerance)) return why_some_are_short(state, accounts, use);
-  if (use.volumes == 0) return "no volume has this use: add one, or give one that use";
+  if (use.volumes == 0) {
+    const bool is_kept_open = std::ranges::any_of(accounts.open, [&](const OpenAccount& open) { return open.use == use.use; });
+    return "no volume has this use: add one, or give one that use" +
+           std::string(is_kept_open ? "; ground is kept open for it, which counts once its node of the type `use` has `is_open`"
+                                    : "");
+  }
   std::vector<std::string> limiters;
   double unasked = use.asked;
   for (const VolumeAccount& volume : accounts.volumes) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "core/reading/open_space.h"
 #include "core/reading/views/volume.h"
 
 namespace bl::reading {
@@ -68,6 +69,7 @@ struct Accounts {
   std::vector<VolumeAccount> volumes;  ///< ascending node
   std::vector<UseAccount> uses;        ///< in the order of programmes, then by name
   UseAccount all;
+  std::vector<OpenAccount> open;  ///< uses that are open space; no part of `uses` and `all`
 
   /// The largest missing share of a volume or a use, and its name: "housing", "volume Café".
   double worst_short = 0;
@@ -78,7 +80,7 @@ struct Accounts {
   bool operator==(const Accounts&) const = default;
 };
 
-/// What programmes ask for a use: all of its rows and items together.
+/// What programmes ask for a use that is not open space: all of its rows and items together.
 struct BriefRow {
   double volume = 0, area = 0;  ///< [m³], [m²]
   bool operator==(const BriefRow&) const = default;

@@ -278,6 +278,10 @@ void read_problems(const State& state, ReportModel& model) {
     ProblemRow row{"node " + plan.nodes[plan.node_index(first)].name, problem.sentence(), first, "", false, true};
     if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
   }
+  if (state.tick == 0) return;
+  for (const OpenAccount& open : open_accounts(state))
+    if (std::string text = shortage_of(open, account_tolerance(state)); !text.empty())
+      model.problems.push_back({"open space " + open.use, std::move(text), "", "", true});
 }
 
 }  // namespace bl::reading

@@ -24,7 +24,7 @@ bool FiguresMemo::follow(const State& state, const Brief& brief) {
     static_cast<VolumeAccount&>(model_.volumes[row]) = account;
     model_.accounts.volumes[row] = std::move(account);
   }
-  if (changed_->empty() && brief == brief_) return true;
+  if (changed_->empty() && brief == brief_ && open_accounts(state) == model_.accounts.open) return true;
   add_up(state, brief, model_.accounts);
   add_totals(state, model_);
   return true;

@@ -2,23 +2,23 @@
 #include "core/reading/plot_problems.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/demand/demand_limit.h"
 #include "core/geometry/plan_ring.h"
 #include "core/geometry/plates_table.h"
+#include "core/geometry/plot_measure.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/plot.h"
-#include "core/reading/views/volume.h"
 
 namespace bl::reading {
 
 namespace {
 
 constexpr std::size_t kNamedBreakers = 4;
+constexpr double kSetbackRounding = 1e-6;  // [m] of set-backs that are kept exactly, as the plot reckons
 
 /// A volume with the part that it has in what is found.
 struct Breaker {
@@ -33,31 +33,27 @@ struct VolumeThere {
   bool is_standing = false;
 };
 
-// As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint.
-void measure_clearance(const State& state, std::uint32_t node, const PlotFigures& figures, VolumeThere& volume) {
+// As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint. Nothing of a volume that
+// it does not count.
+std::optional<VolumeThere> volume_on(const State& state, std::uint32_t node, const PlotFigures& figures) {
   constexpr double kChords = 1e-3;  // [m]
-  if (const auto footprint = row_of<FootprintFigures>(state, node)) {
-    volume.is_standing = true;
-    const geometry::StandingBody body = geometry::read_body(footprint->plates, volume.figures.position);
-    volume.clearance = geometry::clearance_of(body, figures.polygon, kChords);
-    return;
-  }
-  const Point3 flat{volume.figures.centroid.x, volume.figures.centroid.y, 0};
-  const Point3 side = geometry::nearest_on_ring(figures.polygon, flat);
-  volume.clearance = distance({side.x, side.y, 0}, flat) - std::sqrt(volume.figures.footprint / std::numbers::pi);
+  auto volume = row_of<PlotVolume>(state, node);
+  if (!volume || !(volume->volume > 0)) return std::nullopt;
+  const auto standing = row_of<PlotStanding>(state, node);
+  const bool is_standing = standing && !standing->plates.rows.empty();
+  if (!geometry::ring_contains(figures.polygon, is_standing ? standing->stands_at : volume->centroid)) return std::nullopt;
+  const double clearance = is_standing ? geometry::clearance_of(geometry::read_body(standing->plates), figures.polygon, kChords)
+                                       : geometry::clearance_of_disc(figures.polygon, volume->centroid, volume->footprint);
+  return VolumeThere{state.plan->nodes[node].id, std::move(*volume), clearance, is_standing};
 }
 
-// The volumes that the plot counts: those of its selection whose centre of gravity lies within it.
+// The volumes of its selection that the plot counts.
 std::vector<VolumeThere> volumes_on(const State& state, std::uint32_t plot, const PlotFigures& figures) {
   std::vector<VolumeThere> volumes;
   for (const SetPlan& set : state.plan->sets) {
     if (set.node != plot || state.plan->nodes[plot].types[set.type].definition->id != type_of<PlotFigures>()) continue;
-    for (const std::uint32_t member : set.members) {
-      auto volume = row_of<PlotVolume>(state, member);
-      if (!volume || !(volume->volume > 0) || !geometry::ring_contains(figures.polygon, volume->centroid)) continue;
-      measure_clearance(state, member, figures,
-                        volumes.emplace_back(VolumeThere{state.plan->nodes[member].id, std::move(*volume)}));
-    }
+    for (const std::uint32_t member : set.members)
+      if (auto volume = volume_on(state, member, figures)) volumes.push_back(std::move(*volume));
     break;  // the other sets of a plot hold the same volumes
   }
   return volumes;
@@ -148,8 +144,7 @@ class Rules {
     at_most("fsi_max", "FSI ", figures_.fsi, figures_.fsi_max, 2, "",
             breakers(volumes_, [](const VolumeThere& v) { return v.figures.floor_area; }), Unit::square_metre);
     at_most("gsi_max", "GSI ", figures_.gsi, figures_.gsi_max, 2, "",
-            breakers(volumes_, [&](const VolumeThere& v) { return is_on_ground(v.figures) ? v.figures.footprint : 0; }),
-            Unit::square_metre);
+            breakers(volumes_, [&](const VolumeThere& v) { return built_ground(v); }), Unit::square_metre);
     at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
             breakers(volumes_,
                      [&](const VolumeThere& v) {
@@ -162,16 +157,22 @@ class Rules {
         found < 0 ? "built " + fixed(-found, 2) + " m beyond the side of the plot, where a set-back of " +
                         fixed(figures_.setback, 2) + " m is asked for"
                   : "a set-back of " + demand::found_of_allowed(found, figures_.setback, 2, " m") + " asked for",
-        found, figures_.setback, breakers(volumes_, [&](const VolumeThere& v) { return figures_.setback - v.clearance; }),
-        Unit::metre);
+        found, figures_.setback, breakers(volumes_, [this](const VolumeThere& v) { return lack_of_setback(v); }), Unit::metre);
     const bool has_balls = std::any_of(volumes_.begin(), volumes_.end(),
-                                       [this](const VolumeThere& v) { return !v.is_standing && v.clearance < figures_.setback; });
+                                       [this](const VolumeThere& v) { return !v.is_standing && lack_of_setback(v) > 0; });
     if (has_balls) all_.back().text += "; balls keep no set-back by a link: move them inwards, or lower `setback`";
   }
 
  private:
   double top(const PlotVolume& volume) const { return volume.bottom + volume.height - figures_.ground; }
-  bool is_on_ground(const PlotVolume& volume) const { return volume.bottom < figures_.ground + volume.storey_height; }
+  double lack_of_setback(const VolumeThere& volume) const {
+    const double lack = figures_.setback - volume.clearance;
+    return lack < kSetbackRounding ? 0 : lack;
+  }
+  double built_ground(const VolumeThere& volume) const {
+    const PlotVolume& v = volume.figures;
+    return v.footprint * geometry::built_share(volume.is_standing, v.stands_on, v.bottom, v.storey_height, figures_.ground);
+  }
 
   void at_most(const char* port, const std::string& what, double found, double allowed, int decimals, const char* unit,
                const std::vector<Breaker>& by, Unit amounts) {

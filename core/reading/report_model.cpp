@@ -34,8 +34,7 @@ VolumeRow read_volume(const State& state, const VolumeAccount& account, bool wit
   row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
   if (row.mesh) row.exact = exact_shape(state, account.node, account.figures);
-  if (const auto footprint = row_of<FootprintFigures>(state, account.node))
-    row.body = geometry::read_body(footprint->plates, account.figures.position);
+  if (const auto footprint = row_of<FootprintFigures>(state, account.node)) row.body = geometry::read_body(footprint->plates);
   row.group = group_of(*state.plan, account.node);
   return row;
 }
@@ -45,6 +44,7 @@ SiteRow site_of(const State& state, const reading::Row<reading::BoundaryFigures>
   site.name = state.plan->nodes[row.node].name;
   site.volume = row.figures.volume;
   site.ground_area = row.figures.ground_area;
+  site.open_area = row.figures.open_area;
   site.shape = row.figures.shape;
   if (!site.shape || site.shape->triangles.empty()) {
     site.shape = nullptr;
@@ -101,7 +101,7 @@ void add_totals(const State& state, ReportModel& model) {
   model.shapes = 0;
   model.worst = nullptr;
   for (const SiteRow& site : model.sites) {
-    model.plan_area += site.ground_area;
+    model.plan_area += site.ground_area + site.open_area;
     model.site_volume += site.volume;
   }
   for (const VolumeRow& volume : model.volumes) {

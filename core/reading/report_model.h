@@ -31,6 +31,7 @@ struct VolumeRow : VolumeAccount {
 struct SiteRow {
   std::string name;
   double volume = 0, ground_area = 0;  ///< [m³], [m²]
+  double open_area = 0;                ///< kept open beside it [m²]
   double bottom = 0;                   ///< [m]
   MeshPointer shape;
   std::vector<geometry::Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
@@ -89,7 +90,7 @@ struct ReportModel {
   std::size_t minor_conflicts = 0;     ///< too small to be listed
   std::vector<PullerRow> pullers;      ///< the participants of the conflicts, the largest share first
   std::vector<ProblemRow> problems;
-  double plan_area = 0, site_volume = 0;
+  double plan_area = 0, site_volume = 0;  ///< of boundaries, with what they keep open [m²], without it [m³]
   double plots_area = 0;  ///< of all plots, which may be more than the ground within boundaries; 0 where there are none [m²]
   std::size_t shapes = 0;
   std::string mesh_note;             ///< the fineness of the meshes and its meaning; empty where there are none

@@ -73,6 +73,7 @@ void add_sun_field(const std::string& name, const reading::ReceiverFigures& read
   field.is_upright = read.upright;
   field.mean = read.sun_mean;
   field.possible = read.sun_possible;
+  field.required = read.required_sun;
   field.share_met = read.share_met;
   const auto columns = static_cast<std::size_t>(std::max<std::int64_t>(1, read.columns));
   field.half_across = half_of_square(map, 1, columns > 1, read.half_across);

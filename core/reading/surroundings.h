@@ -31,7 +31,8 @@ struct SunField {
   std::vector<std::pair<Point3, double>> points;  ///< sun per day [s]
   Vector3 half_across, half_up;                   ///< of one square
   bool is_upright = false;
-  double mean = 0, possible = 0, share_met = 0;
+  double mean = 0, possible = 0;       ///< per day [s]
+  double required = 0, share_met = 0;  ///< [s], and the share of the area that has it
 };
 
 struct DataField {

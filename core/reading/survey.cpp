@@ -24,6 +24,7 @@ void add_totals(const State& state, const ReportModel& model, Survey& survey) {
     survey.all.alive += use.alive;
     survey.uses.push_back(use);
   }
+  for (const OpenAccount& open : model.accounts.open) survey.open.push_back({open, why_short(open, model.accounts.tolerance)});
   survey.tolerance = model.accounts.tolerance;
   survey.worst_short = model.accounts.worst_short;
   survey.worst_short_of = model.accounts.worst;
@@ -129,6 +130,10 @@ Survey survey_of(const State& state) {
   for (Error& rule : rule_errors(state)) survey.problems.push_back(std::move(rule));
   for (const PlaceProblem& problem : place_problems(state))
     survey.problems.push_back({ErrorCode::infeasible, "nodes/" + problem.nodes.front(), problem.sentence()});
+  for (const OpenRow& open : survey.open)
+    if (!open.why_short.empty())
+      survey.problems.push_back(
+          {ErrorCode::infeasible, "open space " + open.account.use, shortage_of(open.account, survey.tolerance)});
   for (auto& solver : reading::rows<reading::SolverFigures>(state))
     survey.solvers.push_back({state.plan->nodes[solver.node].id, told_by(state, model, solver), std::move(solver.figures)});
   for (const VolumeRow& volume : survey.volumes)

@@ -20,6 +20,12 @@ struct UseRow {
   std::string why_short;
 };
 
+/// The same of open space.
+struct OpenRow {
+  OpenAccount account;
+  std::string why_short;
+};
+
 /// A proposal in a conflict: of a link, or of people, who have set or locked the value; then there is no link.
 struct Pull {
   std::string link;
@@ -48,6 +54,7 @@ struct Survey {
   std::vector<std::string> why_volumes_short;  ///< one for each of them; empty where it is not short
   std::vector<UseRow> uses;                    ///< ascending use
   UseRow all;
+  std::vector<OpenRow> open;         ///< uses that are open space, in the order of programmes
   std::vector<TensionRow> tensions;  ///< those first that are listed, the worst first, ties in ascending node and port
   std::vector<SolverRow> solvers;
   std::vector<Error> problems;     ///< errors of nodes and links, and broken rules, with their places

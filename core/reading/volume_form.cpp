@@ -140,7 +140,8 @@ void pile_up(FormedVolume& made, bool with_body) {
   Mesh mesh;
   for (const FormedStorey& storey : made.storeys) {
     made.floor_area += storey.area;
-    made.volume += storey.area * (storey.top - storey.bottom);
+    // Of their drawing: the floor area of the highest storey counts what is left above it, or is a share of its plate.
+    made.volume += geometry::area_of(storey.faces) * (storey.top - storey.bottom);
     for (std::size_t k = 0; with_body && k < storey.faces.size(); ++k)
       append(geometry::prism_mesh(storey.faces[k].outer, storey.faces[k].holes, storey.bottom, storey.top), mesh);
   }
@@ -154,9 +155,6 @@ FormedVolume as_slabs(const FormSource& source, bool with_body) {
   FormedVolume made;
   made.storeys = source.storeys;
   pile_up(made, with_body);
-  made.volume = 0;
-  // Of their drawing: the floor area of the highest storey counts what is left above it, or is a share of its plate.
-  for (const FormedStorey& storey : made.storeys) made.volume += geometry::area_of(storey.faces) * (storey.top - storey.bottom);
   return made;
 }
 

@@ -113,6 +113,8 @@ FigureTable sun_table() {
       "stood around.",
       {{"area", "Area"},
        {"required_sun", "Required"},
+       {"required_share", "On a share of", kAll, true},
+       {"sun_of_share", "That share has"},
        {"sun_min", "Least"},
        {"sun_mean", "Mean"},
        {"sun_max", "Most"},

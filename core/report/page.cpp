@@ -26,11 +26,15 @@ void write_keys(drawing::Markup& page, const reading::ReportModel& model) {
   const reading::UseAccount& all = model.accounts.all;
   page.open("dl", {{"class", "keys"}});
   key(page, "Plan area", has_site ? reading::quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
-      has_site ? "inside the boundary" : "no boundary");
+      has_site ? model.accounts.open.empty() ? "inside the boundary" : "inside the boundary, with open space" : "no boundary");
   key(page, "Floor area asked for", reading::quantity(all.asked_area, Unit::square_metre),
       all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
   key(page, "Floor area reached", reading::quantity(all.floor_area, Unit::square_metre),
       reading::share_of(all.floor_area, all.asked_area) + " of what is asked for");
+  if (const reading::OpenAccount open = reading::sum_of(model.accounts.open); !model.accounts.open.empty())
+    key(page, "Open space", reading::quantity(open.area, Unit::square_metre),
+        open.is_in_programme ? "of " + reading::quantity(open.asked, Unit::square_metre) + " asked for"
+                             : "kept open, without being asked for");
   // As in the table of plots, whose rules mean the whole plot, courts and gardens that nobody may build on included.
   const double land = model.plots_area > 0 ? model.plots_area : model.plan_area;
   key(page, "Floor space index", land > 0 ? reading::grouped(all.floor_area / land, 2) : "\xE2\x80\x93",

@@ -96,6 +96,31 @@ void use_row(drawing::Markup& page, const State& state, const reading::ReportMod
   page.element("td", why_short(state, model.accounts, use), {{"class", "reason"}}).close();
 }
 
+// Rows of the programme that ask for ground; nothing where there are none.
+void write_open_space(drawing::Markup& page, const reading::Accounts& accounts) {
+  if (accounts.open.empty()) return;
+  open_table(page, "Open space",
+             "Ground that nobody builds on, by use. It counts as open in the figures of plots, and is no floor area.");
+  page.open("thead").open("tr");
+  head(page, "Use", "", false);
+  head(page, "Asked for", "m\xC2\xB2");
+  head(page, "Open", "m\xC2\xB2");
+  head(page, "Difference");
+  head(page, "Short");
+  head(page, "Why", "", false);
+  page.close().close().open("tbody");
+  for (const reading::OpenAccount& open : accounts.open) {
+    const bool is_short = open.is_short(accounts.tolerance);
+    page.open("tr").element("th", open.use + (open.is_in_programme ? "" : " *"), {{"scope", "row"}});
+    number_cell(page, reading::readable(open.asked));
+    number_cell(page, reading::readable(open.area));
+    number_cell(page, reading::difference_of(open.area, open.asked));
+    number_cell(page, is_short ? reading::percent(open.missing_share()) : "\xE2\x80\x93", is_short ? "bad" : "");
+    page.element("td", why_short(open, accounts.tolerance), {{"class", "reason"}}).close();
+  }
+  page.close().close().close();
+}
+
 }  // namespace
 
 std::string standing_of(const reading::VolumeRow& volume, double tolerance) {
@@ -115,6 +140,7 @@ void write_programme(drawing::Markup& page, const reading::ReportModel& model, c
   page.element("h2", "Programme", {{"id", "programme"}});
   if (accounts.uses.empty()) {
     page.element("p", "The scene has no programme and no volumes.");
+    write_open_space(page, accounts);
     return;
   }
   const bool has_own = std::any_of(accounts.uses.begin(), accounts.uses.end(),
@@ -144,6 +170,7 @@ void write_programme(drawing::Markup& page, const reading::ReportModel& model, c
   met_cell(page, accounts.all);
   number_cell(page, short_text(accounts.all, accounts.tolerance));
   page.element("td", "").close().close().close().close();
+  write_open_space(page, accounts);
 }
 
 void write_volumes(drawing::Markup& page, const reading::ReportModel& model, const State& state,

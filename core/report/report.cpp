@@ -117,6 +117,22 @@ std::string uses_csv_of(const reading::ReportModel& model, const State& state) {
   return write_csv(header, rows);
 }
 
+report::CsvFile open_csv_of(const reading::ReportModel& model) {
+  const std::vector<std::string> header = {"use",
+                                           "in_programme",
+                                           "asked_area [m2]",
+                                           "open_area [m2]",
+                                           "drawn_area [m2]",
+                                           "short_of_area [m2]",
+                                           "short_of_area [%]",
+                                           "why_short"};
+  std::vector<std::vector<csv::CsvCell>> rows;
+  for (const reading::OpenAccount& open : model.accounts.open)
+    rows.push_back({open.use, open.is_in_programme ? "yes" : "no", open.asked, open.area, open.drawn, open.missing(),
+                    open.missing_share() * 100, reading::why_short(open, model.accounts.tolerance)});
+  return {"open_space.csv", write_csv(header, rows), !rows.empty()};
+}
+
 // One row for each conflict and each who pulls in it; who is empty where people have set or locked the value.
 std::string conflicts_csv_of(const reading::ReportModel& model, const State& state) {
   const std::vector<std::string> header = {"node", "name", "port", "tension", "unit", "severity [%]", "link", "kind", "says"};
@@ -180,6 +196,7 @@ Result<void> write_files(const std::string& directory, const ReportData& data) {
   std::vector<report::CsvFile> tables = report::figure_files(*data.state);
   tables.push_back({"volumes.csv", csv_of(model, *data.state), true});
   tables.push_back({"uses.csv", uses_csv_of(model, *data.state), !model.accounts.uses.empty()});
+  tables.push_back(open_csv_of(model));
   tables.push_back({"conflicts.csv", conflicts_csv_of(model, *data.state), !model.conflicts.empty()});
   tables.push_back(facades_csv_of(model, *data.state));
   for (const report::CsvFile& table : tables) {

@@ -18,6 +18,7 @@ std::vector<std::pair<std::string, std::string>> report_files() {
   std::vector<std::pair<std::string, std::string>> files = {
       {"volumes.csv", "number,id,name,use,"},
       {"uses.csv", "use,in_programme,volumes,"},
+      {"open_space.csv", "use,in_programme,asked_area"},
       {"conflicts.csv", "node,name,port,tension,"},
       {"facades.csv", "id,name,use,style,orientation,"},
       {"volumes.obj", "# BehaviourLinks: "},

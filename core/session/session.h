@@ -52,6 +52,10 @@ class Session {
   Ledger& ledger() { return ledger_; }
   const Scene& scene() const { return ledger_.scene(); }
   std::shared_ptr<const State> state() const { return simulation_.state(); }
+  /// The state as people read it, with what no file holds: results that nodes compute from their own settings, such as the
+  /// bodies of surroundings, and what links say of it. The next tick reads it, and is made for that; the session goes on from there.
+  /// A state without ticks stays as nobody has looked at it.
+  std::shared_ptr<const State> look();
   /// The state with which the next tick will begin, under the present scene; it is saved beside that scene.
   std::shared_ptr<const State> coming_state() const;
   const std::vector<LogEntry>& log() const { return ledger_.log(); }

@@ -123,7 +123,7 @@ Result<std::vector<SunRecord>> SunStudyCache::of(std::span<const SunCaster> cast
   for (std::size_t r = 0; r < cases.size(); ++r) {
     Entry kept = std::move(kept_.at(cases[r].name));
     kept.shapes = std::move(shapes[r]);
-    kept.record.judge(all[r].required);
+    kept.record.judge(all[r]);
     SunRecord& record = records.emplace_back(kept.record);
     record.hours.casters.assign(casters.size(), {});
     for (std::size_t c = 0; c < casters.size(); ++c)

@@ -2,6 +2,7 @@
 #include "core/sun/sun_study.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/base/mathematics.h"
 #include "core/base/stop.h"
@@ -19,21 +20,33 @@ SunGrid grid_of(const SunReceiver& receiver) {
 
 }  // namespace
 
-void SunRecord::judge(double required) {
+void SunRecord::judge(const SunReceiver& receiver) {
   const std::vector<double>& sun = hours.seconds;
-  least = *std::min_element(sun.begin(), sun.end());
-  most = *std::max_element(sun.begin(), sun.end());
-  mean = deficit = 0;
-  const double share = 1 / static_cast<double>(sun.size());
+  const auto points = static_cast<double>(sun.size());
+  std::vector<double> most_first = sun;
+  std::sort(most_first.begin(), most_first.end(), std::greater());
+  least = most_first.back();
+  most = most_first.front();
+  // Shares such as 0.3 of 10 points are whole numbers but for rounding.
+  const auto counted = static_cast<std::size_t>(std::clamp(std::ceil(receiver.required_share * points - 1e-9), 1.0, points));
+  of_share = most_first[counted - 1];
+  // Of points that have exactly as much, only so many count.
+  auto alike =
+      counted - static_cast<std::size_t>(std::lower_bound(most_first.begin(), most_first.end(), of_share, std::greater()) -
+                                         most_first.begin());
   // Sums of many stretches end in rounding: a microsecond is no shortage.
   constexpr double kNothing = 1e-6;
+  const double share = 1 / points, counted_share = 1 / static_cast<double>(counted);
+  mean = deficit = 0;
   std::size_t met = 0;
   for (const double seconds : sun) {
     mean += seconds * share;
-    if (seconds >= required - kNothing) ++met;
-    else deficit += (required - seconds) * share;
+    const bool counts = seconds > of_share || (seconds == of_share && alike > 0);
+    if (seconds == of_share && alike > 0) --alike;
+    if (seconds >= receiver.required - kNothing) ++met;
+    else if (counts) deficit += (receiver.required - seconds) * counted_share;
   }
-  share_met = static_cast<double>(met) / static_cast<double>(sun.size());
+  share_met = static_cast<double>(met) / points;
 }
 
 void level_axes(double width, double depth, double rotation, SunReceiver& receiver) {
@@ -72,7 +85,7 @@ Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, s
     record.hours = sun_hours(*scene, record.grid.points, moments, receiver.mask, pool);
     if (wish != nullptr && (*wish)())
       return Error{ErrorCode::cancelled, "", "the study was stopped: nobody wants its result any more"};
-    record.judge(receiver.required);
+    record.judge(receiver);
   }
   return records;
 }

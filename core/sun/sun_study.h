@@ -13,7 +13,8 @@ struct SunReceiver {
   Point3 centre;
   Vector3 half_across, half_up;    ///< to the middle of two sides; it looks along their cross product
   double spacing = 2;              ///< [m]
-  double required = 0;             ///< direct sun that each point should have [s per day]
+  double required = 0;             ///< direct sun that points should have [s per day]
+  double required_share = 1;       ///< of the points that should have it: those with the most sun
   std::vector<std::uint8_t> mask;  ///< which casters count; empty: all
 };
 /// Half axes of a level rectangle, turned counter-clockwise by `rotation` [degree].
@@ -27,9 +28,10 @@ struct SunRecord {
   SunHours hours;
   double least = 0, mean = 0, most = 0;  ///< [s per day]
   double share_met = 0;                  ///< of the points that have what is required
-  double deficit = 0;                    ///< mean of what the points are short of it [s per day]
-  /// Fills in the last five from the hours.
-  void judge(double required);
+  double of_share = 0;                   ///< the least that a point of the required share has [s per day]
+  double deficit = 0;                    ///< mean of what the points of the required share are short of it [s per day]
+  /// Fills in the last six from the hours.
+  void judge(const SunReceiver& receiver);
 };
 
 /// The most points of one receiver; their spacing grows until there are no more.

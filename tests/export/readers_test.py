@@ -56,9 +56,16 @@ class Export(unittest.TestCase):
                                   "latitude": 51.9949, "longitude": 4.3716})
         scene["nodes"] += [
             {"id": "goal", "name": "Cost", "types": {"indicator": {"value": 3.6e7, "unit": "EUR", "target": 3e7, "direction": "at_most"}}},
+            {"id": "free", "name": "Free", "types": {"plot": {}}},
+            {"id": "park", "name": "Park", "types": {"plot": {"fsi_max": 0}}},
             {"id": "ground", "name": "Ground", "position": [15, 20, -3],
              "types": {"terrain": {"rows": [{"heights": "AAAABkADIAEs..."}] * 5, "north": 40}}}]
         scene["nodes"].sort(key=lambda node: node["id"])
+        # Uses that spreadsheets take for one, since they compare texts without their case.
+        next(node for node in scene["nodes"] if node["id"] == "office-2")["types"]["smart_volume"]["use"] = "Office"
+        # Letters of western Europe that have no place in Latin-1.
+        cls.title = "Cœur d’îlot – „Škoda“, 3 M€ …"
+        scene["settings"]["title"] = cls.title
         cls.scene = os.path.join(cls.folder, "placed.json")
         with open(cls.scene, "w", encoding="utf-8") as file:
             json.dump(scene, file)
@@ -248,7 +255,7 @@ class Export(unittest.TestCase):
                     self.assertGreater(volume, 0.8 * one["attributes"]["volume_m3"])
                     self.assertLess(volume, 1.0001 * one["attributes"]["volume_m3"])
                     kinds = [k["type"] for k in geometry["semantics"]["surfaces"]]
-                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface"])
+                    self.assertEqual(kinds, ["GroundSurface", "WallSurface", "RoofSurface", "OuterCeilingSurface", "ClosureSurface"])
 
     def test_cityjson_is_read_back(self):
         back = self.path("back.json")
@@ -362,8 +369,34 @@ class Export(unittest.TestCase):
         storeys = list(values["Storeys"].iter_rows(min_row=2, values_only=True))
         self.near(storeys[-1][7], math.fsum(row[7] for row in storeys[:-1]), 1e-9)
         self.assertEqual(formulas["Buildings"].cell(len(rows) + 1, 6).value, "=SUM(F2:F%d)" % len(rows))
+        # Where nothing may be built the rule is 0; where there is none, the cell is empty.
+        plots = {row[0]: row[5:8] for row in values["Plots"].iter_rows(min_row=2, values_only=True)}
+        self.assertEqual((plots["Free"], plots["Park"]), ((None, None, None), (0, None, None)))
         about = dict(row[:2] for row in values["About"].iter_rows(min_row=2, values_only=True))
         self.assertEqual(about["hash"], self.rows[0]["hash"])
+
+    # As a spreadsheet calculates: EXACT knows cases, the equals sign does not.
+    @needs_module("openpyxl")
+    def test_xlsx_sums_by_name(self):
+        import openpyxl
+        values = openpyxl.load_workbook(self.path("a.xlsx"), data_only=True)
+        formulas = openpyxl.load_workbook(self.path("a.xlsx"))
+        column = lambda text: [row[0].value for row in values[text.split("!")[0]][text.split("!")[1].replace("$", "")]]
+        count = 0
+        for name in ("Programme", "Buildings"):
+            for cell in (cell for row in formulas[name].iter_rows() for cell in row):
+                if not str(cell.value).startswith("=SUMPRODUCT("):
+                    continue
+                exact = re.fullmatch(r"=SUMPRODUCT\(EXACT\(([^,]*),(\w+)\)\*([^)]*)\)", cell.value)
+                plain = re.fullmatch(r"=SUMPRODUCT\(\(([^=]*)=(\w+)\)\*([^)]*)\)", cell.value)
+                names, one, numbers = (exact or plain).groups()
+                wanted = values[name][one].value
+                is_same = lambda text: text == wanted if exact else text.lower() == wanted.lower()
+                found = math.fsum(number for text, number in zip(column(names), column(numbers)) if is_same(text))
+                self.near(found, values[name][cell.coordinate].value, 1e-9)
+                count += 1
+        self.assertGreater(count, len(self.buildings))
+        self.assertLessEqual({"office", "Office"}, {row[0] for row in values["Programme"].iter_rows(values_only=True)})
 
     @needs("ssconvert")
     @needs_module("openpyxl")
@@ -392,6 +425,8 @@ class Export(unittest.TestCase):
     def test_pdf_texts(self):
         text = run("pdftotext", "-layout", self.path("a.pdf"), "-").stdout
         self.assertIn(self.rows[0]["hash"], text)
+        self.assertIn(self.title, text)
+        self.assertIn("Title:           " + self.title, run("pdfinfo", self.path("a.pdf")).stdout)
         self.assertRegex(run("pdfinfo", self.path("a.pdf")).stdout, r"Page size:\s+1190\.5\d* x 841\.8\d*")
 
 

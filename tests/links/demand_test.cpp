@@ -71,6 +71,21 @@ TEST(Demand, AUseWithoutAVolumeIsShortAndAllOthersGoOn) {
   EXPECT_EQ(link.remarked(LinkRemark::short_of), "");
 }
 
+TEST(Demand, OpenSpaceIsForNoVolume) {
+  auto link = dealt({kA, kB}, {kHousing, kSchool});
+  link.from("programme.open_uses", Shared<std::vector<std::string>>({"school"}));
+  ASSERT_EQ(link.run(), "");
+  EXPECT_EQ(link.remarked(LinkRemark::short_of),
+            "`b` has the use `school`, which is open space that no volume has: give it another use");
+  EXPECT_FALSE(link.proposed(End::to, "smart_volume.demand", 1).has_value());
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
+  auto alone = dealt({kA}, {kHousing});
+  alone.from("programme.open_uses", Shared<std::vector<std::string>>({"school"}));
+  ASSERT_EQ(alone.run(), "");
+  EXPECT_EQ(alone.remarked(LinkRemark::short_of), "") << "nobody has to have a volume for it";
+  EXPECT_EQ(alone.set("use", kSchool).run(), "use: the use `school` is open space, which no volume shares: choose another one");
+}
+
 TEST(Demand, AnEmptyProgrammeNamesTheVolumes) {
   auto link = dealt({kA}, {kHousing});
   ASSERT_EQ(link.from("programme.rows", Shared<Table>(Table{})).run(), "");

@@ -233,6 +233,36 @@ TEST(PlotRules, SceneOfBallsAndOfVolumesThatStand) {
   EXPECT_LT(world.number("block", "smart_volume.footprint"), 700);
 }
 
+// The plot is a strip of the boundary, 10 m wide. The set-back moves the middle of the block from 8.4 m over its inner side to
+// 10.5 m; it stands on the plot all the same.
+TEST(PlotRules, NobodyLeavesAPlotByKeepingItsSetback) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[100,0,0],[100,40,0],[0,40,0]], "height": 40}}},
+    {"id": "strip", "types": {"plot": {"polygon": [[0,0,0],[10,0,0],[10,40,0],[0,40,0]], "setback": 3}}},
+    {"id": "rest", "types": {"plot": {"polygon": [[10,0,0],[100,0,0],[100,40,0],[10,40,0]]}}},
+    {"id": "solver", "types": {"standing_solver": {"tolerance": 1e-6}}},
+    {"id": "block", "position": [8, 20, 0], "types": {"smart_volume": {"demand": 1800, "storey_height": 3},
+                                                      "footprint": {"storeys": 2}}}],
+    "links": [{"id": "rules", "kind": "plot_rules", "from": "strip", "to": "block"}]})");
+  world.tick(20);
+  for (int tick = 0; tick < 20; ++tick) {
+    world.tick();
+    ASSERT_EQ(world.number("block", "footprint.border_distance"), 3) << tick;
+    ASSERT_EQ(world.number("strip", "plot.count"), 1) << tick;
+    ASSERT_EQ(world.number("rest", "plot.count"), 0) << tick;
+  }
+  EXPECT_TRUE(world.settle(50));
+  EXPECT_GT(world.point("block", "smart_volume.centroid").x, 10);
+  // One whose position lies before the border still stands on the plot, and one beyond its inner side does not.
+  for (const auto& [at, count] : {std::pair("[-2, 20, 0]", 1), std::pair("[10.5, 20, 0]", 0)}) {
+    ASSERT_EQ(world.submit(command<SetPort>({.node = "block", .port = {"node.position"}, .value = {at}})), "");
+    world.tick(20);
+    ASSERT_TRUE(world.settle(100)) << at;
+    EXPECT_EQ(world.number("strip", "plot.count"), count) << at;
+    EXPECT_EQ(world.number("rest", "plot.count"), 1 - count) << at;
+  }
+}
+
 // One volume near the border on each side of the plot; the street along the south has a distance of its own only by hand.
 TEST(PlotRules, VolumesThatStandKeepTheSetback) {
   World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [

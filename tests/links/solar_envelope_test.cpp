@@ -1,6 +1,8 @@
 // Solar envelope: a plane at 45 degrees by hand, and volumes that come back under the planes of a winter.
 #include <cmath>
+#include <numbers>
 
+#include "core/demand/shared_storeys.h"
 #include "core/geometry/plates_table.h"
 #include "core/sun/shadow_shape.h"
 #include "tests/links/link_case.h"
@@ -131,6 +133,7 @@ TEST(SolarEnvelope, SceneKeepsTheNeighboursSun) {
 // Ten metres square about (0, -20), so that its roof's edge lies 15 m from the neighbour's: the plane there is 15 m high.
 LinkCase standing(std::int64_t built, const std::string& mode = "shave") {
   geometry::StandingBody body;
+  body.centre = {0, -20, 0};
   body.stacks.push_back({static_cast<int>(built), 0, 4, 100, {}, {}});
   body.stacks.back().outlines.push_back({{{{-5, -25, 0}}, {{5, -25, 0}}, {{5, -15, 0}}, {{-5, -15, 0}}}, 0});
   Table plates;
@@ -139,6 +142,8 @@ LinkCase standing(std::int64_t built, const std::string& mode = "shave") {
   link.to("smart_volume.storey_height", 4.0)
       .to("footprint.storeys", std::int64_t{6})
       .to("footprint.storeys_min", std::int64_t{1});
+  // The radius follows from the footprint: 5 m. The weight of such a volume may be anything.
+  link.to("smart_volume.footprint", 25 * std::numbers::pi).to("smart_volume.radius", 0.0);
   link.to("footprint.storeys_held", built).to("footprint.height_limit", 1e6).to("footprint.plates", Shared<Table>(plates));
   return link;
 }
@@ -157,6 +162,38 @@ TEST(SolarEnvelope, OfWhatStandsTheStoreysGoThatReachThrough) {
   EXPECT_EQ(least.remarked(LinkRemark::unmet),
             "edge: cannot be met: `tower` reaches 9.00 m through the planes of the sun, held by `tower`, which keeps at least 6 "
             "storeys; move the edge or the volume, or lower `storeys_min`");
+}
+
+// The same tower as two volumes: this one has the storeys from the fourth on, above shops of 4 m in three storeys.
+LinkCase upper(const std::string& mode) {
+  LinkCase link = standing(3, mode);
+  geometry::StandingBody body;
+  body.centre = {0, -20, 0};
+  body.stacks.push_back({3, 12, 4, 100, {}, {}});
+  body.stacks.back().outlines.push_back({{{{-5, -25, 0}}, {{5, -25, 0}}, {{5, -15, 0}}, {{-5, -15, 0}}}, 0});
+  Table plates;
+  geometry::write_body(body, plates);
+  link.to("footprint.plates", Shared<Table>(plates)).to("smart_volume.bottom", 12.0).to("smart_volume.height", 12.0);
+  // Its own place is nowhere near the building.
+  link.to("node.position", Vector3{0, 40, 0});
+  return link.to("footprint.building", Shared<Table>(demand::table_of(demand::Building{"shops", 6, 1, 6, 4, 0, 24, 1e6, 0.5})));
+}
+
+TEST(SolarEnvelope, OfABuildingThatSeveralShareTheStoreysGoThatReachThrough) {
+  auto link = upper("shave");
+  ASSERT_EQ(link.run(), "");
+  EXPECT_NEAR(link.number(End::to, "footprint.height_limit"), 15, 1e-9) << "above the ground of the building";
+  // What lies below another one, and below the planes, says nothing of it.
+  auto shops = standing(3);
+  shops.to("footprint.building", Shared<Table>(demand::table_of(demand::Building{"shops", 6, 1, 6, 4, 0, 24, 1e6, 0.5})));
+  ASSERT_EQ(shops.run(), "");
+  EXPECT_FALSE(shops.proposed(End::to, "footprint.height_limit").has_value());
+  auto moved = upper("move");
+  ASSERT_EQ(moved.run(), "");
+  EXPECT_FALSE(moved.moves(End::to));
+  EXPECT_EQ(moved.remarked(LinkRemark::unmet),
+            "edge: cannot be met: `tower` reaches 9.00 m through the planes of the sun, and `tower` stands where `shops` does, "
+            "whose footprint it shares; lead this link to that one, or let it be shaved");
 }
 
 TEST(SolarEnvelope, WhatStandsMovesBackOnTheLevel) {

@@ -1,6 +1,8 @@
 // Solar right: each way to give way by hand, and a garden that gets its sun.
 #include <cmath>
+#include <numbers>
 
+#include "core/demand/shared_storeys.h"
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -194,6 +196,8 @@ LinkCase standing(double built, double height_limit, double deficit = 1800, cons
       .to("footprint.storeys", std::int64_t{8})
       .to("footprint.storeys_min", std::int64_t{1});
   link.to("footprint.storeys_held", static_cast<std::int64_t>(built)).to("footprint.height_limit", height_limit);
+  // The weight of what stands may be anything; 10 m are the radius of its footprint.
+  link.to("smart_volume.radius", 0.0).to("smart_volume.footprint", 100 * std::numbers::pi);
   return link;
 }
 
@@ -215,8 +219,15 @@ TEST(SolarRight, WhatStandsGivesWayByStoreys) {
   }
   auto moved = standing(8, 1e6, 1800, "move");
   ASSERT_EQ(moved.run(), "");
-  EXPECT_TRUE(moved.moves(End::to));
+  expect_near(moved.move(End::to), {0, -1, 0});
   EXPECT_FALSE(height(moved).has_value());
+  // Who shares a footprint moves with its host alone.
+  moved.to("footprint.building", Shared<Table>(demand::table_of(demand::Building{"shops", 10, 1, 10, 3, 0, 30, 1e6, 0.5})));
+  ASSERT_EQ(moved.run(), "");
+  EXPECT_FALSE(moved.moves(End::to));
+  EXPECT_NE(moved.remarked(LinkRemark::unmet).find("`tower` stands where `shops` does, whose footprint it shares"),
+            std::string::npos)
+      << moved.remarked(LinkRemark::unmet);
 }
 
 TEST(SolarRight, StoreysRestAndTheLimitIsNamed) {
@@ -305,6 +316,51 @@ World garden_and_plot(const std::string& height_max, const std::string& more = "
   text.insert(text.find("\"nodes\": [") + 10, plot);
   text.insert(text.find("\"links\": [") + 10, rules);
   return World::from_text(text);
+}
+
+// The tower is two volumes, one above the other: together they lose the storeys that one alone loses.
+TEST(SolarRight, VolumesOfOneBuildingGiveWayTogether) {
+  const std::string upper = R"({"id": "upper", "position": [32, 30, 0], "types": {"shadow_caster": {},
+    "smart_volume": {"use": "office"}, "footprint": {"order": 1}}},)";
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, upper);
+  text.insert(text.find("\"links\": [") + 10, R"({"id": "above", "kind": "share_footprint", "from": "tower", "to": "upper"},)");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(400)) << world.link_error("sun");
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 8);
+  EXPECT_NEAR(world.number("upper", "smart_volume.floor_area"), 1200, 0.1);
+  EXPECT_NEAR(world.number("tower", "smart_volume.footprint"), 300, 0.1);
+  EXPECT_LE(world.number("garden", "shadow_receiver.deficit"),
+            0.02 * 1.125 * world.number("garden", "shadow_receiver.required_sun"));
+  EXPECT_NE(world.link_error("sun").find("the building of `tower` has 8 of 10 storeys"), std::string::npos)
+      << world.link_error("sun");
+  for (int tick = 0; tick < 60; ++tick) {
+    world.tick();
+    ASSERT_EQ(world.number("tower", "footprint.storeys_held"), 8) << tick;
+  }
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"3600"}})), "");
+  world.tick(60);
+  ASSERT_TRUE(world.settle(200));
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 10);
+}
+
+// The tower never shades the second garden: what the first one has taken is not held for it.
+TEST(SolarRight, AGardenHoldsWhatItHasTakenAlone) {
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, R"({"id": "garden_2", "position": [32, -70, 0],
+    "types": {"shadow_receiver": {"width": 24, "depth": 12, "required_sun": 34200}}},)");
+  const std::string from = R"("from": "garden")";
+  ASSERT_NE(text.find(from), std::string::npos);
+  text.replace(text.find(from), from.size(), R"("from": {"typification": "shadow_receiver"})");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(400));
+  ASSERT_EQ(world.number("tower", "footprint.storeys_held"), 8);
+  ASSERT_EQ(world.number("garden_2", "shadow_receiver.deficit"), 0);
+  ASSERT_LT(world.number("garden_2", "shadow_receiver.sun_min"), 1.5 * 34200) << "not so much that all could be let go";
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"0"}})), "");
+  world.tick(60);
+  ASSERT_TRUE(world.settle(200));
+  EXPECT_EQ(world.number("tower", "footprint.storeys_held"), 10) << world.link_error("sun");
 }
 
 TEST(SolarRight, WhoTakesTheStoreysAloneIsNamed) {

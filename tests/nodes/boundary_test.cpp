@@ -113,6 +113,47 @@ TEST(Boundary, RefusesWithThePlaceOfTheRow) {
   EXPECT_EQ(boundary_error(R"("form": "mesh")"), "nodes/it/boundary/triangles: a boundary mesh needs at least 4 triangles");
 }
 
+// A rectangle of exclusions from the ground up, one row for each corner.
+std::string kept_open(const std::string& name, const std::string& use, double west, double south, double east, double north,
+                      double top = 20) {
+  std::string rows;
+  for (const auto& [x, y] : {std::pair{west, south}, {east, south}, {east, north}, {west, north}})
+    rows += (rows.empty() ? "" : ", ") + (R"({"name": ")" + name + R"(", "use": ")" + use + R"(", "x": )" + std::to_string(x)) +
+            R"(, "y": )" + std::to_string(y) + R"(, "bottom": 0, "top": )" + std::to_string(top) + "}";
+  return rows;
+}
+
+TEST(Boundary, GroundThatIsKeptOpenIsMeasuredByUse) {
+  const std::string plan = R"("form": "plan", "plan": [[0,0,0],[100,0,0],[100,50,0],[0,50,0]], "exclusions": [)";
+  // 10 m by 10 m; a building that stays takes 20 m² of it, and 5 m by 10 m lie outside of the plan.
+  World world = World::from_text(one_node(
+      "boundary", plan + kept_open("lawn", "garden", -5, 0, 10, 10) + ", " + kept_open("house", "", 8, 0, 20, 10) + ", " +
+                      kept_open("place", "square", 30, 10, 50, 30) + ", " + kept_open("beds", "garden", 45, 10, 60, 30) + "]"));
+  world.tick();
+  ASSERT_EQ(world.node_error("it", "boundary"), "");
+  const Table& areas = world.table("it", "boundary.open_areas");
+  ASSERT_EQ(areas.rows.size(), 2u);
+  EXPECT_EQ(areas.text(0, "use"), "garden");
+  EXPECT_NEAR(areas.number(0, "area"), 80 + 15 * 20, 1e-9);
+  EXPECT_NEAR(areas.number(0, "drawn"), 15 * 10 + 15 * 20, 1e-9);
+  EXPECT_EQ(areas.text(1, "use"), "square");
+  EXPECT_NEAR(areas.number(1, "area"), 15 * 20, 1e-9) << "what lies in both counts for the first use";
+  EXPECT_NEAR(world.number("it", "boundary.open_area"), 680, 1e-9);
+  EXPECT_NEAR(world.number("it", "boundary.ground_area"), 5000 - 680 - 120, 1e-9) << "the building is neither";
+}
+
+TEST(Boundary, OnlyGroundUnderTheSkyIsOpen) {
+  const std::string plan = R"("form": "plan", "plan": [[0,0,0],[10,0,0],[10,10,0],[0,10,0]], "height": 20, "exclusions": [)";
+  World world = World::from_text(one_node("boundary", plan + kept_open("passage", "square", 2, 2, 6, 6, 8) + "]"));
+  world.tick();
+  EXPECT_NEAR(world.number("it", "boundary.open_area"), 0, 1e-9) << "volumes may be above it";
+  EXPECT_NEAR(world.table("it", "boundary.open_areas").number(0, "drawn"), 16, 1e-9);
+  World hull =
+      World::from_text(one_node("boundary", R"("exclusions": [)" + kept_open("lawn", "garden", -20, -20, -10, 20) + "]"));
+  hull.tick();
+  EXPECT_NEAR(hull.number("it", "boundary.open_area"), 400, 1e-9) << "boundaries of other forms keep ground open too";
+}
+
 TEST(Boundary, AnErrorKeepsTheLastGoodShape) {
   World world = World::from_text(one_node("boundary", R"("form": "plan", "height": 10)"));
   world.tick();

@@ -21,8 +21,7 @@ World one_volume(const std::string& footprint, double height = 60) {
 
 double plate_area(const World& world) {
   double sum = 0;
-  const geometry::StandingBody body =
-      geometry::read_body(world.table("it", "footprint.plates"), world.point("it", "node.position"));
+  const geometry::StandingBody body = geometry::read_body(world.table("it", "footprint.plates"));
   for (const geometry::PlateStack& stack : body.stacks) {
     double one = 0;
     for (const geometry::PlateFace& face : geometry::faces_of(stack, body.centre, 1e-5)) {
@@ -53,7 +52,7 @@ TEST(Footprint, UpperStoreysSetBack) {
   const double radius = world.number("it", "smart_volume.radius");
   EXPECT_NEAR(3 * 3.14159265358979 * radius * radius + 3.14159265358979 * (radius - 2) * (radius - 2), 3000, 1e-4);
   EXPECT_NEAR(plate_area(world), 3000, 0.3);
-  EXPECT_EQ(geometry::read_body(world.table("it", "footprint.plates"), {}).stacks.size(), 2u);
+  EXPECT_EQ(geometry::read_body(world.table("it", "footprint.plates")).stacks.size(), 2u);
 }
 
 TEST(Footprint, DeepBuildingsHaveACourtyard) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/reading/plot_problems.h"
 #include "tests/nodes/scene_text.h"
 #include "tests/support/world.h"
 
@@ -68,7 +69,8 @@ TEST(Plot, AFootprintFadesInTheUpperHalfOfTheLowestStorey) {
       else if (read.kind == ValueKind::text) set.reads.emplace_back(std::string("it"));
       else set.reads.emplace_back(port == "bottom" ? bottom : port == "storey_height" ? 4.0 : 100.0);
     }
-    std::vector<SetValues> sets{set};
+    std::vector<SetValues> sets(plot.sets.size());  // nothing stands
+    sets.front() = std::move(set);
     EXPECT_TRUE(plot.evaluate(values, sets, Tick{}).ok());
     return as_number(values[plot.port_index("footprint")]);
   };
@@ -79,12 +81,48 @@ TEST(Plot, AFootprintFadesInTheUpperHalfOfTheLowestStorey) {
   EXPECT_EQ(footprint(20), 0);
 }
 
+// What stands begins on its ground: no place of its position makes it lower.
+TEST(Plot, WhatStandsIsNotToldToMoveDown) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "house", "position": [20, 20, 15],
+     "types": {"smart_volume": {"demand": 2400, "storey_height": 3}, "footprint": {"storeys": 8}}},
+    {"id": "plot", "types": {"plot": {"polygon": [[0,0,0],[40,0,0],[40,40,0],[0,40,0]], "height_max": 12}}},
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[40,0,0],[40,40,0],[0,40,0]], "height": 60}}},
+    {"id": "solver", "types": {"standing_solver": {}}}]})");
+  ASSERT_TRUE(world.settle());
+  EXPECT_NEAR(world.number("plot", "plot.height_overshoot"), 12, 1e-9);
+  EXPECT_EQ(world.text("plot", "plot.message"), "");
+}
+
 TEST(Plot, OvershootHasALargestValue) {
   World world = World::from_file("scenes/nodes/plot.json");
   for (const char* port : {"plot.gsi_max", "plot.height_max", "plot.fsi_max"})
     ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {port}, .value = {"1e-300"}})), "");
   world.tick(3);
   EXPECT_EQ(world.number("plot", "plot.overshoot"), 1e6);
+}
+
+// On a slope from 0 to 5 m: what stands covers the ground that it stands on, and a tower on a roof covers none.
+TEST(Plot, WhatStandsOnASlopeIsBuiltGround) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "land", "types": {"plot": {"polygon": [[0,0,0],[80,0,0],[80,40,0],[0,40,0]], "gsi_max": 0.1},
+                             "boundary": {"form": "plan", "plan": [[0,0,0],[80,0,0],[80,40,0],[0,40,0]], "height": 40}}},
+    {"id": "low", "position": [14, 20, 0], "types": {"smart_volume": {"demand": 1200, "storey_height": 3}, "footprint": {"storeys": 2}}},
+    {"id": "middle", "position": [38, 20, 0], "types": {"smart_volume": {"demand": 1200, "storey_height": 3},
+                                                        "footprint": {"storeys": 2, "ground": 2}}},
+    {"id": "high", "position": [64, 20, 0], "types": {"smart_volume": {"demand": 1200, "storey_height": 3},
+                                                      "footprint": {"storeys": 2, "ground": 5}}},
+    {"id": "tower", "position": [14, 20, 0], "types": {"smart_volume": {"demand": 300, "storey_height": 3},
+                                                       "footprint": {"storeys": 1, "bases": ["low"]}}},
+    {"id": "solver", "types": {"standing_solver": {"tolerance": 1e-9}}}], "links": []})");
+  ASSERT_TRUE(world.settle());
+  ASSERT_EQ(world.text("tower", "smart_volume.stands_on"), "low");
+  ASSERT_EQ(world.number("high", "smart_volume.bottom"), 5);
+  EXPECT_NEAR(world.number("land", "plot.footprint"), 600, 1e-5);
+  EXPECT_NEAR(world.number("land", "plot.gsi"), world.number("solver", "standing_solver.gsi"), 1e-9);
+  const auto broken = reading::broken_rules(world.state());
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_EQ(broken.front().volumes.size(), 3u) << broken.front().text;
 }
 
 }  // namespace

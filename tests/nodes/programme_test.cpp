@@ -50,6 +50,25 @@ TEST(Programme, NamesTheRowAndColumnOfAFault) {
   EXPECT_EQ(programme_error(R"({"use": "", "floor_area": 1})"), "nodes/it/programme/rows/0/use: the use is empty: name the use");
 }
 
+TEST(Programme, RowsOfOpenSpaceAskForGround) {
+  World world = World::from_text(scene_text(
+      R"({"id": "it", "types": {"programme": {"rows": [{"use": "square", "floor_area": 300},
+          {"use": "housing", "floor_area": 100, "count": 4, "storey_height": 3}, {"use": "garden", "floor_area": 50, "count": 2}]}}},
+         {"id": "use_garden", "types": {"use": {"use": "garden", "is_open": true}}},
+         {"id": "use_square", "types": {"use": {"use": "square", "is_open": true}}},
+         {"id": "use_housing", "types": {"use": {"use": "housing"}}})"));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "programme"), "");
+  EXPECT_EQ(world.number("it", "programme.total_floor_area"), 400);
+  EXPECT_EQ(world.number("it", "programme.total_volume"), 1200);
+  EXPECT_EQ(world.number("it", "programme.total_open_area"), 400);
+  EXPECT_EQ(*std::get<Shared<std::vector<std::string>>>(value_in(world.state(), "it", "programme.open_uses")),
+            (std::vector<std::string>{"garden", "square"}));
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "use_garden", .port = {"use.is_open"}, .value = {"false"}})), "");
+  world.tick();
+  EXPECT_EQ(world.number("it", "programme.total_floor_area"), 500) << "the node of the use decides";
+}
+
 TEST(Programme, KeepsWhatVolumesMayStandOn) {
   World world = World::from_text(one_node("programme", R"("rows": [
       {"use": "garage", "floor_area": 100, "standing": "ground"}, {"use": "flats", "floor_area": 50}])"));

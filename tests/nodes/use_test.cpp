@@ -57,6 +57,17 @@ TEST(Uses, OneUseHasOneNodeAndAName) {
   EXPECT_EQ(nameless.node_error("some", "use"), "nodes/some/use/use: name the use as its volumes do, such as `housing`");
 }
 
+TEST(Uses, OpenSpaceHasNoVolumes) {
+  World world = World::from_text(
+      scene_with(R"({"id": "use_chapel", "types": {"use": {"use": "chapel", "is_open": true, "people_per_100": 5}}})"));
+  ASSERT_TRUE(world.settle(100));
+  EXPECT_EQ(world.number("use_chapel", "use.count"), 0);
+  EXPECT_EQ(world.number("use_chapel", "use.floor_area"), 0);
+  EXPECT_EQ(world.number("chapel", "use_figures.people"), 0);
+  EXPECT_EQ(world.text("chapel", "use_figures.message"),
+            "its use `chapel` is open space, which no volume has: give it another one");
+}
+
 TEST(Uses, ParkingAndCostFollowTheUses) {
   World world = World::from_file("scenes/nodes/use.json");
   ASSERT_TRUE(world.settle());

@@ -44,7 +44,7 @@ std::shared_ptr<const State> outcome_of(const std::string& file, const SceneRead
     if (options.ticks < 0 && watch.is_hopeless(*(*session)->state())) break;
   }
   progress.clear();
-  const auto state = (*session)->state();
+  const auto state = most > 0 ? (*session)->state() : (*session)->look();
   print_line(file + ": " + (state->is_settled() ? "settled" : "not settled: " + why_not_settled(*state, before.get())) +
              ", tick " + std::to_string(state->tick) + ", hash " + hex_digits(state->hash));
   return std::make_shared<const State>(with_sums_of_now(*state));

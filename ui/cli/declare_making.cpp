@@ -29,7 +29,7 @@ void declare_new(CLI::App& app, making::NewOptions& o) {
       ->required();
   c.add_option("--height", o.height, "Height of the boundary above the ground, in m.")->type_name("METRES")->required();
   c.add_option("--programme", o.programme,
-               "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, standing, ...")
+               "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, standing, open, ...")
       ->type_name("FILE")
       ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
@@ -134,10 +134,12 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
              "Keeps buildings inside a site of the scene; the site leaves out their ground up to their roofs. Default: asks; "
              "without a terminal, keeps them.");
   c.add_flag("--clear", o.clears,
-             "Leaves out buildings inside a site of the scene. A building with less than half of its ground inside is kept.");
+             "Leaves out buildings inside a site of the scene, also those that an import before has kept. A building with less "
+             "than half of its ground inside is kept.");
   const std::vector<std::string> grounds(making::kClearGrounds.begin(), making::kClearGrounds.end());
   c.add_option("--keep-clear", o.keep_clear,
-               "Makes a site of the scene leave out the ground of: " + in_one_line(grounds) + ". Several, separated by commas.")
+               "Kinds of ground that are kept clear: " + in_one_line(grounds) + ". " + making::kKeepClearDoc +
+                   " Several, separated by commas.")
       ->type_name("KINDS")
       ->delimiter(',')
       ->check(CLI::IsMember(grounds));
@@ -196,7 +198,10 @@ void declare_add(CLI::App& app, AddOptions& o) {
   option("--id", o.garden.id, "garden: a plot or a garden of the scene; with --corners the id of the new one.", "ID", "garden");
   of_addition(c.add_flag("--open", o.garden.is_open, "garden: keeps its ground free, as open space inside the boundary."), o,
               "garden");
+  option("--use", o.garden.use,
+         "garden: with --open, the use of the ground, as a row of the programme names it. Default: garden.", "USE", "garden");
   option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
+  option("--share", o.garden.share, "garden: share of its area that needs them. Default of a new one: 0.5.", "RATIO", "garden");
   c.footer(
       "A garden brings a sun along where the scene has none. What is there already is set and not doubled.\n\nExample:\n"
       "  behaviourlinks add scene.json rules --fsi 2.5 --gsi 0.5 --height 24\n"

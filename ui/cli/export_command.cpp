@@ -69,7 +69,7 @@ Outcome state_of(const ExportOptions& options, const SceneReading& reading) {
     print_error(options.scene, session.error());
     return {};
   }
-  if (!options.is_settling) return {(*session)->state()};
+  if (!options.is_settling) return {(*session)->look()};
   SettleWatch watch;
   const StopScope scope(is_interrupted);
   LiveRun recordings(options.scene, false, 0);

@@ -18,7 +18,8 @@ constexpr double kTightFill = 0.9;
 void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
   const importing::PlanBoundary& plan = *made.plan;
   const making::SceneParts& parts = made.parts;
-  const double plan_area = made.plan_area, demand = made.demand, space = plan_area * parts.height, fill = made.fill();
+  const double plan_area = made.plan_area, demand = made.demand, space = (plan_area - parts.open_area()) * parts.height,
+               fill = made.fill();
   const std::string added = plan_area > plan.area ? ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²" : "";
   const std::string holes = parts.holes.empty() ? "" : " and " + counted(parts.holes.size(), "hole");
   print_line("boundary:  " + counted(parts.plan.size(), "corner") + holes + ", " + fixed(plan_area, 1) + " m²" + added + ", " +
@@ -27,12 +28,16 @@ void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
              "°, from " + plan.source_crs);
   print_line("programme: " + counted(parts.programme.rows.size(), "use") + ", " + counted(parts.programme.items, "volume") +
              ", " + fixed(parts.programme.floor_area, 1) + " m² floor area, " + fixed(demand, 1) + " m³");
+  double asked = 0;
+  for (const importing::ProgrammeRow& row : parts.programme.rows) asked += row.is_open ? row.floor_area * row.count : 0;
+  if (asked > 0)
+    print_line("open:      " + fixed(parts.open_area(), 1) + " m² of " + fixed(asked, 1) + " m² of open space asked for");
   print_line("density:   floor space index " + fixed(parts.programme.floor_area / plan_area, 2) +
              " (floor area / plan area), fill " + fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
   if (fill > 1)
     print_error(o.out, {ErrorCode::infeasible, "",
                         "warning: the demands do not fit into the boundary; they need a height of at least " +
-                            fixed(std::ceil(10 * demand / plan_area) / 10, 1) + " m"});
+                            fixed(std::ceil(10 * demand / (plan_area - parts.open_area())) / 10, 1) + " m"});
   else if (fill > kTightFill)
     print_error(o.out, {ErrorCode::infeasible, "", "warning: the boundary will be nearly full; little is left to negotiate"});
 }

@@ -89,6 +89,21 @@ void print_totals(const reading::Survey& survey) {
     if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
 
+// Ground is no floor area: it has a table of its own.
+void print_open_space(const reading::Survey& survey) {
+  if (survey.open.empty()) return;
+  TextTable table({{"open space"}, {"asked m²", true}, {"open m²", true}, {"short %", true}, {"why"}});
+  for (const reading::OpenRow& row : survey.open) {
+    const reading::OpenAccount& open = row.account;
+    const bool is_short = open.is_short(survey.tolerance);
+    table.add({open.use, open.is_in_programme ? fixed(open.asked, 1) : "no row", fixed(open.area, 1),
+               is_short ? hundredths(open.missing_share(), 1) : "", row.why_short},
+              is_short ? Colour::yellow : Colour::plain);
+  }
+  print_line();
+  table.print();
+}
+
 void print_storeys(const reading::Survey& survey, const State& state) {
   for (const reading::VolumeRow& volume : survey.volumes)
     if (const std::string why = reading::why_lower(state, volume.node); !why.empty())
@@ -132,6 +147,7 @@ void print_survey(const reading::Survey& survey, const State& state) {
   if (state.tick == 0) return;
   print_volumes(survey, state.plan->settings.tolerance);
   print_totals(survey);
+  print_open_space(survey);
   print_storeys(survey, state);
   print_tensions(survey);
   if (!survey.problems.empty()) print_line();
@@ -180,7 +196,7 @@ void add_footprint(const State& state, Json& volume) {
   volume["storeys_wished"] = found->storeys;
   volume["why_lower"] = reading::why_lower(state, node);
   Json plates = Json::array();
-  const geometry::StandingBody body = geometry::read_body(found->plates, {});
+  const geometry::StandingBody body = geometry::read_body(found->plates);
   // From the ground up; those below it first, from the lowest up, which are no part of the floor area.
   const auto cellars = reading::row_of<reading::CellarFigures>(state, node);
   for (std::int64_t storey = cellars->storeys; storey > 0 && !body.stacks.empty(); --storey)
@@ -206,7 +222,8 @@ Json plots_json(const State& state) {
                      {"gsi", figures.gsi},
                      {"osr", figures.osr},
                      {"storeys", figures.mean_storeys},
-                     {"land", figures.plot_area}});
+                     {"land", figures.plot_area},
+                     {"open_space", figures.open_area}});
   return plots;
 }
 
@@ -227,6 +244,18 @@ Json use_json(const reading::UseRow& row) {
           {"short", use.missing()},
           {"short_floor_area", use.missing_area()},
           {"short_share", use.short_share()},
+          {"why_short", row.why_short}};
+}
+
+Json open_json(const reading::OpenRow& row) {
+  const reading::OpenAccount& open = row.account;
+  return {{"use", open.use},
+          {"in_programme", open.is_in_programme},
+          {"wanted_area", open.asked},
+          {"area", open.area},
+          {"drawn_area", open.drawn},
+          {"short_area", open.missing()},
+          {"short_share", open.missing_share()},
           {"why_short", row.why_short}};
 }
 
@@ -271,6 +300,8 @@ Json survey_json(const reading::Survey& survey, const State& state, const std::s
   totals.erase("use");
   totals["uses"] = Json::array();
   for (const reading::UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
+  totals["open_space"] = Json::array();
+  for (const reading::OpenRow& open : survey.open) totals["open_space"].push_back(open_json(open));
   totals["solvers"] = Json::array();
   for (const reading::SolverRow& solver : survey.solvers)
     totals["solvers"].push_back({{"id", solver.id},

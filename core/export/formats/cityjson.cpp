@@ -10,10 +10,78 @@
 #include "core/export/identity.h"
 #include "core/export/read_proposal.h"
 #include "core/geometry/mesh_lines.h"
+#include "core/geometry/plan_split.h"
+#include "core/reading/figures.h"
 
 namespace bl::exporting {
 
 namespace {
+
+// Equal storeys of a standing building, one upon another.
+struct CityTier {
+  const std::vector<geometry::PlateFace>* faces = nullptr;
+  double bottom = 0, top = 0;  // [m]
+};
+
+bool are_equal(const std::vector<geometry::PlateFace>& a, const std::vector<geometry::PlateFace>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const geometry::PlateFace& x, const geometry::PlateFace& y) {
+    return x.outer == y.outer && x.holes == y.holes;
+  });
+}
+
+constexpr double kSameHeight = 1e-6;  // [m]
+
+std::vector<CityTier> tiers_of(const Building& b) {
+  std::vector<CityTier> tiers;
+  if (!b.is_standing) return tiers;
+  for (const Storey& s : b.storeys) {
+    if (!tiers.empty() && std::abs(tiers.back().top - s.bottom) < kSameHeight && are_equal(*tiers.back().faces, s.faces))
+      tiers.back().top = s.top;
+    else tiers.push_back({&s.faces, s.bottom, s.top});
+  }
+  return tiers;
+}
+
+// Roofs or undersides of all that stands, found by their heights.
+class CityLids {
+ public:
+  void add(double height, const geometry::PlateFace& face) {
+    Lid lid{height, &face, face.outer.front(), face.outer.front()};
+    for (const Point3& p : face.outer) {
+      lid.low = {std::min(lid.low.x, p.x), std::min(lid.low.y, p.y), 0};
+      lid.high = {std::max(lid.high.x, p.x), std::max(lid.high.y, p.y), 0};
+    }
+    lids_.push_back(lid);
+  }
+  void sort() {
+    std::stable_sort(lids_.begin(), lids_.end(), [](const Lid& a, const Lid& b) { return a.height < b.height; });
+  }
+  // Those at a height that may meet a face.
+  std::vector<geometry::PlateFace> at(double height, const geometry::PlateFace& face) const {
+    std::vector<geometry::PlateFace> found;
+    auto lid = std::lower_bound(lids_.begin(), lids_.end(), height - kSameHeight,
+                                [](const Lid& one, double least) { return one.height < least; });
+    for (; lid != lids_.end() && lid->height <= height + kSameHeight; ++lid) {
+      const auto is_beside = [&](auto coordinate) {
+        return std::all_of(face.outer.begin(), face.outer.end(),
+                           [&](const Point3& p) { return coordinate(p) <= coordinate(lid->low); }) ||
+               std::all_of(face.outer.begin(), face.outer.end(),
+                           [&](const Point3& p) { return coordinate(p) >= coordinate(lid->high); });
+      };
+      if (!is_beside([](const Point3& p) { return p.x; }) && !is_beside([](const Point3& p) { return p.y; }))
+        found.push_back(*lid->face);
+    }
+    return found;
+  }
+
+ private:
+  struct Lid {
+    double height = 0;
+    const geometry::PlateFace* face = nullptr;
+    Point3 low, high;
+  };
+  std::vector<Lid> lids_;
+};
 
 struct CityJsonFormat {
   using CityText = nlohmann::ordered_json;
@@ -31,7 +99,8 @@ struct CityJsonFormat {
     f.id("cityjson").label("City model (CityJSON 2.0)");
     f.doc(
         "Each building with a prism over its outline (LoD 1.2) and its closed shape with ground, wall, roof and overhanging "
-        "surfaces (LoD 2.2), its use, storeys and areas as attributes; plots as land use. Coordinates are those of the scene's "
+        "surfaces (LoD 2.2), and closure surfaces where a part of a proposed building stands on another; its use, storeys and "
+        "areas as attributes; plots as land use. Coordinates are those of the scene's "
         "coordinate system, which is named where it has an EPSG code; else a note says that they are metres of the scene.");
     f.ending(".city.json").begins("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"metadata\":{\"identifier\":\"BehaviourLinks");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
@@ -40,12 +109,14 @@ struct CityJsonFormat {
 
   // Tenths of a millimetre: finer than anybody builds.
   static constexpr double kStep = 1e-4;
-  enum CitySurface { ground = 0, wall = 1, roof = 2, ceiling = 3 };
+  enum CitySurface { ground = 0, wall = 1, roof = 2, ceiling = 3, closure = 4 };
 
   struct CityBuilder {
     const Proposal& proposal;
     CityText objects = CityText::object(), vertices = CityText::array();
     std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::size_t> places = {};
+    CityLids roofs = {}, undersides = {};  // of all that stands
+    std::size_t uncut = 0;                 // parts whose roofs and undersides could not be cut
 
     std::size_t vertex(const Point3& p) {
       const auto whole = [](double value) { return static_cast<std::int64_t>(std::llround(value / kStep)); };
@@ -80,6 +151,20 @@ struct CityJsonFormat {
         surfaces.push_back(std::move(rings));
         values.push_back(static_cast<int>(kind));
       }
+      // Does each side run once in each direction?
+      bool is_closed() const {
+        std::vector<std::pair<std::size_t, std::size_t>> sides, opposite;
+        for (const CityText& rings : surfaces)
+          for (const CityText& one : rings)
+            for (std::size_t k = 0; k < one.size(); ++k) {
+              const auto from = one[k].get<std::size_t>(), to = one[(k + 1) % one.size()].get<std::size_t>();
+              sides.emplace_back(from, to);
+              opposite.emplace_back(to, from);
+            }
+        std::sort(sides.begin(), sides.end());
+        std::sort(opposite.begin(), opposite.end());
+        return sides == opposite && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+      }
     };
 
     Shell prism(const geometry::PlateFace& face, double bottom, double top) {
@@ -101,6 +186,44 @@ struct CityJsonFormat {
       shell.add(std::move(low), ground);
       shell.add(std::move(high), roof);
       return shell;
+    }
+
+    // Equal storeys one upon another, with one face of them.
+    Shell part_of_building(const geometry::PlateFace& face, double bottom, double top, bool is_lowest) {
+      const geometry::SplitFace low = geometry::split_face(face, roofs.at(bottom, face), kStep),
+                                high = geometry::split_face(face, undersides.at(top, face), kStep);
+      Shell shell;
+      for (std::size_t r = 0; r < low.rings.size(); ++r)
+        for (std::size_t k = 0; k < low.rings[r].size(); ++k) {
+          const Point3 &from = low.rings[r][k], &to = low.rings[r][(k + 1) % low.rings[r].size()];
+          std::vector<std::size_t> corners;
+          const auto add = [&](const Point3& p, double z) { corners.push_back(vertex({p.x, p.y, z})); };
+          add(from, bottom);
+          for (const Point3& p : low.on_sides[r][k]) add(p, bottom);
+          add(to, bottom), add(to, top);
+          for (auto p = high.on_sides[r][k].rbegin(); p != high.on_sides[r][k].rend(); ++p) add(*p, top);
+          add(from, top);
+          shell.add(CityText::array({corners}), wall);
+        }
+      const auto lid = [&](const std::vector<geometry::PlateFace>& faces, double z, bool is_turned, CitySurface kind) {
+        for (const geometry::PlateFace& one : faces)
+          if (CityText made = plate(one, z, is_turned); !made.is_null()) shell.add(std::move(made), kind);
+      };
+      lid(low.free, bottom, true, is_lowest ? ground : ceiling);
+      lid(low.covered, bottom, true, closure);
+      lid(high.free, top, false, roof);
+      lid(high.covered, top, false, closure);
+      if (shell.is_closed()) return shell;
+      ++uncut;
+      return prism(face, bottom, top);
+    }
+
+    std::vector<Shell> standing(const Building& b) {
+      std::vector<Shell> shells;
+      for (const CityTier& tier : tiers_of(b))
+        for (const geometry::PlateFace& face : *tier.faces)
+          shells.push_back(part_of_building(face, tier.bottom, tier.top, tier.bottom == b.storeys.front().bottom));
+      return shells;
     }
 
     Shell body(const Mesh& mesh, double bottom) {
@@ -134,17 +257,23 @@ struct CityJsonFormat {
                               {{{"type", "GroundSurface"}},
                                {{"type", "WallSurface"}},
                                {{"type", "RoofSurface"}},
-                               {{"type", "OuterCeilingSurface"}}}},
+                               {{"type", "OuterCeilingSurface"}},
+                               {{"type", "ClosureSurface"}}}},
                              {"values", is_one ? values[0] : values}};
       return made;
     }
 
-    void add_building(const std::string& id, CityText attributes, const std::vector<geometry::PlateFace>& outline, double bottom,
-                      double top, const Mesh* mesh) {
-      std::vector<Shell> prisms, bodies;
-      for (const geometry::PlateFace& face : outline) prisms.push_back(prism(face, bottom, top));
+    std::vector<Shell> bodies_of(const Mesh* mesh, double bottom) {
+      std::vector<Shell> bodies;
       if (mesh != nullptr)
         for (const Mesh& part : geometry::bodies_of(*mesh)) bodies.push_back(body(part, bottom));
+      return bodies;
+    }
+
+    void add_building(const std::string& id, CityText attributes, const std::vector<geometry::PlateFace>& outline, double bottom,
+                      double top, std::vector<Shell> bodies) {
+      std::vector<Shell> prisms;
+      for (const geometry::PlateFace& face : outline) prisms.push_back(prism(face, bottom, top));
       CityText shapes = CityText::array();
       if (CityText made = geometry_of(std::move(prisms), "1.2", false); !made.is_null()) shapes.push_back(std::move(made));
       if (CityText made = geometry_of(std::move(bodies), "2.2", true); !made.is_null()) shapes.push_back(std::move(made));
@@ -170,6 +299,10 @@ struct CityJsonFormat {
     }
 
     void add_all(bool with_surroundings) {
+      for (const Building& b : proposal.buildings)
+        for (const CityTier& tier : tiers_of(b))
+          for (const geometry::PlateFace& face : *tier.faces) roofs.add(tier.top, face), undersides.add(tier.bottom, face);
+      roofs.sort(), undersides.sort();
       for (const Building& b : proposal.buildings) {
         add_building("building/" + b.id,
                      {{"name", b.label},
@@ -183,14 +316,14 @@ struct CityJsonFormat {
                       {"volume_m3", b.volume},
                       {"asked_volume_m3", b.asked_volume},
                       {"is_proposed", true}},
-                     b.outline, b.bottom, b.top, b.mesh.get());
+                     b.outline, b.bottom, b.top, b.is_standing ? standing(b) : bodies_of(b.mesh.get(), b.bottom));
         add_cellars(b);
       }
       if (with_surroundings)
         for (const Neighbour& n : proposal.neighbours)
           add_building("existing/" + n.id,
                        {{"name", n.name}, {"function", n.use}, {"measuredHeight", n.top - n.bottom}, {"is_proposed", false}},
-                       {n.face}, n.bottom, n.top, n.mesh.get());
+                       {n.face}, n.bottom, n.top, bodies_of(n.mesh.get(), n.bottom));
       for (const Land& land : proposal.lands) {
         if (land.is_boundary) continue;
         CityText surfaces = CityText::array();
@@ -218,6 +351,9 @@ struct CityJsonFormat {
     ExportFiles files;
     if (!place.crs.starts_with("EPSG:"))
       files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene");
+    if (made.uncut > 0)
+      files.notes.push_back(reading::counted(made.uncut, "part") + (made.uncut == 1 ? " counts" : " count") +
+                            " as roof or ceiling also where another one lies on it: no closed body has these cut out");
     document["CityObjects"] = std::move(made.objects);
     document["vertices"] = std::move(made.vertices);
     files.files.push_back({"proposal.city.json", document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"});

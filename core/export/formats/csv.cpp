@@ -17,7 +17,7 @@ struct CsvFormat {
     f.id("csv").label("Area schedule (CSV)");
     f.doc(
         "One table by RFC 4180 with decimal points: a row for each storey, each building, each use, one for all, and one for "
-        "each indicator with its target. The floor "
+        "each indicator and each use of open space with its target. The floor "
         "areas of the storeys add up to that of their building, and buildings to uses. The last columns name the scene, its "
         "state, and the form that was measured.");
     f.ending(".csv").begins("row,building,");
@@ -88,6 +88,13 @@ struct CsvFormat {
       Row row = {"indicator", "", one.name};
       row.resize(kBuildingColumns, "");
       for (csv::CsvCell& cell : Row{one.value, one.target, one.unit, one.status}) row.push_back(std::move(cell));
+      rows.push_back(std::move(row));
+    }
+    for (const OpenSpace& open : proposal.open_spaces) {
+      Row row = {"open space", "", "", open.use};
+      row.resize(kBuildingColumns, "");
+      for (csv::CsvCell& cell : Row{open.area, open.asked_area, "m2", open.why_short.empty() ? "met" : "short"})
+        row.push_back(std::move(cell));
       rows.push_back(std::move(row));
     }
     for (Row& row : rows) row.resize(kBuildingColumns + kIndicatorColumns, "");

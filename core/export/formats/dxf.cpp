@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
@@ -33,8 +35,8 @@ struct DxfFormat {
     f.doc(
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
-        "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Arcs are arcs. Plots, "
-        "the boundary, existing buildings, streets, texts, "
+        "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Uses whose names are "
+        "equal in such letters get a number. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
         "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
         "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
@@ -63,6 +65,24 @@ struct DxfFormat {
     const Options& options;
     DxfDrawing drawing = {};
     PlanExtent extent = plan_extent(proposal);
+    std::map<std::string, std::string> layer_of_use = {};
+    std::vector<std::string> notes = {};
+
+    // Each use has layers and a colour of its own, also where its name falls together with another one.
+    void name_layers() {
+      std::set<std::string> taken = {"TEXT"};
+      std::string told;
+      for (const Building& b : proposal.buildings) {
+        if (layer_of_use.contains(b.use)) continue;
+        const std::string plain = DxfDrawing::layer_name(use_name(b.use));
+        std::string name = plain;
+        for (int k = 2; !taken.insert(name).second; ++k) name = plain + "_" + std::to_string(k);
+        layer_of_use.emplace(b.use, name);
+        if (name != plain || plain.find_first_not_of("_-") == std::string::npos)
+          told += (told.empty() ? "`" : ", `") + name + "` is " + use_name(b.use);
+      }
+      if (!told.empty()) notes.push_back("names of layers have plain letters only, and no two uses share one: " + told);
+    }
 
     Vector3 shift(int level) const {
       if (options.storeys == DxfArrangement::stacked) return {};
@@ -117,7 +137,7 @@ struct DxfFormat {
 
     void storey(const Building& b, const Storey& s, int colour) {
       const std::string level = "L" + std::string(s.level >= 0 && s.level < 10 ? "0" : "") + std::to_string(s.level) + "-";
-      const std::string layer = level + DxfDrawing::layer_name(use_name(b.use)), words = level + "TEXT";
+      const std::string layer = level + layer_of_use.at(b.use), words = level + "TEXT";
       drawing.layer(layer, colour);
       drawing.layer(words, 7);
       const Vector3 by = shift(s.level);
@@ -199,6 +219,7 @@ struct DxfFormat {
     }
 
     Result<std::string> write() {
+      name_layers();
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{
                {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
         drawing.layer(name, colour);
@@ -218,14 +239,16 @@ struct DxfFormat {
         drawing.text("TITLE", {extent.low.x, y, 0}, options.text_height, name + ": " + value);
         y -= 1.8 * options.text_height;
       }
+      if (drawing.has_lost_letters()) notes.push_back("letters that DXF R2000 has no number for are question marks in this file");
       return drawing.str("BehaviourLinks: " + identity_line(proposal));
     }
   };
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    auto text = DxfPlans{proposal, options}.write();
+    DxfPlans plans{proposal, options};
+    auto text = plans.write();
     if (!text) return text.error();
-    return ExportFiles{{{"plans.dxf", std::move(*text)}}, {}};
+    return ExportFiles{{{"plans.dxf", std::move(*text)}}, std::move(plans.notes)};
   }
 };
 

@@ -85,12 +85,20 @@ struct GeoJsonFormat {
 
     void add_land(const Land& land) {
       Ordered figures = {{"kind", land.is_boundary ? "boundary" : "plot"}, {"name", land.name}, {"area_m2", land.area}};
-      if (!land.is_boundary)
-        for (const auto& [name, value] :
-             {std::pair("fsi", land.fsi), std::pair("gsi", land.gsi), std::pair("fsi_max", land.fsi_max),
-              std::pair("gsi_max", land.gsi_max), std::pair("height_max_m", land.height_max)})
-          figures[name] = value;
+      if (!land.is_boundary) {
+        figures["fsi"] = land.fsi;
+        figures["gsi"] = land.gsi;
+        for (const auto& [name, rule] :
+             {std::pair("fsi_max", land.fsi_max), std::pair("gsi_max", land.gsi_max), std::pair("height_max_m", land.height_max)})
+          figures[name] = rule ? Ordered(*rule) : Ordered();
+      }
       add((land.is_boundary ? "boundary/" : "plot/") + land.id, polygons(land.faces), std::move(figures));
+    }
+
+    void add_open_space(const OpenSpace& open) {
+      if (open.faces.empty()) return;
+      add("open_space/" + open.use, polygons(open.faces),
+          {{"kind", "open_space"}, {"use", open.use}, {"area_m2", open.area}, {"asked_area_m2", open.asked_area}});
     }
 
     void add_building(const Building& b) {
@@ -139,6 +147,7 @@ struct GeoJsonFormat {
             "the coordinates are metres of the scene, which programs that follow RFC 7946 take for degrees: tell them");
       }
       for (const Land& land : proposal.lands) add_land(land);
+      for (const OpenSpace& open : proposal.open_spaces) add_open_space(open);
       for (const Building& building : proposal.buildings) add_building(building);
       if (options.surroundings) add_surroundings();
       if (!is_all_finite)

@@ -29,7 +29,7 @@ struct GlbFormat {
     f.doc(
         "One file with all closed meshes, in metres, Y up: x east, y up, z south. Each building is a node with its name and its "
         "figures as extras; its use is its material. Coordinates are singles from the origin of the scene.");
-    f.ending(".glb").begins("glTF");
+    f.ending(".glb").marked({"glTF", "\"generator\":\"BehaviourLinks\"", ""});
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already, and terrain.");
     declare_mesh_options(f);
   }

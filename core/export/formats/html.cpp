@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/drawing/markup.h"
+#include "core/export/coarse_ground.h"
 #include "core/export/drawn_levels.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
@@ -44,6 +45,7 @@ struct HtmlFormat {
     double plan = 0;                 ///< [m] that a line of a plan may be off
     int depth = 0;                   ///< how often faces of rounded volumes are divided
     std::size_t most_triangles = 0;  ///< of one body; more: an upright body over its outline
+    std::size_t most_of_ground = 0;  ///< triangles of all surfaces of the ground together
   };
 
   struct PageBuilder {
@@ -53,7 +55,8 @@ struct HtmlFormat {
     Point3 origin = {};
     PageJson paths = PageJson::array();
     std::map<std::string, std::size_t> path_numbers = {};
-    std::size_t upright = 0;  // bodies that were too fine
+    // Bodies that were too fine, triangles of the ground and those that are shown.
+    std::size_t upright = 0, upright_neighbours = 0, all_ground = 0, shown_ground = 0;
 
     static double whole(double metres) { return std::round(metres * 100) + 0.0; }
 
@@ -159,15 +162,31 @@ struct HtmlFormat {
       if (!options.surroundings) return all;
       for (const Neighbour& n : proposal.neighbours) {
         if (n.mesh && n.mesh->triangles.size() <= detail.most_triangles) all["n/existing/" + n.id] = surface(*n.mesh, 0, 0);
-        else all["n/existing/" + n.id] = prism(n.face.outer, n.bottom, n.top);
+        else all["n/existing/" + n.id] = prism(n.face.outer, n.bottom, n.top), upright_neighbours += n.mesh ? 1 : 0;
       }
       for (std::size_t k = 0; k < proposal.streets.size(); ++k)
         if (proposal.streets[k].line.size() > 1)
           all["n/street/" + std::to_string(k)] = lines({proposal.streets[k].line}, false, 6, 0);
-      for (std::size_t k = 0; k < proposal.terrains.size(); ++k)
-        if (proposal.terrains[k]->triangles.size() <= 40 * detail.most_triangles)
-          all["n/terrain/" + std::to_string(k)] = surface(*proposal.terrains[k], 0, 0);
+      for (std::size_t k = 0; k < proposal.terrains.size(); ++k) {
+        const Mesh coarse = coarse_ground(*proposal.terrains[k], detail.most_of_ground / proposal.terrains.size());
+        all_ground += proposal.terrains[k]->triangles.size();
+        shown_ground += coarse.triangles.size();
+        all["n/terrain/" + std::to_string(k)] = surface(coarse, 0, 0);
+      }
       return all;
+    }
+
+    // What is shown coarser than it is; empty: nothing.
+    std::string coarser() const {
+      std::string told;
+      for (const auto& [count, noun] : {std::pair(upright, "volume"), std::pair(upright_neighbours, "existing building")})
+        if (count > 0)
+          told += (told.empty() ? "" : ", ") + reading::counted(count, noun) +
+                  (count == 1 ? " is an upright body over its outline" : " are upright bodies over their outlines");
+      if (shown_ground < all_ground)
+        told += (told.empty() ? "" : ", ") + std::string("the ground has ") + std::to_string(shown_ground) + " of " +
+                std::to_string(all_ground) + " triangles";
+      return told;
     }
 
     PageJson looks() const {
@@ -257,11 +276,13 @@ struct HtmlFormat {
               {"streets", streets}};
     }
 
+    static PageJson rule_of(const std::optional<double>& limit) { return limit ? PageJson(*limit) : PageJson(); }
+
     PageJson document() {
       const PlanExtent extent = plan_extent(proposal);
       origin = {std::round((extent.low.x + extent.high.x) / 2), std::round((extent.low.y + extent.high.y) / 2), 0};
       PageJson identity = PageJson::array(), plots = PageJson::array(), indicators = PageJson::array(),
-               conflicts = PageJson::array(), troubles = PageJson::array(), uses = PageJson::array();
+               conflicts = PageJson::array(), troubles = PageJson::array(), uses = PageJson::array(), open = PageJson::array();
       for (const auto& [name, value] : identity_of(proposal)) identity.push_back({name, value});
       for (const Land& land : proposal.lands)
         plots.push_back({{"name", land.name},
@@ -269,9 +290,9 @@ struct HtmlFormat {
                          {"area", land.area},
                          {"fsi", land.fsi},
                          {"gsi", land.gsi},
-                         {"fsi_max", land.fsi_max},
-                         {"gsi_max", land.gsi_max},
-                         {"height_max", land.height_max}});
+                         {"fsi_max", rule_of(land.fsi_max)},
+                         {"gsi_max", rule_of(land.gsi_max)},
+                         {"height_max", rule_of(land.height_max)}});
       for (const Indicator& one : proposal.indicators)
         indicators.push_back({{"name", one.name},
                               {"value", one.value},
@@ -284,6 +305,8 @@ struct HtmlFormat {
         conflicts.push_back({{"node", one.node}, {"port", one.port}, {"tension", one.tension}, {"pulls", one.pulls}});
       for (const Trouble& one : proposal.troubles) troubles.push_back({{"place", one.place}, {"message", one.message}});
       for (const UseRow& row : proposal.uses) uses.push_back(use_of(row));
+      for (const OpenSpace& one : proposal.open_spaces)
+        open.push_back({{"use", one.use}, {"area", one.area}, {"asked_area", one.asked_area}, {"why", one.why_short}});
       PageJson all = {{"title", proposal.name()},
                       {"about", proposal.about},
                       {"settled", proposal.is_settled},
@@ -293,6 +316,7 @@ struct HtmlFormat {
                       {"buildings", buildings()},
                       {"uses", uses},
                       {"all", use_of(proposal.all)},
+                      {"open", open},
                       {"plots", plots},
                       {"indicators", indicators},
                       {"conflicts", conflicts},
@@ -324,7 +348,8 @@ struct HtmlFormat {
           "the page is not built; `./bl export` builds it where npm is installed (the Debian packages nodejs and npm), and "
           "the variable BEHAVIOURLINKS_PAGE names the folder of a built one"};
     ExportFiles made;
-    constexpr std::array<Detail, 5> kDetails = {{{0.01, 3, 8000}, {0.02, 2, 4000}, {0.1, 1, 1500}, {0.3, 1, 400}, {1, 1, 0}}};
+    constexpr std::array<Detail, 5> kDetails = {
+        {{0.01, 3, 8000, 64000}, {0.02, 2, 4000, 32000}, {0.1, 1, 1500, 12000}, {0.3, 1, 400, 4000}, {1, 1, 0, 1000}}};
     const auto rounded = static_cast<std::size_t>(std::count_if(proposal.buildings.begin(), proposal.buildings.end(),
                                                                 [](const Building& b) { return b.light_mesh == nullptr; }));
     for (const Detail& detail : kDetails) {
@@ -337,10 +362,9 @@ struct HtmlFormat {
       page.replace(data, kData.size(), script_text(builder.document()));
       page.replace(title, kTitle.size(), drawing::Markup().text(proposal.name()).str());
       if (page.size() > kMostPageBytes) continue;
-      if (builder.upright > 0)
-        made.notes.push_back("so that the page stays below 3 MB, " + reading::counted(builder.upright, "volume") +
-                             " in three dimensions " + (builder.upright == 1 ? "is" : "are") +
-                             " an upright body over its outline");
+      const std::string told = builder.coarser();
+      if (!told.empty() || detail.plan > kDetails.front().plan)
+        made.notes.push_back("so that the page stays below 3 MB, shapes are coarser" + (told.empty() ? "" : ": " + told));
       made.files.push_back({"proposal.html", std::move(page)});
       return made;
     }

@@ -1,4 +1,5 @@
 // Site, buildings, storeys and spaces as IFC4, with quantities, uses as a classification and the place on Earth.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "core/export/read_proposal.h"
 #include "core/export/step_file.h"
 #include "core/geometry/plan_ring.h"
+#include "core/reading/figures.h"
 
 namespace bl::exporting {
 
@@ -37,7 +39,8 @@ struct IfcFormat {
         "of "
         "a space is a classification. Each straight side and each arc of a standing "
         "storey has a wall, with what it borders on; towards neighbours it is no external one. A rounded volume is given as the "
-        "plates that it is measured by, without walls. Identifiers follow from "
+        "plates that it is measured by, without walls, also as slabs or standing: what its sides border on is not known. "
+        "Identifiers follow from "
         "those of the scene, so that they are the same in every export.");
     f.ending(".ifc").begins(
         "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView_V1.0]','BehaviourLinks");
@@ -314,6 +317,14 @@ struct IfcFormat {
     ExportFiles files;
     if (!proposal.reference.crs.starts_with("EPSG:"))
       files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion");
+    // Bodies that another form makes of rounded volumes.
+    const auto bare =
+        static_cast<std::size_t>(std::count_if(proposal.buildings.begin(), proposal.buildings.end(), [](const Building& b) {
+          return b.is_standing && b.storeys.front().rings.empty();
+        }));
+    if (options.walls && bare > 0)
+      files.notes.push_back(reading::counted(bare, "volume") + " " + reading::choice_of(proposal.form).measured +
+                            (bare == 1 ? " has" : " have") + " no walls: what the sides border on is not known");
     files.files.push_back({"proposal.ifc", made.file.str("BehaviourLinks: " + identity_line(proposal), proposal.file, "IFC4")});
     return files;
   }

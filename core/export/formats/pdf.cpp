@@ -22,7 +22,7 @@ struct PdfFormat {
         "format svg draws "
         "them. Letters are "
         "those of western Europe; others become question marks, which is told.");
-    f.ending(".pdf").begins("%PDF");
+    f.ending(".pdf").marked({"%PDF", "/Creator (BehaviourLinks)", ""});
     declare_sheet_options(f);
   }
 
@@ -58,12 +58,20 @@ struct PdfFormat {
     for (int k = 0; k < 5; ++k) cell(table, x + 120 + 30 * k, y, heads[k], true, true);
     y += 7;
     // What has no place on this page is in the tables of xlsx and csv.
-    const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - 20) / 6));
+    const double after = 20 + 6 * static_cast<double>(proposal.open_spaces.size());
+    const auto room = static_cast<std::size_t>(std::max(0.0, (like.window_high.y - y - after) / 6));
     for (std::size_t k = 0; k < std::min(room, proposal.uses.size()); ++k)
       row(use_name(proposal.uses[k].use), proposal.uses[k], false);
     if (room < proposal.uses.size())
       cell(table, x, y, "and " + std::to_string(proposal.uses.size() - room) + " more uses", false), y += 6;
     row("all", proposal.all, true);
+    for (const OpenSpace& open : proposal.open_spaces) {
+      if (y > like.window_high.y - 12) break;
+      cell(table, x, y, open.use + ", open space", false);
+      const double ground[] = {open.asked_area, open.area, open.area - open.asked_area};
+      for (int k = 0; k < 3; ++k) cell(table, x + 120 + 30 * k, y, fixed(ground[k], 1), true);
+      y += 6;
+    }
     UseRow below;
     for (const Building& b : proposal.buildings) {
       for (const Storey& s : b.cellars) below.floor_area += s.floor_area;

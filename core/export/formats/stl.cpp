@@ -29,7 +29,7 @@ struct StlFormat {
         "triangles, a folder gets a file for each building, named by its id. As text each building is a solid with its name, "
         "which "
         "not every program reads.");
-    f.ending(".stl").begins("solid ").begins("BehaviourLinks binary");
+    f.ending(".stl").marked({"solid ", " BehaviourLinks, 1:", ""}).begins("BehaviourLinks binary");
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::layout, "layout",
              {{StlLayout::binary, "binary", "Small, and read by all programs; it has no names."},
@@ -98,12 +98,12 @@ struct StlFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options, bool is_folder) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings, options.cellars);
-    // All files of a folder lie in one frame, so that they fit together.
-    const ModelScale scale(solids, options.scale);
-    const std::string note = "1:" + shortest(options.scale) + ", mm; " + identity_line(proposal);
     ExportFiles made;
     made.notes = left_out_cellars(proposal, options.cellars);
+    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, options.cellars, made.notes);
+    // All files of a folder lie in one frame, so that they fit together.
+    const ModelScale scale(solids, options.scale);
+    const std::string note = "BehaviourLinks, 1:" + shortest(options.scale) + ", mm; " + identity_line(proposal);
     const auto add = [&](const std::string& name, const std::vector<Solid>& part) {
       made.files.push_back(
           {name, options.layout == StlLayout::text ? as_text(part, scale, note) : as_binary(part, scale, proposal)});

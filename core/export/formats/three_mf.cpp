@@ -13,6 +13,9 @@ namespace bl::exporting {
 
 namespace {
 
+// The comment of the archive, by which its files are known.
+constexpr const char* kThreeMfEnd = "BehaviourLinks 3mf";
+
 struct ThreeMfFormat {
   // A print stands on its plate, so cellars would lift the houses off it.
   struct Options : MeshOptions {
@@ -25,7 +28,7 @@ struct ThreeMfFormat {
     f.doc(
         "Closed meshes in millimetres at a model scale, on the plate with the lowest corner at the origin. Each building is an "
         "object with its name; its use is its material, with its colour.");
-    f.ending(".3mf").begins("PK\x03\x04");
+    f.ending(".3mf").marked({"PK\x03\x04", "", kThreeMfEnd});
     f.option(&Options::scale, "scale").unit(Unit::ratio).range(1, 100000).doc("The n of the scale 1:n.");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
     declare_mesh_options(f);
@@ -86,13 +89,17 @@ struct ThreeMfFormat {
   }
 
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
-    const std::vector<Solid> solids = solids_of(proposal, options.surroundings, options.cellars);
+    ExportFiles made;
+    made.notes = left_out_cellars(proposal, options.cellars);
+    const std::vector<Solid> solids = printable_solids_of(proposal, options.surroundings, options.cellars, made.notes);
     const ModelScale scale(solids, options.scale);
     auto archive = zip_archive({{"[Content_Types].xml", kTypes},
                                 {"_rels/.rels", kRelations},
-                                {"3D/3dmodel.model", model_of(proposal, solids, scale, options)}});
+                                {"3D/3dmodel.model", model_of(proposal, solids, scale, options)}},
+                               kThreeMfEnd);
     if (!archive) return archive.error();
-    return ExportFiles{{{"model.3mf", std::move(*archive)}}, left_out_cellars(proposal, options.cellars)};
+    made.files.push_back({"model.3mf", std::move(*archive)});
+    return made;
   }
 };
 

@@ -18,11 +18,12 @@ struct XlsxFormat {
   static void declare(FormatBuilder<XlsxFormat>& f) {
     f.id("xlsx").label("Area schedule (XLSX)");
     f.doc(
-        "A workbook: storeys, buildings, programme against result, plots with their indices, indicators with their targets, "
+        "A workbook: storeys, buildings, programme against result, open space, plots with their indices, indicators with their "
+        "targets, "
         "problems, and what scene and state it is of. "
         "Sums are formulas over the rows above, or over the sheets before, and bring their values along, so that programs which "
         "do not calculate read the same numbers.");
-    f.ending(".xlsx").begins("PK\x03\x04");
+    f.ending(".xlsx").marked({"PK\x03\x04", "", kXlsxEnd});
     f.option(&Options::formulas, "formulas").doc("Sums as formulas; else as numbers alone.");
     declare_form_option(f);
   }
@@ -53,6 +54,10 @@ struct XlsxFormat {
       return "SUM(" + c + "2:" + c + std::to_string(last) + ")";
     }
 
+    // Of the rows that have that name: the equals sign of spreadsheets takes Office for office.
+    static std::string sum_where(const std::string& names, const std::string& name, const std::string& numbers) {
+      return "SUMPRODUCT(EXACT(" + names + "," + name + ")*" + numbers + ")";
+    }
     // In the order of the rows that a formula adds up.
     static double sum_of_storeys(const Building& building) {
       double sum = building.mesh != nullptr ? 0 : building.floor_area;
@@ -90,8 +95,8 @@ struct XlsxFormat {
         area += sum, asked += one.asked_area, volume += one.volume, asked_volume += one.asked_volume, footprint += one.footprint;
       };
       for (const Building& one : proposal.buildings) {
-        const std::string of_storeys = "SUMPRODUCT((" + range("Storeys", 'A', last_storey) + "=A" +
-                                       std::to_string(sheet.rows.size() + 1) + ")*" + range("Storeys", 'H', last_storey) + ")";
+        const std::string of_storeys = sum_where(range("Storeys", 'A', last_storey), "A" + std::to_string(sheet.rows.size() + 1),
+                                                 range("Storeys", 'H', last_storey));
         add(one, one.is_standing ? "standing" : "rounded", f(of_storeys, sum_of_storeys(one)));
       }
       for (const Building& one : proposal.shapeless) add(one, "no shape", n(one.floor_area));
@@ -118,8 +123,7 @@ struct XlsxFormat {
       for (const UseRow& use : proposal.uses) {
         const std::string row = std::to_string(sheet.rows.size() + 1);
         const auto sum_of = [&](char column) {
-          return "SUMPRODUCT((" + range("Buildings", 'C', last_building) + "=A" + row + ")*" +
-                 range("Buildings", column, last_building) + ")";
+          return sum_where(range("Buildings", 'C', last_building), "A" + row, range("Buildings", column, last_building));
         };
         double got = 0, got_volume = 0;
         for (const auto* list : {&proposal.buildings, &proposal.shapeless})
@@ -145,14 +149,35 @@ struct XlsxFormat {
       return sheet;
     }
 
+    // Rows of the programme that ask for ground; only where there are any.
+    XlsxSheet open_space() const {
+      XlsxSheet sheet{"Open space", {24, 16, 16, 16, 12, 100}, {}};
+      sheet.rows.push_back(header({"use", "asked ground [m2]", "open ground [m2]", "difference [m2]", "met", "why"}));
+      double asked = 0, area = 0;
+      for (const OpenSpace& open : proposal.open_spaces) {
+        const std::string row = std::to_string(sheet.rows.size() + 1);
+        sheet.rows.push_back(
+            {w(open.use), n(open.asked_area), n(open.area), f("C" + row + "-B" + row, open.area - open.asked_area),
+             open.asked_area > 0 ? f("C" + row + "/B" + row, open.area / open.asked_area, XlsxStyle::percent) : XlsxCell(),
+             w(open.why_short)});
+        asked += open.asked_area, area += open.area;
+      }
+      const std::size_t last = sheet.rows.size();
+      sheet.rows.push_back({b("all"), f(above('B', last), asked), f(above('C', last), area), f(above('D', last), area - asked)});
+      return sheet;
+    }
+
     XlsxSheet plots() const {
-      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16}, {}};
-      sheet.rows.push_back(
-          header({"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]"}));
+      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16, 14}, {}};
+      sheet.rows.push_back(header(
+          {"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]", "kept open [m2]"}));
       for (const Land& land : proposal.lands) {
         Cells row = {w(land.name), w(land.is_boundary ? "boundary" : "plot"), n(land.area)};
         if (!land.is_boundary)
-          for (const double value : {land.fsi, land.gsi, land.fsi_max, land.gsi_max, land.height_max}) row.push_back(n(value));
+          for (const std::optional<double>& value :
+               {std::optional(land.fsi), std::optional(land.gsi), land.fsi_max, land.gsi_max, land.height_max})
+            row.push_back(value ? n(*value) : XlsxCell());
+        if (land.is_boundary && land.open_area > 0) row.resize(8), row.push_back(n(land.open_area));
         sheet.rows.push_back(std::move(row));
       }
       return sheet;
@@ -215,6 +240,7 @@ struct XlsxFormat {
                                      tables.problems(),
                                      tables.about()};
     if (XlsxSheet cellars = tables.cellars(); cellars.rows.size() > 2) sheets.insert(sheets.begin() + 3, std::move(cellars));
+    if (!proposal.open_spaces.empty()) sheets.insert(sheets.begin() + 1, tables.open_space());
     auto book = xlsx_book(sheets, proposal.name(), identity_line(proposal));
     if (!book) return book.error();
     return ExportFiles{{{"schedule.xlsx", std::move(*book)}}, {}};

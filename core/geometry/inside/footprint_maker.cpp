@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Labels beside those of PlanSide. A block's sides are its first pair, across which its first side runs, and its second.
-constexpr double kNothing = 1e-13;  // areas below this share of the square of the reach
+constexpr std::size_t kMostSquares = 1000;  // in a row or column
+constexpr double kNothing = 1e-13;          // areas below this share of the square of the reach
 constexpr std::int32_t kAlong = -10, kAcross = -11;
 
 struct HalfSides {
@@ -43,6 +44,13 @@ PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run) {
           {outer.plot.border + (site.has_border_walls ? wing : own), outer.plot.street + own}};
 }
 
+bool leaves_form(const StandingSite& site, const PlateOffset& offset) {
+  if (site.form == FootprintForm::cell) return true;
+  if (site.form == FootprintForm::round) return std::sqrt(std::max(0.0, site.site.weight)) > offset.own;
+  const HalfSides half = half_sides(site);
+  return half.along > offset.own && half.across > offset.own;
+}
+
 int StandingSite::storeys() const {
   int count = 0;
   for (const StoreyRun& run : runs) count += run.storeys;
@@ -64,9 +72,38 @@ void PlanGrid::fill(std::span<const StandingSite> sites) {
     high = {std::max(high.x, s.site.position.x), std::max(high.y, s.site.position.y)};
     largest_weight_ = std::max(largest_weight_, s.site.weight);
   }
-  if (sites.empty()) return;
+  if (sites.empty()) {
+    sites_.clear();
+    return;
+  }
+  sort_in(sites, high);
+  if (!is_crowded()) return;
+  // The box of nine tenths of the sites, and a little more.
+  std::vector<double> places(sites.size());
+  const auto middle = [&](const auto& place_of, double& low, double& end) {
+    for (std::size_t i = 0; i < sites.size(); ++i) places[i] = place_of(sites[i]);
+    std::sort(places.begin(), places.end());
+    const std::size_t cut = sites.size() / 20;
+    const double first = places[cut], last = places[places.size() - 1 - cut], more = 0.1 * (last - first);
+    low = std::max(low, first - more);
+    end = std::min(end, last + more);
+  };
+  middle([](const StandingSite& s) { return s.site.position.x; }, low_.x, high.x);
+  middle([](const StandingSite& s) { return s.site.position.y; }, low_.y, high.y);
+  sort_in(sites, high);
+}
+
+bool PlanGrid::is_crowded() const {
+  constexpr std::uint32_t kMany = 64;
+  std::uint32_t most = 0;
+  for (std::size_t k = 1; k < starts_.size(); ++k) most = std::max(most, starts_[k] - starts_[k - 1]);
+  return most > kMany && most > sites_.size() / 8;
+}
+
+void PlanGrid::sort_in(std::span<const StandingSite> sites, const PlanPoint& high) {
   const double x = high.x - low_.x, y = high.y - low_.y;
-  width_ = std::max({std::sqrt(x * y / static_cast<double>(sites.size())), std::max(x, y) / 1000, 1e-9});
+  width_ = std::max({std::sqrt(x * y / static_cast<double>(sites.size())), std::max(x, y) / kMostSquares, 1e-9});
+  columns_ = rows_ = kMostSquares + 1;
   columns_ = column_of(high.x) + 1;
   rows_ = row_of(high.y) + 1;
   starts_.assign(columns_ * rows_ + 1, 0);
@@ -80,9 +117,13 @@ void PlanGrid::fill(std::span<const StandingSite> sites) {
   for (std::uint32_t i = 0; i < sites.size(); ++i) sites_[at[square(sites[i])]++] = i;
 }
 
-std::size_t PlanGrid::column_of(double x) const { return static_cast<std::size_t>(std::max(0.0, (x - low_.x) / width_)); }
+std::size_t PlanGrid::column_of(double x) const {
+  return static_cast<std::size_t>(std::clamp((x - low_.x) / width_, 0.0, static_cast<double>(columns_ - 1)));
+}
 
-std::size_t PlanGrid::row_of(double y) const { return static_cast<std::size_t>(std::max(0.0, (y - low_.y) / width_)); }
+std::size_t PlanGrid::row_of(double y) const {
+  return static_cast<std::size_t>(std::clamp((y - low_.y) / width_, 0.0, static_cast<double>(rows_ - 1)));
+}
 
 void PlanGrid::near(std::uint32_t i, std::span<const StandingSite> sites, double reach, const PlanPoint& low,
                     const PlanPoint& high, std::vector<PlanNeighbour>& found) const {
@@ -120,7 +161,7 @@ void PlanGrid::near(std::uint32_t i, std::span<const StandingSite> sites, double
   };
   const auto most = static_cast<std::ptrdiff_t>(std::max(columns_, rows_));
   for (std::ptrdiff_t ring = 0; ring <= most && !is_hidden; ++ring) {
-    // All sites of this ring and beyond are at least so far away.
+    // All sites of this ring and beyond are at least so far away, those beyond the edge all the more.
     if (ring > 1 && static_cast<double>(ring - 1) * width_ > limit(largest_weight_)) break;
     for (std::ptrdiff_t r = row - ring; r <= row + ring; ++r) {
       if (r < 0 || r >= static_cast<std::ptrdiff_t>(rows_)) continue;
@@ -170,9 +211,10 @@ FootprintMaker::Sum FootprintMaker::measure_offset(std::uint32_t i, const PlateO
   Sum sum;
   lengths_.assign(neighbours_.size(), 0);
   const StandingSite& site = sites_[i];
+  if (!leaves_form(site, offset)) return sum;
   const double radius = site.form == FootprintForm::round ? std::sqrt(std::max(0.0, site.site.weight)) - offset.own : kInfinity;
   const PlanPlot::Pieces* pieces = plot_.made(offset.plot);
-  if (!(radius > 0) || pieces == nullptr) return sum;
+  if (pieces == nullptr) return sum;
   double scale = 0;
   for (const PlanPlot::Piece& piece : *pieces) {
     if (!cut(piece, i, offset)) continue;

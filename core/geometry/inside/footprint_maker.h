@@ -22,6 +22,9 @@ struct PlateOffset {
 PlateOffset outer_offset(const StandingSite& site, const StoreyRun& run);
 PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run);
 
+/// Does the form, eroded so far, leave anything? Without a form there is always something.
+bool leaves_form(const StandingSite& site, const PlateOffset& offset);
+
 /// Another site near enough to have a side with this one.
 struct PlanNeighbour {
   std::uint32_t site = 0;
@@ -38,8 +41,20 @@ class PlanGrid {
   /// ascending distance. Sites in the same place have no bisector and are left out.
   void near(std::uint32_t i, std::span<const StandingSite> sites, double reach, const PlanPoint& low, const PlanPoint& high,
             std::vector<PlanNeighbour>& found) const;
+  /// Calls `visit` for all sites that are no farther from a place than `distance` [m], and for some that are.
+  template <class Visit>
+  void around(const Point3& at, double distance, const Visit& visit) const {
+    if (sites_.empty() || !(distance >= 0)) return;
+    for (std::size_t row = row_of(at.y - distance); row <= row_of(at.y + distance); ++row)
+      for (std::size_t column = column_of(at.x - distance); column <= column_of(at.x + distance); ++column)
+        for (std::uint32_t k = starts_[row * columns_ + column]; k < starts_[row * columns_ + column + 1]; ++k) visit(sites_[k]);
+  }
 
  private:
+  // Squares over the box from `low_` to `high`; who lies beyond it is in the nearest square of its edge.
+  void sort_in(std::span<const StandingSite> sites, const PlanPoint& high);
+  // Has one square a large part of all sites, because a few lie far away?
+  bool is_crowded() const;
   std::size_t column_of(double x) const;
   std::size_t row_of(double y) const;
 

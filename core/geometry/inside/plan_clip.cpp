@@ -39,28 +39,12 @@ bool clip(PlanPolygon& polygon, const HalfPlane& by, std::int32_t beyond, PlanPo
 
 namespace {
 
-// The triangle of the origin and a side [a, b] of one line at the signed distance `height` of the origin (positive where the
-// origin lies inside): area and moment. `e` is the direction of the line, `n` its outer normal.
-void add_triangle(double height, double a, double b, const PlanPoint& e, const PlanPoint& n, DiscMeasure& sum) {
-  const double area = 0.5 * height * (b - a), along = (a + b) / 3, out = 2 * height / 3;
-  sum.area += area;
-  sum.moment.x += area * (along * e.x + out * n.x);
-  sum.moment.y += area * (along * e.y + out * n.y);
-}
-
-// The sector of the disc below the part [a, b] of the line. Its moment is r³/3 times the difference of the unit vectors of its
-// ends, turned by a right angle.
-void add_sector(double radius, double height, double a, double b, const PlanPoint& e, const PlanPoint& n, DiscMeasure& sum) {
+// The sector of the disc below the part [a, b] of a line at the signed distance `height` of the origin (positive where the origin
+// lies inside).
+void add_sector(double radius, double height, double a, double b, DiscMeasure& sum) {
   const double angle = mathematics::arc_tangent(height * (b - a), height * height + a * b);
   sum.area += 0.5 * radius * radius * angle;
   sum.arc += radius * angle;
-  const double to_a = std::sqrt(height * height + a * a), to_b = std::sqrt(height * height + b * b);
-  if (to_a == 0 || to_b == 0) return;
-  const PlanPoint ua{(a * e.x + height * n.x) / to_a, (a * e.y + height * n.y) / to_a};
-  const PlanPoint ub{(b * e.x + height * n.x) / to_b, (b * e.y + height * n.y) / to_b};
-  const double third = radius * radius * radius / 3;
-  sum.moment.x += third * (ub.y - ua.y);
-  sum.moment.y -= third * (ub.x - ua.x);
 }
 
 }  // namespace
@@ -74,20 +58,20 @@ DiscMeasure measure_in_disc(const PlanPolygon& polygon, double radius, std::vect
     const PlanPoint& q = polygon.corners[k + 1 < count ? k + 1 : 0].at;
     const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
     if (!(length > 0)) continue;
-    const PlanPoint e{dx / length, dy / length}, n{e.y, -e.x};
-    const double height = n.x * p.x + n.y * p.y, a = e.x * p.x + e.y * p.y, b = a + length;
+    const PlanPoint e{dx / length, dy / length};
+    const double height = e.y * p.x - e.x * p.y, a = e.x * p.x + e.y * p.y, b = a + length;
     const double rest = std::isinf(radius) ? radius : (radius - height) * (radius + height);
     if (!(rest > 0)) {
-      add_sector(radius, height, a, b, e, n, sum);
+      add_sector(radius, height, a, b, sum);
       continue;
     }
     const double half = std::sqrt(rest), low = std::clamp(-half, a, b), high = std::clamp(half, a, b);
-    if (a < low) add_sector(radius, height, a, low, e, n, sum);
+    if (a < low) add_sector(radius, height, a, low, sum);
     if (low < high) {
-      add_triangle(height, low, high, e, n, sum);
+      sum.area += 0.5 * height * (high - low);
       lengths[k] += high - low;
     }
-    if (high < b) add_sector(radius, height, high, b, e, n, sum);
+    if (high < b) add_sector(radius, height, high, b, sum);
   }
   return sum;
 }

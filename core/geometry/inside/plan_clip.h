@@ -44,9 +44,8 @@ bool clip(PlanPolygon& polygon, const HalfPlane& by, std::int32_t beyond, PlanPo
 
 /// The part of a polygon inside a disc about the origin. A radius of infinity takes all of it.
 struct DiscMeasure {
-  double area = 0;   ///< [m²]
-  double arc = 0;    ///< length of the disc's edge inside the polygon [m]
-  PlanPoint moment;  ///< integral of the position over the area [m³]
+  double area = 0;  ///< [m²]
+  double arc = 0;   ///< length of the disc's edge inside the polygon [m]
 };
 
 /// Adds to `lengths` the length [m] that each side k has inside the disc; `lengths` has one number for each corner.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -50,16 +51,6 @@ PlanPolygon section_of(const Domain::Piece& piece, double z) {
   return polygon;
 }
 
-double area_of(const PlanPolygon& polygon) {
-  double twice = 0;
-  const std::size_t count = polygon.corners.size();
-  for (std::size_t k = 1; k + 1 < count; ++k) {
-    const PlanPoint &a = polygon.corners[0].at, &b = polygon.corners[k].at, &c = polygon.corners[k + 1].at;
-    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-  return 0.5 * twice;
-}
-
 PlanPlot::Piece piece_of(PlanPolygon polygon) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   PlanPlot::Piece piece{std::move(polygon), {kFar, kFar}, {-kFar, -kFar}};
@@ -70,28 +61,47 @@ PlanPlot::Piece piece_of(PlanPolygon polygon) {
   return piece;
 }
 
-// Places on the grid. Corners of several pieces at one place get the same numbers, whichever way each was rounded.
+// Places on the grid. Corners of several pieces at one place get the same numbers, whichever way each was rounded: those of the
+// first one that is near enough.
 class PlotGrid {
  public:
   explicit PlotGrid(const PlanPoint& origin) : origin_(origin) {}
 
-  ClipperLib::IntPoint of(const PlanPoint& p) {
+  std::size_t number_of(const PlanPoint& p) {
     const ClipperLib::IntPoint at = exactly(p);
-    for (const ClipperLib::IntPoint& known : known_)
-      if (std::abs(known.X - at.X) <= kSameStep && std::abs(known.Y - at.Y) <= kSameStep) return known;
+    const Square square = square_of(at);
+    std::size_t first = known_.size();
+    for (ClipperLib::cInt x = square.first - 1; x <= square.first + 1; ++x)
+      for (ClipperLib::cInt y = square.second - 1; y <= square.second + 1; ++y)
+        if (const auto found = squares_.find({x, y}); found != squares_.end())
+          for (const std::size_t k : found->second)
+            if (std::abs(known_[k].X - at.X) <= kSameStep && std::abs(known_[k].Y - at.Y) <= kSameStep)
+              first = std::min(first, k);
+    if (first < known_.size()) return first;
+    squares_[square].push_back(first);
     known_.push_back(at);
-    return at;
+    return first;
   }
+  std::size_t count() const { return known_.size(); }
+  ClipperLib::IntPoint of(const PlanPoint& p) { return known_[number_of(p)]; }
   ClipperLib::IntPoint exactly(const PlanPoint& p) const { return {step(p.x - origin_.x), step(p.y - origin_.y)}; }
   PlanCorner back(const ClipperLib::IntPoint& p, std::size_t number) const {
     return {origin_.x + static_cast<double>(p.X) / kGrid, origin_.y + static_cast<double>(p.Y) / kGrid, number};
   }
 
  private:
+  using Square = std::pair<ClipperLib::cInt, ClipperLib::cInt>;
+
   static ClipperLib::cInt step(double metres) { return static_cast<ClipperLib::cInt>(std::llround(metres * kGrid)); }
+  // Places that are the same lie in one square or in squares side by side.
+  static Square square_of(const ClipperLib::IntPoint& p) {
+    const auto of = [](ClipperLib::cInt at) { return at / kSameStep - (at % kSameStep < 0 ? 1 : 0); };
+    return {of(p.X), of(p.Y)};
+  }
 
   PlanPoint origin_;
   std::vector<ClipperLib::IntPoint> known_;
+  std::map<Square, std::vector<std::size_t>> squares_;
 };
 
 // A side of the border, with the inside on its left; `normal` points inwards. Nothing is built nearer than `by` to it [m].
@@ -231,6 +241,26 @@ void add_pieces(const ClipperLib::PolyNode& outer, const PlotGrid& grid, PlanPlo
 
 }  // namespace
 
+double area_of(const PlanPolygon& polygon) {
+  double twice = 0;
+  const std::size_t count = polygon.corners.size();
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const PlanPoint &a = polygon.corners[0].at, &b = polygon.corners[k].at, &c = polygon.corners[k + 1].at;
+    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return 0.5 * twice;
+}
+
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z, const PlanPoint& low, const PlanPoint& high) {
+  std::vector<PlanPolygon> sections;
+  for (const Domain::Piece& piece : domain.pieces) {
+    const Vector3 &least = piece.shape.minimum, &most = piece.shape.maximum;
+    if (least.z > z || most.z < z || least.x > high.x || most.x < low.x || least.y > high.y || most.y < low.y) continue;
+    if (PlanPolygon polygon = section_of(piece, z); !polygon.is_empty()) sections.push_back(std::move(polygon));
+  }
+  return sections;
+}
+
 Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetAxis> streets) {
   PlanPlot plot;
   const double z = domain.minimum.z + kSectionShare * (domain.maximum.z - domain.minimum.z);
@@ -250,6 +280,10 @@ Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetA
     plot.low_ = {std::min(plot.low_.x, piece.low.x), std::min(plot.low_.y, piece.low.y)};
     plot.high_ = {std::max(plot.high_.x, piece.high.x), std::max(plot.high_.y, piece.high.y)};
   }
+  constexpr double kRounding = 1 + 1e-9;
+  const double width = plot.high_.x - plot.low_.x, depth = plot.high_.y - plot.low_.y;
+  plot.widest_ = 0.5 * kRounding * std::min(width, depth);
+  plot.farthest_ = kRounding * mathematics::hypotenuse(width, depth);
   return plot;
 }
 
@@ -270,14 +304,23 @@ PlotOffset PlanPlot::effective(const PlotOffset& by) const {
 const PlanPlot::Pieces& PlanPlot::eroded(const PlotOffset& asked) {
   const PlotOffset by = effective(asked);
   if (!(by.border > 0 || by.street > 0)) return pieces_;
+  // A depth that is meant as none would cost discs of its radius about all corners.
+  if (is_too_far(by)) return none_;
   const auto [entry, is_new] = eroded_.try_emplace(by);
   if (is_new) entry->second = pieces_.size() == 1 && by.border == by.street ? erode_convex(by.border) : erode_rings(by);
   return entry->second;
 }
 
+void PlanPlot::keep_only(std::vector<PlotOffset> used) {
+  for (PlotOffset& by : used) by = effective(by);
+  std::sort(used.begin(), used.end());
+  std::erase_if(eroded_, [&used](const auto& entry) { return !std::binary_search(used.begin(), used.end(), entry.first); });
+}
+
 const PlanPlot::Pieces* PlanPlot::made(const PlotOffset& asked) const {
   const PlotOffset by = effective(asked);
   if (!(by.border > 0 || by.street > 0)) return &pieces_;
+  if (is_too_far(by)) return &none_;
   const auto entry = eroded_.find(by);
   return entry == eroded_.end() ? nullptr : &entry->second;
 }
@@ -318,16 +361,21 @@ PlanPlot::Pieces PlanPlot::erode_rings(const PlotOffset& by) const {
     if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
     clipper.AddPath(path, ClipperLib::ptClip, true);
   };
+  std::vector<std::vector<std::size_t>> leaving;  // per corner: the sides that begin there
+  for (std::size_t k = 0; !is_mixed && k < border.size(); ++k) {
+    const std::size_t corner = grid.number_of(border[k].from);
+    leaving.resize(grid.count());
+    leaving[corner].push_back(k);
+  }
   // A strip along each side, and about corners what the strips of both sides leave out.
   for (const BorderSide& side : border) {
     if (!(side.by > 0)) continue;
     clipper.AddPath(strip_of(side, is_mixed, grid), ClipperLib::ptClip, true);
     if (is_mixed)
       for (const Fan& end : ends_of(side)) take_away(end);
-    for (const BorderSide& next : border) {
-      if (is_mixed || !(grid.of(next.from) == grid.of(side.to))) continue;
-      if (const std::optional<Fan> fan = fan_between(side, next)) take_away(*fan);
-    }
+    const std::size_t corner = is_mixed ? leaving.size() : grid.number_of(side.to);
+    for (std::size_t k = 0; corner < leaving.size() && k < leaving[corner].size(); ++k)
+      if (const std::optional<Fan> fan = fan_between(side, border[leaving[corner][k]])) take_away(*fan);
   }
   ClipperLib::PolyTree tree;
   clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);

@@ -1,7 +1,9 @@
 // The plot on which volumes stand, as convex pieces, and the same eroded by a distance.
 #pragma once
 
+#include <algorithm>
 #include <compare>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <vector>
@@ -20,6 +22,11 @@ struct PlotOffset {
   auto operator<=>(const PlotOffset&) const = default;
 };
 
+/// The section of a domain, as convex polygons: those that can meet the box from `low` to `high`.
+std::vector<PlanPolygon> sections_at(const Domain& domain, double z, const PlanPoint& low, const PlanPoint& high);
+/// [m²]; negative where the corners are clockwise.
+double area_of(const PlanPolygon& polygon);
+
 class PlanPlot {
  public:
   struct Piece {
@@ -32,11 +39,14 @@ class PlanPlot {
   static Result<PlanPlot> section(const Domain& domain, std::span<const StreetAxis> streets = {});
 
   /// All points of the plot that lie at least so far [m] from each side of its border. Exact for a convex plot with one distance.
-  /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept: distances are few,
-  /// because set-backs are rules of a whole plot.
+  /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept until `keep_only`:
+  /// distances are few, because set-backs are rules of a whole plot.
   const Pieces& eroded(const PlotOffset& by);
   /// The same where it has been asked for before, else nullptr.
   const Pieces* made(const PlotOffset& by) const;
+  /// Forgets what is eroded by other distances than these. While somebody drags a distance, each frame has a new one.
+  void keep_only(std::vector<PlotOffset> used);
+  std::size_t kept() const { return eroded_.size(); }
   double area() const { return area_; }
   const PlanPoint& low() const { return low_; }
   const PlanPoint& high() const { return high_; }
@@ -47,12 +57,19 @@ class PlanPlot {
   void mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets);
   // Without sides of one kind their distance makes no difference.
   PlotOffset effective(const PlotOffset& by) const;
+  // Is no point so far from the sides, whatever the plot is like inside its box? A disc in it is no wider than the box, and no
+  // two points are farther apart than the corners of the box.
+  bool is_too_far(const PlotOffset& by) const {
+    return std::min(by.border, by.street) > widest_ || std::max(by.border, by.street) > farthest_;
+  }
 
   Pieces pieces_;  // as they are
   double area_ = 0;
   PlanPoint low_, high_;
+  double widest_ = 0, farthest_ = 0;                // half of its smaller side, and its diagonal [m], with room for rounding
   bool has_streets_ = false, has_borders_ = false;  // sides of each kind
   std::map<PlotOffset, Pieces> eroded_;
+  Pieces none_;
 };
 
 }  // namespace bl::geometry

@@ -30,8 +30,16 @@ void PlotVolume::declare(ViewBuilder<PlotVolume>& v) {
   v.reads(&PlotVolume::bottom, "smart_volume.bottom", Unit::metre);
   v.reads(&PlotVolume::height, "smart_volume.height", Unit::metre);
   v.reads(&PlotVolume::storey_height, "smart_volume.storey_height", Unit::metre);
+  v.reads(&PlotVolume::stands_on, "smart_volume.stands_on");
 }
 BL_VIEW(PlotVolume)
+
+void PlotStanding::declare(ViewBuilder<PlotStanding>& v) {
+  v.of("footprint");
+  v.reads(&PlotStanding::plates, "footprint.plates");
+  v.reads(&PlotStanding::stands_at, "footprint.stands_at", Unit::metre);
+}
+BL_VIEW(PlotStanding)
 
 void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
   v.of_links("plot_rules");
@@ -42,6 +50,6 @@ void PlotRuleParameters::declare(ViewBuilder<PlotRuleParameters>& v) {
 }
 BL_VIEW(PlotRuleParameters)
 
-BL_VIEWS(plot, PlotFigures, PlotVolume, PlotRuleParameters)
+BL_VIEWS(plot, PlotFigures, PlotVolume, PlotStanding, PlotRuleParameters)
 
 }  // namespace bl::reading

@@ -34,8 +34,18 @@ struct PlotVolume {
   double bottom = 0;         ///< height of its lowest point above the origin [m]
   double height = 0;         ///< from its lowest to its highest point [m]
   double storey_height = 0;  ///< [m]
+  std::string stands_on;     ///< what carries it
 
   static void declare(ViewBuilder<PlotVolume>& v);
+  static const ViewDefinition& view();
+};
+
+/// And of one that stands.
+struct PlotStanding {
+  Table plates;      ///< see core/geometry/plates_table.h
+  Point3 stands_at;  ///< [m]
+
+  static void declare(ViewBuilder<PlotStanding>& v);
   static const ViewDefinition& view();
 };
 

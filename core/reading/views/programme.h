@@ -13,6 +13,15 @@ struct ProgrammeFigures {
   static const ViewDefinition& view();
 };
 
+/// A use of the scene.
+struct UseKind {
+  std::string use;
+  bool is_open = false;  ///< it is open space, without volumes
+
+  static void declare(ViewBuilder<UseKind>& v);
+  static const ViewDefinition& view();
+};
+
 /// How a brief speaks to volumes.
 struct DemandParameters {
   std::string use;  ///< that its volumes are credited to; empty for their own

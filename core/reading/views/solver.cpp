@@ -17,6 +17,7 @@ BL_VIEW(SolverFigures)
 void StandingFigures::declare(ViewBuilder<StandingFigures>& v) {
   v.of("standing_solver");
   v.reads(&StandingFigures::plot_area, "standing_solver.plot_area", Unit::square_metre);
+  v.reads(&StandingFigures::open_area, "standing_solver.open_area", Unit::square_metre);
   v.reads(&StandingFigures::fsi, "standing_solver.fsi", Unit::ratio);
   v.reads(&StandingFigures::gsi, "standing_solver.gsi", Unit::ratio);
   v.reads(&StandingFigures::osr, "standing_solver.osr", Unit::ratio);
@@ -40,11 +41,19 @@ void BoundaryFigures::declare(ViewBuilder<BoundaryFigures>& v) {
   v.of("boundary");
   v.reads(&BoundaryFigures::volume, "boundary.volume", Unit::cubic_metre);
   v.reads(&BoundaryFigures::ground_area, "boundary.ground_area", Unit::square_metre);
+  v.reads(&BoundaryFigures::open_area, "boundary.open_area", Unit::square_metre);
   v.reads(&BoundaryFigures::shape, "boundary.shape");
   v.reads(&BoundaryFigures::planes, "boundary.planes");
 }
 BL_VIEW(BoundaryFigures)
 
-BL_VIEWS(solver, SolverFigures, StandingFigures, BoundarySettings, BoundaryFigures)
+void OpenGround::declare(ViewBuilder<OpenGround>& v) {
+  v.of("boundary");
+  v.reads(&OpenGround::areas, "boundary.open_areas");
+  v.reads(&OpenGround::exclusions, "boundary.exclusions");
+}
+BL_VIEW(OpenGround)
+
+BL_VIEWS(solver, SolverFigures, StandingFigures, BoundarySettings, BoundaryFigures, OpenGround)
 
 }  // namespace bl::reading

@@ -21,6 +21,7 @@ struct SolverFigures {
 /// What a solver of standing volumes has made of the ground.
 struct StandingFigures {
   double plot_area = 0;                                ///< [m²]
+  double open_area = 0;                                ///< the part of it that is kept open [m²]
   double fsi = 0, gsi = 0, osr = 0, mean_storeys = 0;  ///< as the solver documents them
   std::string message;                                 ///< what cannot be had
 
@@ -45,10 +46,20 @@ struct BoundarySettings {
 struct BoundaryFigures {
   double volume = 0;       ///< [m³]
   double ground_area = 0;  ///< [m²]
+  double open_area = 0;    ///< kept open beside it [m²]
   MeshPointer shape;
   Shared<Table> planes;
 
   static void declare(ViewBuilder<BoundaryFigures>& v);
+  static const ViewDefinition& view();
+};
+
+/// The ground that a boundary keeps open, by use.
+struct OpenGround {
+  Shared<Table> areas;       ///< with the columns `use`, `area` and `drawn` [m²]
+  Shared<Table> exclusions;  ///< its polygons are those with a use
+
+  static void declare(ViewBuilder<OpenGround>& v);
   static const ViewDefinition& view();
 };
 

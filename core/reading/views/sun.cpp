@@ -42,6 +42,7 @@ void ReceiverFigures::declare(ViewBuilder<ReceiverFigures>& v) {
   v.reads(&ReceiverFigures::half_up, "shadow_receiver.half_up", Unit::metre);
   v.reads(&ReceiverFigures::sun_mean, "shadow_receiver.sun_mean", Unit::second);
   v.reads(&ReceiverFigures::sun_possible, "shadow_receiver.sun_possible", Unit::second);
+  v.reads(&ReceiverFigures::required_sun, "shadow_receiver.required_sun", Unit::second);
   v.reads(&ReceiverFigures::share_met, "shadow_receiver.share_met", Unit::ratio);
   v.reads(&ReceiverFigures::columns, "shadow_receiver.columns", Unit::count);
   v.reads(&ReceiverFigures::map, "shadow_receiver.map");

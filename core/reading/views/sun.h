@@ -50,6 +50,7 @@ struct ReceiverFigures {
   Vector3 half_up;           ///< [m]
   double sun_mean = 0;       ///< per day [s]
   double sun_possible = 0;   ///< per day without casters [s]
+  double required_sun = 0;   ///< per day [s]
   double share_met = 0;      ///< of its area that gets what it requires
   std::int64_t columns = 0;  ///< of the grid
   Shared<Table> map;         ///< sun at each of its points

@@ -11,7 +11,7 @@
 #include "core/export/option_text.h"
 #include "core/export/read_proposal.h"
 #include "core/export/solids.h"
-#include "tests/support/world.h"
+#include "tests/core/export/two_houses.h"
 
 namespace bl::exporting {
 namespace {
@@ -118,6 +118,58 @@ TEST_P(ProposalForms, EveryFormatTakesTheFormOrSaysWhyNot) {
   }
   EXPECT_NE(identity_line(scene_).find("volumes as they are"), std::string::npos);
   EXPECT_NE(identity_line(in_form(scene_, VolumeForm::slabs)).find("volumes as slabs"), std::string::npos);
+}
+
+// Its solver has kept no coarse mesh, as one of another program, or one that has failed since the scene was saved.
+TEST(VolumeForms, AVolumeWithoutABodyInAFormIsToldAndMeasuresNothing) {
+  Proposal proposal = proposal_of(settled_world());
+  proposal.buildings[1].shape = {};
+  const Proposal cells = in_form(proposal, VolumeForm::cells);
+  ASSERT_EQ(cells.buildings.size(), 1u);
+  ASSERT_EQ(cells.shapeless.size(), 1u);
+  EXPECT_EQ(cells.all.floor_area, cells.buildings[0].floor_area);
+  EXPECT_EQ(cells.all.volume, cells.buildings[0].volume);
+  EXPECT_EQ(cells.shapeless[0].floor_area, 0);
+  EXPECT_EQ(cells.shapeless[0].asked_area, proposal.buildings[1].asked_area);
+  for (const FormatDefinition& format : all_formats()) {
+    if (!format.shell.empty()) continue;  // these want a page
+    const ExportFiles made = files_of(proposal, format.id.c_str(), {"form=cells"});
+    ASSERT_EQ(made.notes.size(), 1u) << format.id;
+    EXPECT_EQ(made.notes.front(), "in tables only: west: it has no body as cells") << format.id;
+  }
+}
+
+// As an import may bring it, or people: it encloses a volume all the same.
+TEST(Solids, AnOpenMeshIsNotPrinted) {
+  Proposal proposal = proposal_of(settled_world());
+  const Building& one = proposal.buildings.front();
+  Mesh open = *one.mesh;
+  EXPECT_TRUE(is_closed(open));
+  open.triangles.pop_back();
+  EXPECT_FALSE(is_closed(open));
+  EXPECT_FALSE(is_closed(Mesh{}));
+  proposal.neighbours = {{"shed", "Shed", "", one.outline.front(), 0, 9, std::make_shared<const Mesh>(open)},
+                         {"barn", "Barn", "", one.outline.front(), 0, 9, one.mesh}};
+  for (const char* id : {"stl", "3mf"}) {
+    const ExportFiles made = files_of(proposal, id, {"surroundings=yes"});
+    ASSERT_EQ(made.notes.size(), 1u) << id;
+    EXPECT_TRUE(made.notes.front().starts_with("Shed ")) << made.notes.front();
+  }
+  std::vector<std::string> notes;
+  for (const Solid& solid : printable_solids_of(proposal, true, notes)) EXPECT_TRUE(is_closed(*solid.mesh)) << solid.name;
+}
+
+// An option must not be without effect and without a word.
+TEST(VolumeForms, BodiesWithoutWallsAreTold) {
+  const Proposal proposal = proposal_of(settled_world());
+  for (const char* form : {"form=slabs", "form=standing"}) {
+    const ExportFiles with = files_of(proposal, "ifc", {form}), without = files_of(proposal, "ifc", {form, "walls=no"});
+    EXPECT_EQ(with.files.front().content.find("IFCWALL("), std::string::npos);
+    ASSERT_EQ(with.notes.size(), 1u) << form;
+    EXPECT_NE(with.notes.front().find("volumes as s"), std::string::npos) << with.notes.front();
+    EXPECT_NE(with.notes.front().find("no walls"), std::string::npos) << with.notes.front();
+    EXPECT_TRUE(without.notes.empty()) << form;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Start, ProposalForms, ::testing::Values("scenes/start/standing.json", "scenes/start/quarter.json"));

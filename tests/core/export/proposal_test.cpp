@@ -7,36 +7,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/export/coarse_ground.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/option_text.h"
 #include "core/export/read_proposal.h"
 #include "core/export/solids.h"
 #include "core/geometry/plan_ring.h"
-#include "tests/support/world.h"
+#include "tests/core/export/two_houses.h"
 
 namespace bl::exporting {
 namespace {
-
-// Two volumes, one of them shaped by its neighbour, on a place in Delft.
-World settled_world() {
-  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1,
-    "settings": {"title": "Two houses", "coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
-                 "latitude": 51.99, "longitude": 4.37},
-    "nodes": [
-      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
-      {"id": "solver", "types": {"smart_volumes_solver": {}}},
-      {"id": "east", "position": [9, 0, 8], "types": {"smart_volume": {"demand": 3000, "use": "housing"}}},
-      {"id": "west", "position": [-6, 0, 8], "types": {"smart_volume": {"demand": 2000, "use": "shops"}}}]})");
-  EXPECT_TRUE(world.settle());
-  return world;
-}
-
-Proposal proposal_of(const World& world) {
-  auto proposal = read_proposal(world.state(), "two.json");
-  EXPECT_TRUE(proposal) << proposal.error().text();
-  return std::move(*proposal);
-}
 
 TEST(Proposal, StoreysAddUpToTheFiguresOfTheScene) {
   const World world = settled_world();
@@ -70,6 +51,27 @@ TEST(Proposal, EachStoreyOfABuildingHasALevelOfItsOwn) {
   const Proposal proposal = proposal_of(settled_world());
   for (const Building& building : proposal.buildings)
     for (std::size_t k = 1; k < building.storeys.size(); ++k) EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level);
+}
+
+// Shops of 4.5 m below flats of 3 m: the storey that both have is as high as a shop.
+TEST(Proposal, StoreysOfASharedBuildingHaveLevelsOfTheirOwn) {
+  Proposal proposal;
+  const auto add = [&](const char* id, std::initializer_list<double> floors) {
+    Building& building = proposal.buildings.emplace_back();
+    building.id = id;
+    building.is_standing = true;
+    building.storey_height = 4.5;
+    for (auto floor = floors.begin(); floor + 1 != floors.end(); ++floor)
+      building.storeys.push_back({static_cast<int>(building.storeys.size()), 0, *floor, *(floor + 1), 100, {}, {}, {}});
+  };
+  add("shops", {0, 4.5, 9});
+  add("flats", {4.5, 9, 12, 15, 18, 21, 24});
+  number_levels(proposal);
+  EXPECT_EQ(proposal.level_height, 3);
+  EXPECT_EQ(proposal.levels, 8);
+  for (const Building& building : proposal.buildings)
+    for (std::size_t k = 1; k < building.storeys.size(); ++k)
+      EXPECT_GT(building.storeys[k].level, building.storeys[k - 1].level) << building.id;
 }
 
 // Storeys below the ground leave with negative numbers, and count in nothing but their own area.
@@ -141,18 +143,13 @@ TEST(FacesOfRings, NeighboursAreNoHoles) {
   EXPECT_EQ(faces.size(), 2u);
 }
 
-// As the page's build leaves it, without its script.
-constexpr const char* kShell =
-    "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<title>PAGE_TITLE</title>\n"
-    "<script id=\"data\" type=\"application/json\">PAGE_DATA</script>\n";
-
 TEST(Formats, AllWriteTheSameBytesTwiceAndNameTheState) {
   Proposal proposal = proposal_of(settled_world());
   proposal.shell = kShell;
   ASSERT_GE(all_formats().size(), 10u);
   for (const FormatDefinition& format : all_formats()) {
     EXPECT_FALSE(format.doc.empty()) << format.id;
-    EXPECT_FALSE(format.beginnings.empty()) << format.id;
+    EXPECT_FALSE(format.marks.empty()) << format.id;
     const auto options = option_values(format, {});
     ASSERT_TRUE(options);
     const auto once = format.write(proposal, *options, format.may_fill_folder),
@@ -161,11 +158,8 @@ TEST(Formats, AllWriteTheSameBytesTwiceAndNameTheState) {
     ASSERT_EQ(once->files.size(), again->files.size());
     for (std::size_t k = 0; k < once->files.size(); ++k) {
       EXPECT_EQ(once->files[k].content, again->files[k].content) << format.id;
-      const bool is_own = once->files[k].name.ends_with(format.ending);
-      EXPECT_TRUE(!is_own ||
-                  std::any_of(format.beginnings.begin(), format.beginnings.end(),
-                              [&](const std::string& beginning) { return once->files[k].content.starts_with(beginning); }))
-          << format.id << ": " << once->files[k].content.substr(0, 80);
+      const std::string& content = once->files[k].content;
+      EXPECT_TRUE(has_mark(format, content, content)) << format.id << ": " << content.substr(0, 80);
       const bool is_packed = format.ending == ".xlsx" || format.ending == ".3mf" || format.ending == ".pdf";
       EXPECT_TRUE(is_packed || once->files[k].content.find(proposal.hash) != std::string::npos) << format.id;
     }
@@ -195,20 +189,100 @@ TEST(Formats, APageHoldsItsDataAndNothingThatEndsIt) {
     for (const auto& storey : building["storeys"]) EXPECT_LT(storey["path"], data["paths"].size());
 }
 
-TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
+// So many volumes that a page has no room for their shapes.
+Proposal crowded_proposal() {
   Proposal proposal = proposal_of(settled_world());
   proposal.shell = kShell;
-  const FormatDefinition* format = find_format("html");
   const Building one = proposal.buildings.front();
   for (int k = 0; k < 1500; ++k) {
     proposal.buildings.push_back(one);
     proposal.buildings.back().id += std::to_string(k);
   }
-  const auto made = format->write(proposal, *option_values(*format, {}), false);
-  ASSERT_TRUE(made) << made.error().text();
-  EXPECT_LE(made->files.front().content.size(), 3000000u);
-  ASSERT_EQ(made->notes.size(), 1u);
-  EXPECT_NE(made->notes.front().find("upright"), std::string::npos) << made->notes.front();
+  return proposal;
+}
+
+TEST(Formats, APageThatWouldBeTooLargeBecomesCoarser) {
+  const ExportFiles made = files_of(crowded_proposal(), "html");
+  EXPECT_LE(made.files.front().content.size(), 3000000u);
+  ASSERT_EQ(made.notes.size(), 1u);
+  EXPECT_NE(made.notes.front().find("upright"), std::string::npos) << made.notes.front();
+}
+
+// Where nothing may be built the rule is 0; where there is none, tables say nothing.
+TEST(Formats, NoRuleIsNoNumber) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "house", "position": [0, 0, 8], "types": {"smart_volume": {"demand": 900}}},
+      {"id": "free", "types": {"plot": {}}},
+      {"id": "park", "types": {"plot": {"fsi_max": 0, "height_max": 12.5}}}]})");
+  ASSERT_TRUE(world.settle());
+  Proposal proposal = proposal_of(world);
+  proposal.shell = kShell;
+  const auto land = [&](const char* id) {
+    return *std::find_if(proposal.lands.begin(), proposal.lands.end(), [&](const Land& one) { return one.id == id; });
+  };
+  EXPECT_FALSE(land("free").fsi_max || land("free").gsi_max || land("free").height_max);
+  EXPECT_EQ(land("park").fsi_max, 0.0);
+  EXPECT_FALSE(land("park").gsi_max);
+  EXPECT_EQ(land("park").height_max, 12.5);
+  const auto features = nlohmann::json::parse(file_of(proposal, "geojson", {"coordinates=scene"}))["features"];
+  for (const auto& feature : features) {
+    const auto& figures = feature["properties"];
+    if (feature["id"] == "plot/free") { EXPECT_TRUE(figures["fsi_max"].is_null() && figures["height_max_m"].is_null()); }
+    if (feature["id"] == "plot/park") { EXPECT_EQ(figures["fsi_max"], 0); }
+  }
+  const std::string page = file_of(proposal, "html");
+  EXPECT_NE(page.find(R"("fsi_max":0.0,"gsi_max":null,"height_max":12.5)"), std::string::npos);
+}
+
+// A slope of 128 by 128 places, as the terrain node has it at most.
+Mesh slope() {
+  constexpr std::uint32_t kSide = 128;
+  Mesh ground;
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) ground.vertices.push_back({5.0 * x, 5.0 * y, 0.1 * x});
+  for (std::uint32_t y = 0; y + 1 < kSide; ++y)
+    for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+      const std::uint32_t a = y * kSide + x, b = a + kSide;
+      ground.triangles.push_back({a, a + 1, b + 1});
+      ground.triangles.push_back({a, b + 1, b});
+    }
+  return ground;
+}
+
+TEST(CoarseGround, ItCoversTheSameLandWithFewerTriangles) {
+  const Mesh ground = slope();
+  EXPECT_EQ(coarse_ground(ground, ground.triangles.size()), ground);
+  for (const std::size_t most : {20000u, 4000u, 1000u, 50u, 2u}) {
+    const Mesh coarse = coarse_ground(ground, most);
+    EXPECT_LE(coarse.triangles.size(), most);
+    EXPECT_GE(coarse.triangles.size(), most / 4);
+    double area = 0;
+    for (const auto& [a, b, c] : coarse.triangles) {
+      const Vector3 u = coarse.vertices[b] - coarse.vertices[a], v = coarse.vertices[c] - coarse.vertices[a];
+      const double part = (u.x * v.y - u.y * v.x) / 2;
+      EXPECT_GE(part, 0) << "turned over";
+      area += part;
+    }
+    EXPECT_NEAR(area, 635.0 * 635.0, 1e-6 * area) << most;
+    for (const Point3& v : coarse.vertices) EXPECT_NEAR(v.z, 0.02 * v.x, 1e-9) << "places stay where they are";
+  }
+}
+
+// The ground stays on a page that has little room, and what is coarser is said.
+TEST(Formats, ALargePageKeepsTheGround) {
+  Proposal proposal = crowded_proposal();
+  const Building& one = proposal.buildings.front();
+  proposal.terrains = {std::make_shared<const Mesh>(slope())};
+  proposal.neighbours.push_back({"old", "Old", "", one.outline.front(), 0, 9, one.mesh});
+  const ExportFiles made = files_of(proposal, "html");
+  const std::string& page = made.files.front().content;
+  EXPECT_LE(page.size(), 3000000u);
+  EXPECT_NE(page.find("\"n/terrain/0\""), std::string::npos);
+  ASSERT_EQ(made.notes.size(), 1u);
+  EXPECT_NE(made.notes.front().find(" of 32258 triangles"), std::string::npos) << made.notes.front();
+  EXPECT_NE(made.notes.front().find("existing building is an upright body"), std::string::npos) << made.notes.front();
 }
 
 TEST(Formats, GeoJsonRefusesASceneWithoutAPlace) {

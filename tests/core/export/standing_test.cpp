@@ -14,6 +14,7 @@
 #include "core/export/solids.h"
 #include "core/geometry/domain_makers.h"
 #include "core/geometry/footprint.h"
+#include "tests/core/export/two_houses.h"
 
 namespace bl::exporting {
 namespace {
@@ -176,6 +177,27 @@ TEST(Section, ALevelCutHasThePlatesAtItsHeight) {
     if (std::string(id) == "pdf") continue;  // its text is packed
     EXPECT_NE(files->files.front().content.find("Level cut at +4.50 m"), std::string::npos) << id;
   }
+}
+
+// By hand: a ball of 11 m under storeys of 3.2 m has three, and a cap of 1.4 m that belongs to the third.
+TEST(Section, ALevelCutGoesThroughTheCapOfARoundedVolume) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "ball", "position": [0, 0, 10], "types": {"smart_volume": {"demand": 696.9, "storey_height": 3.2}}}]})");
+  ASSERT_TRUE(world.settle());
+  const Proposal proposal = proposal_of(world);
+  const Building& ball = proposal.buildings.front();
+  ASSERT_EQ(ball.storeys.size(), 3u);
+  ASSERT_NEAR(ball.top - ball.storeys.back().top, 1.4, 0.01);
+  const double height = ball.top - 0.7;
+  const LevelPart cap = level_part(ball, height);
+  EXPECT_EQ(cap.storey, &ball.storeys.back());
+  EXPECT_NEAR(area_of(cap.faces), 3.14159265358979 * (5.5 * 5.5 - 4.8 * 4.8), 1);
+  EXPECT_TRUE(level_part(ball, ball.top + 0.01).faces.empty());
+  EXPECT_TRUE(level_part(ball, ball.bottom - 0.01).faces.empty());
+  const std::string sheet = file_of(proposal, "svg", {"section=" + std::to_string(height), "level=-1"});
+  EXPECT_NE(sheet.find("use_"), std::string::npos);
 }
 
 // Walls lie within the plate, side by side: together they are what is lost when the plate is moved in by their thickness.

@@ -333,5 +333,36 @@ TEST(Footprint, EachKindOfSideHasItsDistance) {
   EXPECT_NEAR(wide->front().plates[0], 2200 - (200 + 300 - 25) - (slope + sector) - (100 - 25) + wedge, 1e-4);
 }
 
+// A block of 20 m by 16 m whose eastern side comes to lie behind the wall that it shares with a neighbour. Its floor follows the
+// wall without a jump, and falls nowhere by more than the wall takes: weights can give it every floor area in between.
+TEST(Footprint, ASideThatGetsHiddenGivesUpItsDepthLittleByLittle) {
+  StandingSite block = round_one(20, 20, 80);
+  block.form = FootprintForm::block;
+  block.aspect = 100.0 / 80;
+  block.depth = 5;
+  block.wing_depth = 3;
+  block.has_party_walls = true;
+  StandingSite neighbour = round_one(50, 20, 0);
+  neighbour.form = FootprintForm::cell;
+  const geometry::Domain plot = plot_of({{0, 0, 0}, {80, 0, 0}, {80, 40, 0}, {0, 40, 0}});
+  // The wall at this distance from the middle of the block.
+  const auto floor_at = [&](double wall) {
+    neighbour.site.weight = 900 + 80 - 60 * wall;
+    return measured(plot, {block, neighbour}).front().floor_area;
+  };
+  EXPECT_NEAR(floor_at(12), 20 * 16 - 10 * 6, 1e-9) << "a facade: 5 m on each side";
+  EXPECT_NEAR(floor_at(10), 20 * 16 - 10 * 6, 1e-9);
+  EXPECT_NEAR(floor_at(9), 19 * 16 - 10 * 6, 1e-9) << "the side behind the wall still keeps 5 m: 4 m from the wall";
+  EXPECT_NEAR(floor_at(8), 18 * 16 - 10 * 6, 1e-9) << "3 m from the wall";
+  EXPECT_NEAR(floor_at(6), 16 * 16 - 8 * 6, 1e-9) << "and no less";
+  double before = floor_at(12);
+  for (double wall = 12; wall > 6; wall -= 0.01) {
+    const double now = floor_at(wall);
+    EXPECT_LE(now, before + 1e-9) << wall;
+    EXPECT_GE(now, before - 0.01 * 16 - 1e-9) << wall;
+    before = now;
+  }
+}
+
 }  // namespace
 }  // namespace bl::test

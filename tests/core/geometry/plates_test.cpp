@@ -101,6 +101,40 @@ TEST(Plates, ADiscHasOneArcAndItsCourtyardAnother) {
   }
 }
 
+// Wings of 5 m along the wall that touches, and a courtyard that is moved out by as much: it reaches the neighbour, so the plate
+// is a U of 40 by 80 m less 35 by 70 m.
+TEST(Plates, ACourtyardThatReachesAnOuterWallOpensThePlate) {
+  geometry::FootprintDiagram diagram;
+  std::vector<StandingSite> sites(2);
+  sites[0].site = {{20, 40, 0}, 100};
+  sites[1].site = {{60, 40, 0}, 100};
+  for (StandingSite& site : sites) {
+    site.form = FootprintForm::cell;
+    site.runs = {{1, 0}, {2, 0, 5}};
+    site.depth = 10;
+    site.wing_depth = 5;
+    site.has_party_walls = true;
+  }
+  ASSERT_TRUE(diagram.set_domain(plot_of(PlotShape::square)));
+  ASSERT_TRUE(diagram.update(sites));
+  const geometry::StandingBody body = body_of(diagram, 0);
+  ASSERT_EQ(body.stacks.size(), 2u);
+  EXPECT_EQ(body.stacks[0].courtyards.size(), 1u) << "on the ground there are wings";
+  const geometry::PlateStack& open = body.stacks[1];
+  EXPECT_NEAR(open.area, 40 * 80 - 35 * 70, 1e-9);
+  EXPECT_TRUE(open.courtyards.empty());
+  ASSERT_EQ(open.outlines.size(), 1u);
+  EXPECT_EQ(open.outlines[0].corners.size(), 8u);
+  EXPECT_NEAR(area_of(open.outlines, body.centre), open.area, 1e-5);
+  EXPECT_NEAR(length_of(open.outlines[0], body.centre, 1), 2 * 5, 1e-6) << "two ends touch the neighbour";
+  EXPECT_NEAR(length_of(open.outlines[0], body.centre, PlateRing::kPlot), 80 + 2 * 40, 1e-6);
+  EXPECT_NEAR(length_of(open.outlines[0], body.centre, PlateRing::kFree), 70 + 2 * 35, 1e-6) << "the courtyard's walls";
+  const auto faces = faces_of(open, body.centre, 1e-3);
+  ASSERT_EQ(faces.size(), 1u);
+  EXPECT_TRUE(geometry::extrude_plan(faces[0].outer, faces[0].holes, open.bottom, open.top())) << "others can stand on it";
+  EXPECT_NEAR(volume_of(mesh_of(body, 1e-3)), 3 * (body.stacks[0].area + 2 * open.area), 1e-3);
+}
+
 TEST(Plates, SidesKnowWhatIsBeyondThem) {
   geometry::FootprintDiagram diagram;
   std::vector<StandingSite> sites(2);
@@ -180,6 +214,20 @@ TEST(PlatesLaws, MeshesAreClosedAndEncloseTheVolume) {
       EXPECT_NEAR(volume_of(mesh), volume, 5e-3 * volume + 1e-2) << "site " << i;
     }
   });
+}
+
+// A square of 10 m with a hole in it: inside, beyond a side, beyond a corner, in the hole.
+TEST(Plates, TheNearestPlaceIsWhereItStands) {
+  geometry::StandingBody body;
+  body.stacks.push_back({2, 4, 3, 96, {}, {}});
+  body.stacks.back().outlines = {{{{{0, 0, 0}}, {{10, 0, 0}}, {{10, 10, 0}}, {{0, 10, 0}}}, 0},
+                                 {{{{4, 4, 0}}, {{4, 6, 0}}, {{6, 6, 0}}, {{6, 4, 0}}}, 0}};
+  const auto near = [&](double x, double y) { return geometry::nearest_place(body, {x, y, 50}, 1e-3); };
+  EXPECT_EQ(near(2, 3), (Point3{2, 3, 4}));
+  EXPECT_LT(distance(near(-5, 3), {0.001, 3, 4}), 1e-9);
+  EXPECT_LT(distance(near(12, 11), {10 - 0.001 / std::sqrt(2), 10 - 0.001 / std::sqrt(2), 4}), 1e-9);
+  EXPECT_LT(distance(near(4.5, 5), {3.999, 5, 4}), 1e-9) << "a hole is none of it";
+  EXPECT_EQ(geometry::nearest_place({}, {1, 2, 3}, 1e-3), (Point3{1, 2, 3}));
 }
 
 }  // namespace

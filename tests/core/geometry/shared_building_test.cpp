@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/define/value.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain_makers.h"
+#include "core/geometry/plates_table.h"
 #include "core/geometry/standing_tick.h"
 
 namespace bl::geometry {
@@ -187,6 +189,28 @@ TEST(Cellar, LiesUnderTheWholePlate) {
   EXPECT_GT(cellar.area, body.stacks.front().area) << "with the ground of the courtyard";
   EXPECT_EQ(cellar_of(body, 0, 2.8).storeys, 0);
   EXPECT_EQ(cellar_of({}, 2, 2.8).storeys, 0);
+}
+
+// 40 by 25 m with a courtyard of 20 by 10 m; the cut runs through it, at 26 2/3 m.
+TEST(SharedBuilding, CellarsOfCutPlatesLieUnderTheCourtyardToo) {
+  const auto ring = [](double x, double y, double width, double depth) {
+    return PlateRing{{{{x, y, 0}}, {{x + width, y, 0}}, {{x + width, y + depth, 0}}, {{x, y + depth, 0}}}, 0};
+  };
+  StandingBody body;
+  body.stacks.push_back({1, 0, 4, 800, {ring(0, 0, 40, 25)}, {ring(10, 7.5, 20, 10)}});
+  const SharedBuilding building = share_out(body, std::vector<BuildingShare>{{0, 500, 4}, {1, 300, 4}}, 0);
+  EXPECT_NEAR(cellar_of(building.whole, 1, 3).area, 1000, 1e-9);
+  EXPECT_NEAR(cellar_of(building.parts[0], 1, 3).area, 25 * 80.0 / 3, 1e-4);
+  EXPECT_NEAR(cellar_of(building.parts[1], 1, 3).area, 25 * 40.0 / 3, 1e-4);
+  // As drawn, and as it is read again.
+  for (const StandingBody& part : building.parts) {
+    const PlateStack cellar = cellar_of(part, 2, 3);
+    EXPECT_NEAR(drawn_area(cellar, part.centre), cellar.area, 1e-4);
+    EXPECT_NEAR(drawn_area(part.stacks.front(), part.centre), part.stacks.front().area, 1e-4);
+    Table plates;
+    write_body(part, plates);
+    EXPECT_EQ(cellar_of(read_body(plates), 2, 3).area, cellar.area);
+  }
 }
 
 }  // namespace

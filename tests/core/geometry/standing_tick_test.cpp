@@ -7,6 +7,8 @@
 
 #include "core/base/random.h"
 #include "core/geometry/domain_makers.h"
+#include "core/geometry/site_domain.h"
+#include "core/geometry/standing_text.h"
 
 namespace bl::geometry {
 namespace {
@@ -36,7 +38,7 @@ StandingTick::Outcome run(const Domain& domain, std::vector<StandingWish>& wishe
     for (std::size_t i = 0; i < wishes.size(); ++i) {
       wishes[i].site.site.weight = outcome.results[i].weight;
       wishes[i].built = outcome.results[i].storeys.count;
-      wishes[i].was_limited = outcome.results[i].storeys.is_limited;
+      wishes[i].least_room = outcome.results[i].storeys.least_room;
     }
   }
   return outcome;
@@ -85,6 +87,36 @@ TEST(StandingTick, WhoCanHaveNothingTakesNothingFromOthers) {
   }
 }
 
+// The same of five among twenty: within their set-back the plot has no ground, or so little that only the largest part of the
+// plot would do, or they stand 200 m outside it. In each tick the other fifteen have what they want, also after one of them has
+// moved.
+TEST(StandingTick, FiveWhoCanHaveNothingStopNobody) {
+  for (const int why : {0, 1, 2}) {
+    SCOPED_TRACE(why);
+    std::vector<StandingWish> wishes;
+    for (int i = 0; i < 20; ++i)
+      wishes.push_back(wish(FootprintForm::block, {7.2 + 14.4 * (i % 5), 6.0 + 12 * (i / 5), 0}, 3, 360));
+    for (std::size_t i = 0; i < 20; i += 4) {
+      if (why == 2) wishes[i].site.site.position.x += 300;
+      else wishes[i].setback = why == 0 ? 26 : 20;
+    }
+    StandingTick::Cache kept;
+    for (int move = 0; move < 3; ++move) {
+      const auto outcome = run(plot(72, 48), wishes, kept, move == 0 ? 8 : 2);
+      EXPECT_NE(outcome.message.find("5 of the demands can have nothing"), std::string::npos) << outcome.message;
+      for (std::size_t i = 0; i < 20; ++i) {
+        if (i % 4 == 0) {
+          EXPECT_EQ(outcome.results[i].floor_area, 0) << i;
+        } else {
+          EXPECT_NEAR(outcome.results[i].floor_area, 360, 1e-4) << i << ", move " << move;
+        }
+      }
+      EXPECT_EQ(outcome.losses.size(), 5u);
+      wishes[7].site.site.position.x += 0.4;
+    }
+  }
+}
+
 // The boundary reaches from 0 to 20 m: a ground in it counts, one below it is its underside, and a storey is always left.
 TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
   std::vector<StandingWish> wishes;
@@ -113,6 +145,26 @@ TEST(StandingTick, EachStandsAtTheHeightOfItsGround) {
   EXPECT_EQ(moved.results[2].storeys.count, 3);
   EXPECT_NEAR(moved.results[2].floor_area, 400, 1e-5);
   EXPECT_DOUBLE_EQ(moved.results[1].bottom, 2.5);
+}
+
+// Two cells of 40 by 80 m, with wings of 10 m: they share 80 m of wall, and the courtyards of 20 by 60 m have walls of their own.
+TEST(StandingTick, WallsOfCourtyardsAreSharedWithNobody) {
+  std::vector<StandingWish> wishes;
+  for (const double x : {20.0, 60.0}) {
+    wishes.push_back(wish(FootprintForm::cell, {x, 40, 0}, 2, 2 * (40 * 80 - 20 * 60)));
+    wishes.back().site.depth = 10;
+    wishes.back().site.has_party_walls = true;
+  }
+  StandingTick::Cache kept;
+  const auto outcome = run(plot(80, 80), wishes, kept);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const StandingResult& house = outcome.results[i];
+    EXPECT_NEAR(house.footprint, 40 * 80 - 20 * 60, 1e-6);
+    ASSERT_EQ(house.walls.size(), 1u);
+    EXPECT_NEAR(house.walls[0].second, 6 * 80, 1e-4);
+    EXPECT_NEAR(house.free_facade_area, 6 * (80 + 2 * 40 + 2 * (20 + 60)), 1e-4);
+    EXPECT_NEAR(house.facade_area, 6 * (2 * 40 + 2 * 80 + 2 * (20 + 60)), 1e-4);
+  }
 }
 
 // A cell fills the roof: where it is clipped, half of it is beyond the edge, and the rest is what the roof has.
@@ -173,6 +225,71 @@ TEST(StandingTick, TooMuchForARoofIsSaidOfThatRoof) {
   ASSERT_EQ(outcome.losses.size(), 1u);
   EXPECT_EQ(outcome.losses.front().demand, 1u);
   EXPECT_NEAR(outcome.results[0].floor_area, 300, 1e-6) << "those below do not suffer";
+}
+
+// Of many volumes the one with an absurd place is named, on the ground and on a roof.
+TEST(StandingTick, WhoCannotStandIsNamed) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {20, 20, 0}, 2, 300),
+                                   wish(FootprintForm::block, {40, 20, 0}, 2, 300),
+                                   wish(FootprintForm::block, {2e8, 20, 0}, 2, 300)};
+  const StandingTick tick{.steps = 20};
+  StandingTick::Cache kept;
+  const auto ground = tick.run(plot(60, 40), wishes, kept);
+  ASSERT_FALSE(ground);
+  EXPECT_EQ(ground.error().text(), "site 2 cannot stand: its position is not a place within 100 000 km");
+  wishes[2].base = 1;
+  StandingTick::Cache other;
+  const auto roof = tick.run(plot(60, 40), wishes, other);
+  ASSERT_TRUE(roof);
+  ASSERT_EQ(roof->on_roofs.size(), 1u);
+  EXPECT_EQ(roof->on_roofs[0].text, "site 2 cannot stand: its position is not a place within 100 000 km");
+}
+
+// The right half of the boundary is 30 m high, the left one 9 m: eight storeys stand in the one and reach out of the other, also
+// on a roof, and only as long as the boundary is like that.
+TEST(StandingTick, WhatReachesOutOfTheBoundaryIsToldByHowMuch) {
+  const auto site = [](double left_height) {
+    const std::vector<Point3> ring{{0, 0, 0}, {100, 0, 0}, {100, 50, 0}, {0, 50, 0}},
+        right{{50, 0, 0}, {100, 0, 0}, {100, 50, 0}, {50, 50, 0}};
+    return site_domain({ring, {}, 0, left_height, {{right, 0, 30}}, {}}).value();
+  };
+  std::vector<StandingWish> wishes{
+      wish(FootprintForm::block, {25, 25, 0}, 8, 3200), wish(FootprintForm::block, {75, 25, 0}, 8, 3200),
+      wish(FootprintForm::block, {50, 8, 0}, 2, 400), wish(FootprintForm::block, {50, 8, 0}, 2, 200, 2)};
+  StandingTick::Cache kept;
+  const auto outcome = run(site(9), wishes, kept);
+  EXPECT_EQ(outcome.results[0].outside.storey, 4);
+  EXPECT_DOUBLE_EQ(outcome.results[0].outside.height, 12);
+  EXPECT_NEAR(outcome.results[0].outside.area, 400, 1e-3);
+  EXPECT_EQ(outcome.results[1].outside, BoundaryReach());
+  EXPECT_EQ(outcome.results[2].outside, BoundaryReach());
+  EXPECT_EQ(outcome.results[3].outside.storey, 2) << "of its own storeys";
+  EXPECT_NEAR(outcome.results[3].outside.area, 50, 1e-3) << "half of its plate";
+  const std::vector<std::string> names{"left", "right", "podium", "tower"};
+  EXPECT_EQ(
+      other_storeys_text(wishes, outcome.results, kept.results, 30, 1e-6, names),
+      "; `left` reaches out of the boundary from storey 4 on, 12.0 m high, by up to 400.0 m² of a plate: lower its `storeys`, "
+      "or move it; `tower` reaches out of the boundary from storey 2 on, 12.0 m high, by up to 50.0 m² of a plate: lower its "
+      "`storeys`, or move it");
+  const auto high = run(site(26), wishes, kept, 1);
+  for (const StandingResult& result : high.results) EXPECT_EQ(result.outside, BoundaryReach());
+  EXPECT_EQ(run(site(10), wishes, kept, 1).results[3].outside.storey, 2) << "it did not move";
+  EXPECT_EQ(run(plot(100, 50, 30), wishes, kept, 1).results[3].outside, BoundaryReach());
+}
+
+// The sides of a boundary lean inwards by 45°: a cell as large as its ground reaches out of it everywhere.
+TEST(StandingTick, ALeaningBoundaryIsReachedOutOf) {
+  const std::vector<Point3> corners{{0, 0, 0},    {40, 0, 0},   {40, 40, 0},  {0, 40, 0},
+                                    {15, 15, 15}, {25, 15, 15}, {25, 25, 15}, {15, 25, 15}};
+  const Domain domain(convex_hull(corners).value());
+  std::vector<StandingWish> wishes{wish(FootprintForm::round, {20, 20, 0}, 3, 300)};
+  StandingTick::Cache kept;
+  EXPECT_EQ(run(domain, wishes, kept).results[0].outside, BoundaryReach()) << "a disc of 5.6 m below 9 m";
+  wishes[0].volume = 3 * 3 * 1200;
+  const StandingResult& wide = run(domain, wishes, kept).results[0];
+  // 1200 m² of a ground of 1600 m²; at 9 m the section is a square of 22 m.
+  EXPECT_EQ(wide.outside.storey, 1);
+  EXPECT_NEAR(wide.outside.area, wide.footprint - 22 * 22, 0.1);
 }
 
 // A podium that vanishes, and comes back.

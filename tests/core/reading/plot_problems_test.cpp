@@ -70,6 +70,28 @@ TEST(PlotProblems, ASetBackIsToldWithItsDistance) {
   EXPECT_TRUE(broken[0].text.find("m of 8.00 m asked for, by `high`") != std::string::npos) << broken[0].text;
 }
 
+// In a plot that is not convex distances are kept to ten nanometres: who keeps them is not named beside who does not.
+TEST(PlotProblems, WhoKeepsASetBackToTheGridIsNotNamed) {
+  const std::string outline = "[[0,0,0],[47.3,5.7,0],[51.1,48.9,0],[27.7,22.3,0],[-3.1,44.9,0]]";
+  std::string text = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "breaker", "position": [6, 9, 0],
+     "types": {"smart_volume": {"demand": 900, "storey_height": 3}, "footprint": {"storeys": 3}}},
+    {"id": "plot", "types": {"plot": {"polygon": )" +
+                     outline + R"(, "setback": 3}}},
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": )" +
+                     outline + R"(, "height": 40}}},
+    {"id": "solver", "types": {"standing_solver": {}}})";
+  for (const char* place : {"40, 12", "43, 30", "8, 30", "22, 13"})
+    text += R"(, {"id": "keeper_)" + std::to_string(text.size()) + R"(", "position": [)" + place +
+            R"(, 0], "types": {"smart_volume": {"demand": 900, "storey_height": 3},
+             "footprint": {"storeys": 2, "border_distance": 3, "street_distance": 3}}})";
+  World world = World::from_text(text + "]}");
+  const auto broken = broken_in(world);
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_EQ(broken[0].port, "setback");
+  EXPECT_EQ(broken[0].volumes, std::vector<std::string>{"breaker"}) << broken[0].text;
+}
+
 TEST(PlotProblems, WhoHoldsARuleIsNamed) {
   const std::string rules = R"(, "fsi_max": 0.8, "height_max": 9)";
   const auto text = [&rules](const std::string& link) {

@@ -78,6 +78,18 @@ TEST_F(Add, AGardenBringsItsSunAndHoldsIt) {
   EXPECT_TRUE(added_node(after, "sun_2").is_null());
 }
 
+// What is said of the sun holds for the sun that is there already.
+TEST_F(Add, AGardenTakesEachOptionOfTheSun) {
+  ASSERT_EQ(add({"garden", "--corners", "-12,40", "12,40", "12,52", "-12,52"}).code, 0);
+  const Outcome clocks = add({"garden", "--id", "garden", "--utc-offset", "2"});
+  ASSERT_EQ(clocks.code, 0) << clocks.err;
+  EXPECT_NE(clocks.out.find("The sun is `sun`"), std::string::npos) << clocks.out;
+  EXPECT_EQ(added_node(place.json("s.json"), "sun")["types"]["sun_and_sky"]["utc_offset"], 7200);
+  const Outcome east = add({"garden", "--id", "garden", "--longitude", "5"});
+  EXPECT_EQ(east.code, 2) << east.out;
+  EXPECT_NE(east.err.find("both a latitude and a longitude"), std::string::npos) << east.err;
+}
+
 TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   const auto ground = [&] {
     (void)place.run({"run", "s.json", "--ticks", "2", "--save", "after.json"});
@@ -94,6 +106,52 @@ TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   EXPECT_NEAR(plot["area"].get<double>(), 80 * 44, 1e-6) << "the land stays what it is";
   EXPECT_NEAR(plot["osr"].get<double>(), (1 - plot["gsi"].get<double>()) / plot["fsi"].get<double>(), 1e-9);
   EXPECT_EQ(add({"garden", "--id", "garden", "--open"}).code, 2);
+}
+
+// A garden is left out wherever it lies in a boundary, whatever its corners and the boundary's form are.
+TEST_F(Add, AnOpenGardenIsLeftOutWhereverItReachesIn) {
+  const auto ground = [&] {
+    (void)place.run({"run", "s.json", "--ticks", "2", "--save", "after.json"});
+    return place.json("after.json")["state"]["nodes"]["site"].value("boundary.ground_area", 0.0);
+  };
+  // Across the plot, with no corner in it.
+  const Outcome across = add({"garden", "--corners", "-60,-5", "60,-5", "60,5", "-60,5", "--open"});
+  ASSERT_EQ(across.code, 0) << across.err;
+  EXPECT_NE(across.out.find("The boundary `site` leaves out the 800.0 m² of it that lie inside, of 1200.0 m²: open space"),
+            std::string::npos)
+      << across.out;
+  EXPECT_NEAR(ground(), 80 * 44 - 800, 1e-6);
+  // Beside it, with a side in common.
+  const Outcome beside = add({"garden", "--corners", "40,0", "60,0", "60,10", "40,10", "--open"});
+  EXPECT_NE(beside.out.find("No boundary reaches it"), std::string::npos) << beside.out;
+  // The node of the first is removed, its rows are not: the next one of the same name has its own ground alone.
+  nlohmann::json scene = place.json("s.json");
+  for (std::size_t i = 0; i < scene["nodes"].size(); ++i)
+    if (scene["nodes"][i]["id"] == "garden") scene["nodes"].erase(i--);
+  for (std::size_t i = 0; i < scene["links"].size(); ++i)
+    if (scene["links"][i]["from"] == "garden") scene["links"].erase(i--);
+  place.write("s.json", scene.dump());
+  const Outcome again = add({"garden", "--corners", "0,0", "20,0", "20,10", "0,10", "--open"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("What it left out as `garden` before is replaced."), std::string::npos) << again.out;
+  EXPECT_NEAR(ground(), 80 * 44 - 200, 1e-6);
+}
+
+TEST_F(Add, OpenGardensReachUpToTheTopOfBoundariesOfAllForms) {
+  place.write("hull.json", scene_text("", "", R"({"form": "hull", "points": [[0, 0, 0], [50, 0, 0], [50, 40, 0], [0, 40, 0],
+    [0, 0, 30], [50, 0, 30], [50, 40, 30], [0, 40, 30]]})"));
+  place.write("steps.json", scene_text("", "", R"({"form": "plan", "height": 10, "plan": [[0, 0, 0], [50, 0, 0], [50, 40, 0],
+    [0, 40, 0]], "steps": [{"name": "tower", "x": 0, "y": 0, "top": 60}, {"name": "tower", "x": 50, "y": 0},
+    {"name": "tower", "x": 50, "y": 40}, {"name": "tower", "x": 0, "y": 40}]})"));
+  for (const char* scene : {"hull.json", "steps.json"}) {
+    const Outcome done = place.run({"add", scene, "garden", "--corners", "10,10", "20,10", "20,20", "10,20", "--open",
+                                    "--latitude", "52", "--longitude", "5"});
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.out.find("The boundary `site` leaves out its 100.0 m²"), std::string::npos) << done.out;
+    (void)place.run({"run", scene, "--ticks", "2", "--save", "after.json"});
+    const nlohmann::json site = place.json("after.json")["state"]["nodes"]["site"];
+    EXPECT_NEAR(site.value("boundary.ground_area", 0.0), 50 * 40 - 100, 1e-6) << scene << ": nothing hangs above the garden";
+  }
 }
 
 TEST_F(Add, WhatIsWrongIsRefusedInASentenceAndNothingIsWritten) {

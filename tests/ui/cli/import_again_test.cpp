@@ -85,6 +85,7 @@ TEST_F(ImportAgain, TakesWhatTheFileChangedAndKeepsWhatPeopleChanged) {
   const Outcome again = import("plots.geojson", "a.json", "b.json", {"--as", "plot"});
   expect_said(again, "1 new, 1 updated, 0 unchanged, 2 changed by people, 1 gone.");
   expect_said(again, "something else of `plot_a`");
+  expect_said(again, "or people have removed it, which no import knows): `plot_e`.");
   expect_said(again, "It stays in the scene: `plot_d`.");
   scene = place.json("b.json");
   EXPECT_EQ(scene["nodes"].size(), 5u);
@@ -126,6 +127,79 @@ TEST_F(ImportAgain, ASiteLeavesOutTheGroundOfABuildingOnce) {
   const nlohmann::json rows = imported_node(place.json("c.json"), "site")["types"]["boundary"]["exclusions"];
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0]["top"], 12);
+  // Where it does not stand in the site any more, nothing is left out for it.
+  for (std::size_t at = 0; (at = taller.find("lat=\"52\"", at)) != std::string::npos;) taller.replace(at, 8, "lat=\"52.01\"");
+  for (std::size_t at = 0; (at = taller.find("lat=\"52.0001\"", at)) != std::string::npos;)
+    taller.replace(at, 13, "lat=\"52.0101\"");
+  place.write("map.osm", taller);
+  expect_said(import("map.osm", "c.json", "d.json", {"--keep"}),
+              "`building_w1` does not reach into the site `site` any more, and the site leaves nothing out for it.");
+  EXPECT_FALSE(imported_node(place.json("d.json"), "site")["types"]["boundary"].contains("exclusions"));
+}
+
+std::string features_file(const std::string& features) {
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" +
+         features + "]}";
+}
+std::string house(int west, int width, int height, const std::string& properties = "") {
+  const std::string w = std::to_string(85000 + west), e = std::to_string(85000 + west + width);
+  return R"({"type": "Feature", "properties": {"height": )" + std::to_string(height) + properties +
+         R"(}, "geometry": {"type": "Polygon", "coordinates": [[[)" + w + ", 447000], [" + e + ", 447000], [" + e +
+         ", 447010], [" + w + ", 447010], [" + w + ", 447000]]]}}";
+}
+
+// Files with one id for several features, and several files of one source: each feature is one node, the same one again.
+TEST_F(ImportAgain, EqualIdsAreKnownByTheirPlaces) {
+  std::string row;
+  for (int i = 0; i < 12; ++i) row += (i > 0 ? "," : "") + house(20 * i, 10, 9 + i, R"(, "gid": "same")");
+  place.write("row.geojson", features_file(row));
+  (void)import("row.geojson", "", "a.json");
+  expect_said(import("row.geojson", "a.json", "b.json"), "0 new, 0 updated, 12 unchanged, 0 changed by people, 0 gone.");
+  EXPECT_EQ(place.text("a.json"), place.text("b.json"));
+  place.write("west.geojson", features_file(house(0, 10, 9, R"(, "gid": 1)")));
+  place.write("east.geojson", features_file(house(300, 10, 19, R"(, "gid": 1)")));
+  const std::vector<std::string> both{"import", "west.geojson", "east.geojson", "--source", "City", "--force", "--out"};
+  std::vector<std::string> call = both;
+  call.emplace_back("c.json");
+  const Outcome first = place.run(call);
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(place.json("c.json")["nodes"].size(), 2u) << "nothing is lost";
+  EXPECT_EQ(first.out.find("imported before"), std::string::npos) << first.out;
+  call = both;
+  call.insert(call.end(), {"d.json", "--into", "c.json"});
+  const Outcome second = place.run(call);
+  expect_said(second, "0 new, 0 updated, 1 unchanged, 0 changed by people, 0 gone.");
+  EXPECT_EQ(second.out.find("Gone means"), std::string::npos) << second.out;
+  EXPECT_EQ(place.text("c.json"), place.text("d.json"));
+}
+
+// Features without an id are what their geometry is, wherever they stand in their file.
+TEST_F(ImportAgain, FeaturesWithoutAnIdAreKnownByTheirGeometry) {
+  place.write("houses.geojson", features_file(house(0, 10, 9) + "," + house(50, 10, 12) + "," + house(100, 10, 15)));
+  (void)import("houses.geojson", "", "a.json");
+  const auto node_at = [&](const std::string& scene, double height) {
+    const nlohmann::json whole = place.json(scene);
+    for (const auto& one : whole["nodes"])
+      if (one["types"]["existing_building"]["height"] == height) return one["id"].get<std::string>();
+    return std::string();
+  };
+  const std::string second = node_at("a.json", 12), third = node_at("a.json", 15);
+  // The first left the file, the second is higher, the third has grown to the east.
+  place.write("houses.geojson", features_file(house(50, 10, 13) + "," + house(100, 14, 15)));
+  expect_said(import("houses.geojson", "a.json", "b.json"), "0 new, 2 updated, 0 unchanged, 0 changed by people, 1 gone.");
+  EXPECT_EQ(node_at("b.json", 13), second);
+  EXPECT_EQ(node_at("b.json", 15), third);
+  EXPECT_EQ(place.json("b.json")["nodes"].size(), 3u);
+  expect_said(import("houses.geojson", "b.json", "c.json"), "0 new, 0 updated, 2 unchanged, 0 changed by people, 1 gone.");
+  EXPECT_EQ(place.text("b.json"), place.text("c.json"));
+  // Scenes of before knew features by their numbers.
+  nlohmann::json old = place.json("b.json");
+  int number = 0;
+  for (auto& one : old["nodes"]) one["types"]["imported"]["element"] = std::to_string(number++);
+  place.write("old.json", old.dump());
+  (void)import("houses.geojson", "old.json", "d.json");
+  EXPECT_EQ(place.json("d.json")["nodes"].size(), 3u);
+  expect_said(import("houses.geojson", "d.json", "e.json"), "0 new, 0 updated, 2 unchanged");
 }
 
 }  // namespace

@@ -71,6 +71,66 @@ TEST_F(KeepClear, WaterAndGreenAreLeftOutAndWhatTheSiteLiesInIsNot) {
   EXPECT_NE(place.text("rows.csv").find("the site `site` leaves its ground out"), std::string::npos) << place.text("rows.csv");
 }
 
+std::string square_ring(int west, int south, int width, int depth) {
+  const std::string w = std::to_string(85000 + west), e = std::to_string(85000 + west + width);
+  const std::string s = std::to_string(447000 + south), n = std::to_string(447000 + south + depth);
+  return "[" + w + "," + s + "],[" + e + "," + s + "],[" + e + "," + n + "],[" + w + "," + n + "],[" + w + "," + s + "]";
+}
+
+// An element is that of its source: the same id elsewhere is another one.
+TEST_F(KeepClear, EqualIdsDoNotWipeOutEachOther) {
+  const auto green = [](const std::string& ring) { return ground_feature(ring, R"("gid": 7, "landuse": "grass")"); };
+  place.write("parks.geojson", ground_file(green(square_ring(0, 0, 10, 10)) + "," + green(square_ring(40, 0, 10, 10))));
+  place.write("forests.geojson", ground_file(green(square_ring(60, 0, 20, 10))));
+  place.write("later.geojson", ground_file(green(square_ring(0, 60, 20, 20))));
+  const auto import = [&](std::vector<std::string> files, const std::string& into, const std::string& out) {
+    files.insert(files.begin(), "import");
+    files.insert(files.end(), {"--as", "area", "--keep-clear", "green", "--into", into, "--out", out});
+    const Outcome done = place.run(files);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.out;
+  };
+  const std::string said = import({"parks.geojson", "forests.geojson"}, "scene.json", "a.json");
+  EXPECT_NE(said.find("leaves out the ground of 3 areas of green"), std::string::npos) << said;
+  EXPECT_NEAR(ground_area("a.json"), 8000 - 100 - 100 - 200, 1e-6);
+  (void)import({"later.geojson"}, "a.json", "b.json");
+  EXPECT_NEAR(ground_area("b.json"), 8000 - 100 - 100 - 200 - 400, 1e-6);
+  (void)import({"parks.geojson", "forests.geojson"}, "b.json", "c.json");
+  EXPECT_NEAR(ground_area("c.json"), 8000 - 100 - 100 - 200 - 400, 1e-6);
+  (void)import({"parks.geojson", "forests.geojson"}, "a.json", "d.json");
+  EXPECT_EQ(place.text("a.json"), place.text("d.json")) << "again changes nothing";
+  // Of one source by name, as people write it.
+  (void)import({"parks.geojson", "forests.geojson", "--source", "City"}, "scene.json", "e.json");
+  EXPECT_NEAR(ground_area("e.json"), 8000 - 100 - 100 - 200, 1e-6);
+}
+
+// What moved away gives its ground back, also where nobody asks again what is kept clear; what left the file is named.
+TEST_F(KeepClear, GroundThatMovedAwayIsGivenBack) {
+  const auto lawn = [](const std::string& id, int west) {
+    return ground_feature(square_ring(west, 0, 10, 10), R"("gid": ")" + id + R"(", "landuse": "grass")");
+  };
+  place.write("ground.geojson", ground_file(lawn("a", 0) + "," + lawn("b", 40)));
+  ASSERT_EQ(
+      place.run({"import", "ground.geojson", "--as", "area", "--into", "scene.json", "--keep-clear", "green", "--out", "a.json"})
+          .code,
+      0);
+  EXPECT_NEAR(ground_area("a.json"), 8000 - 200, 1e-6);
+  place.write("ground.geojson", ground_file(lawn("a", 500) + "," + lawn("b", 40)));
+  const Outcome moved = place.run({"import", "ground.geojson", "--as", "area", "--into", "a.json", "--out", "b.json"});
+  ASSERT_EQ(moved.code, 0) << moved.err;
+  EXPECT_NE(moved.out.find("The site `site` leaves out the ground of 1 area of green no longer: it does not reach into the site"),
+            std::string::npos)
+      << moved.out;
+  EXPECT_NEAR(ground_area("b.json"), 8000 - 100, 1e-6);
+  place.write("ground.geojson", ground_file(lawn("a", 500)));
+  const Outcome gone = place.run({"import", "ground.geojson", "--as", "area", "--into", "b.json", "--out", "c.json"});
+  ASSERT_EQ(gone.code, 0) << gone.err;
+  EXPECT_NE(gone.out.find("The site `site` still leaves out what this import does not bring any more"), std::string::npos)
+      << gone.out;
+  EXPECT_NE(gone.out.find("`green b of ground.geojson`"), std::string::npos) << gone.out;
+  EXPECT_NEAR(ground_area("c.json"), 8000 - 100, 1e-6);
+}
+
 TEST_F(KeepClear, WrongWordsAndScenesWithoutASiteAreTold) {
   EXPECT_EQ(place.run({"import", "streets.geojson", "--keep-clear", "trees", "--out", "a.json"}).code, 2);
   const Outcome done = place.run({"import", "streets.geojson", "--keep-clear", "streets", "--out", "a.json"});

@@ -125,6 +125,41 @@ TEST_F(ImportSite, ClearedOnesAreLeftOutWithARow) {
   EXPECT_NEAR(boundary_volume(), 60 * 50 * 30 - 5 * 10 * 9, 1e-6);
 }
 
+// What an import before has kept is cleared as well, where people have left it alone.
+TEST_F(ImportSite, ClearingAgainRemovesWhatWasKept) {
+  place.write("around.geojson",
+              feature_file(square_feature("inside", 10, 10, 10, 10, 12) + "," + square_feature("loved", 30, 10, 10, 10, 12) +
+                           "," + square_feature("reaching", 55, 20, 20, 10, 9)));
+  ASSERT_EQ(import({"--keep"}).code, 0);
+  nlohmann::json scene = place.json("all.json");
+  for (auto& one : scene["nodes"])
+    if (one["id"] == "building_loved") one["name"] = "The old school";
+  place.write("kept.json", scene.dump());
+  const auto clear = [&](const std::string& into) {
+    const Outcome done = place.run(
+        {"import", "around.geojson", "--into", into, "--clear", "--out", "all.json", "--force", "--report", "rows.csv"});
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.out;
+  };
+  const std::string said = clear("kept.json");
+  EXPECT_NE(said.find("1 building that stands inside the site `site` was left out. Removed, with the ground that the site left "
+                      "out for it: `building_inside`."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("`building_loved` stands inside the site `site` and stays, because people have changed it"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("0 new, 0 updated, 1 unchanged, 1 changed by people, 0 gone, 1 removed."), std::string::npos) << said;
+  EXPECT_TRUE(node("building_inside").is_null());
+  EXPECT_EQ(node("building_loved")["name"], "The old school");
+  EXPECT_NE(row("features/1").find("people have changed it: it stays"), std::string::npos) << row("features/1");
+  EXPECT_NEAR(boundary_volume(), 60 * 50 * 30 - 10 * 10 * 12 - 5 * 10 * 9, 1e-6) << "only the other two are left out";
+  // And the other way round it comes back.
+  const Outcome kept = place.run({"import", "around.geojson", "--into", "all.json", "--keep", "--out", "all.json", "--force"});
+  ASSERT_EQ(kept.code, 0) << kept.err;
+  EXPECT_FALSE(node("building_inside").is_null());
+}
+
 TEST_F(ImportSite, PartsShareTheFateOfTheirBuilding) {
   const std::string map = R"(<osm version="0.6">
     <node id="1" lat="52" lon="5"/><node id="2" lat="52" lon="5.0002"/><node id="3" lat="52.0002" lon="5.0002"/><node id="4" lat="52.0002" lon="5"/>

@@ -67,7 +67,10 @@ TEST_F(Import, SeveralFilesShareOneFrame) {
   const nlohmann::json scene = place.json("c.json");
   ASSERT_EQ(scene["nodes"].size(), 4u);
   const auto outline = node(scene, "building_1")["types"]["existing_building"]["outline"];
-  const auto polygon = node(scene, "plot_0")["types"]["plot"]["polygon"];
+  nlohmann::json polygon;
+  for (const auto& one : scene["nodes"])
+    if (one["id"].get<std::string>().starts_with("plot_geo_")) polygon = one["types"]["plot"]["polygon"];
+  ASSERT_FALSE(polygon.is_null()) << "a feature without an id is called by its geometry";
   EXPECT_NEAR(polygon[0][1].get<double>() - outline[0][1].get<double>(), 20, 1e-9) << "20 m north of the house";
   const nlohmann::json ground = node(scene, "terrain")["types"]["terrain"];
   EXPECT_EQ(ground["rows"].size(), 2u);

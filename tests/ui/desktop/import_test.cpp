@@ -2,6 +2,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "core/making/site_grounds.h"
+#include "core/reading/views/solver.h"
 #include "tests/support/reference_files.h"
 #include "tests/ui/desktop/import_support.h"
 #include "ui/desktop/panels/actions.h"
@@ -56,6 +58,50 @@ TEST(WindowImport, LaterFilesLandInTheFrameOfTheFirst) {
   EXPECT_NEAR(way.x, 0, 1e-3);
   EXPECT_EQ(settings_of(editor.scene()).origin_x, origin);
   EXPECT_EQ(steps_of(editor), 2u);
+}
+
+// A site of 100 m by 80 m, and a street of 10 m that runs 50 m into it.
+constexpr const char* kClearSite = R"({"format": "behaviourlinks", "version": 1,
+  "settings": {"coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 447000},
+  "nodes": [{"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[100,0,0],[100,80,0],[0,80,0]]}}}], "links": []})";
+constexpr const char* kClearStreet =
+    R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+  "features": [{"type": "Feature", "properties": {"gid": "main", "highway": "residential", "width": 10},
+    "geometry": {"type": "LineString", "coordinates": [[84950,447040],[85050,447040]]}}]})";
+
+TEST(WindowImport, KeepsStreetsClearWhereItsBoxIsChecked) {
+  const Folder folder("import_clear");
+  ImportDesktop desktop;
+  desktop.desktop().drop(folder.write("site.json", kClearSite));
+  desktop.frames(2);
+  const std::string street = folder.write("street.geojson", kClearStreet), before = desktop.scene_text();
+  const auto exclusions = [&] {
+    const auto& ports = desktop.editor().scene().nodes.at("site").types.at("boundary");
+    return ports.contains("exclusions") ? std::get<Shared<Table>>(ports.at("exclusions"))->rows.size() : 0;
+  };
+  desktop.import({street});
+  EXPECT_EQ(exclusions(), 0u) << "nobody has asked for it";
+  desktop.editor().undo();
+  desktop.frames(2);
+  ASSERT_EQ(desktop.scene_text(), before);
+  desktop.desktop().drop({street});
+  desktop.frames(3);
+  for (const char* ground : making::kClearGrounds) EXPECT_TRUE(desktop.has(std::string("import/clear/") + ground)) << ground;
+  desktop.press_on("import/clear/green");
+  desktop.press_on("import/clear/streets");
+  desktop.press_on("import/clear/green");
+  EXPECT_EQ(desktop.editor().dialogs->import_options().keep_clear, std::vector<std::string>{"streets"});
+  desktop.press_on("import/begin");
+  desktop.finish();
+  EXPECT_FALSE(desktop.is_open()) << desktop.told();
+  EXPECT_EQ(exclusions(), 4u) << desktop.told();
+  desktop.ticks(2);
+  EXPECT_NEAR(reading::rows<reading::BoundaryFigures>(desktop.editor().state()).front().figures.ground_area, 8000 - 50 * 10,
+              1e-6);
+  EXPECT_EQ(steps_of(desktop.editor()), 1u);
+  desktop.editor().undo();
+  desktop.frames(2);
+  EXPECT_EQ(desktop.scene_text(), before) << "one step, which can be undone";
 }
 
 TEST(WindowImport, OneBadFileOfSeveralKeepsAllOut) {

@@ -3,6 +3,7 @@
 
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/panels_support.h"
+#include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/scene_view.h"
@@ -318,6 +319,35 @@ TEST(Statistics, TheBriefSaysWhoTakesStoreys) {
   EXPECT_FALSE(desktop.has("use/housing/why")) << "the houses have their storeys";
   EXPECT_NE(desktop.record().why["office"].find("Tower: 8 of 10 storeys: link `sun` (Solar right)"), std::string::npos)
       << desktop.record().why["office"];
+}
+
+// A row of open space has a line of its own, and a shortage that says what to do until there is ground enough.
+TEST(Statistics, TheBriefShowsOpenSpace) {
+  ListDesktop desktop(kListedQuarter);
+  Workbench& editor = desktop.editor();
+  const std::string row = R"({"use": "lawn", "floor_area": 200})", use = R"({"types": {"use": {"use": "lawn", "is_open": true}}})";
+  ASSERT_TRUE(editor.submit(command<AddNode>({"use_lawn", {use}})));
+  ASSERT_TRUE(editor.submit(command<AddRow>({"programme", {"programme.rows"}, {row}, -1})));
+  desktop.ticks(4);
+  desktop.open_tab("Statistics");
+  EXPECT_TRUE(desktop.has("use/lawn"));
+  EXPECT_TRUE(desktop.has("use/lawn/why"));
+  const auto short_of_lawn = [&] {
+    for (const ProblemItem& item : desktop.of(ProblemKind::shortage))
+      if (item.key == "open/lawn") return item.text;
+    return std::string();
+  };
+  EXPECT_NE(short_of_lawn().find("no boundary keeps ground open for it"), std::string::npos) << short_of_lawn();
+  EXPECT_EQ(desktop.record().figures(editor).accounts.open.front().asked, 200);
+  const auto uses = known_uses(editor.scene());
+  EXPECT_EQ(std::count(uses.begin(), uses.end(), "lawn"), 0) << "no volume can have it";
+  std::string corners;
+  for (const char* at : {R"("x": 10, "y": 10)", R"("x": 30, "y": 10)", R"("x": 30, "y": 20)", R"("x": 10, "y": 20)"})
+    corners += (corners.empty() ? "" : ", ") + std::string(R"({"name": "lawn", "use": "lawn", "bottom": 0, "top": 500, )") + at + "}";
+  ASSERT_TRUE(editor.submit(command<SetPort>({"site", {"boundary.exclusions"}, {"[" + corners + "]"}})));
+  desktop.ticks(4);
+  EXPECT_EQ(short_of_lawn(), "");
+  EXPECT_NEAR(desktop.record().figures(editor).accounts.open.front().area, 200, 1e-9);
 }
 
 // In another form bars and sums are those of that form.

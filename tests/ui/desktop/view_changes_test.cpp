@@ -109,6 +109,8 @@ TEST(ViewChanges, TheVolumeThatIsPickedIsTheNearestOfAll) {
         }
         const auto picked = pick(ray, *facts, section, false);
         ASSERT_EQ(picked.has_value(), nearest.has_value()) << x << ", " << y;
+        for (const VolumeFacts& volume : facts->volumes)
+          EXPECT_EQ(is_met_first(ray, volume, *facts, section, false), picked && picked->node == volume.node) << x << ", " << y;
         if (!picked) continue;
         ++hits;
         EXPECT_EQ(picked->node, nearest->node) << x << ", " << y;

@@ -165,6 +165,23 @@ TEST_P(DrawnScene, WhatHasNotChangedKeepsItsShape) {
   EXPECT_EQ(shapes.of(facts_, {}), facts_) << "as they are is the facts themselves";
 }
 
+// By hand: a pavilion of 2.4 m under storeys of 3.2 m has one slab, as high as itself.
+TEST(DrawnLow, ASlabIsNoHigherThanItsBody) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-30, -20, 0], [30, -20, 0], [30, 20, 0], [-30, 20, 0]], "height": 2.4}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "house", "position": [0, 0, 1.2], "types": {"smart_volume": {"demand": 900, "storey_height": 3.2}}}]})");
+  ASSERT_TRUE(world.settle());
+  const auto facts = read_facts(world.session().state(), nullptr);
+  DrawnShapes shapes;
+  const auto drawn = shapes.of(facts, {DrawnForm::slabs, 0});
+  ASSERT_EQ(drawn->volumes.size(), 1u);
+  const VolumeFacts& house = drawn->volumes.front();
+  ASSERT_NEAR(house.figures.height, 2.4, 1e-6);
+  EXPECT_NEAR(shapes.figures_of(house.node)->volume, 2.4 * house.drawn_area, 1e-6 * house.volume);
+  EXPECT_LE(highest(*house.cell), 2.4 + 1e-6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Start, DrawnScene, ::testing::Values("scenes/start/standing.json", "scenes/start/quarter.json"));
 
 // Flats over two cellars of 3 m, and a round shop over one of 3.5 m.

@@ -28,12 +28,23 @@ std::vector<Shared<Table>> briefs_of(const Scene& scene) {
   return briefs;
 }
 
+// No volume has these.
+std::set<std::string> open_uses(const Scene& scene) {
+  std::set<std::string> uses;
+  for (const auto& [id, node] : scene.nodes)
+    if (const auto kind = reading::settings_of<reading::UseKind>(scene, full_registry(), node); kind && kind->is_open)
+      uses.insert(kind->use);
+  return uses;
+}
+
+// Those that volumes can have.
 std::vector<std::string> uses_of_briefs(const Scene& scene) {
   std::vector<std::string> uses;
+  const std::set<std::string> open = open_uses(scene);
   for (const Shared<Table>& brief : briefs_of(scene))
     for (std::size_t row = 0; row < brief->rows.size(); ++row)
       if (const std::string& use = brief->text(row, "use");
-          !use.empty() && std::find(uses.begin(), uses.end(), use) == uses.end())
+          !use.empty() && !open.contains(use) && std::find(uses.begin(), uses.end(), use) == uses.end())
         uses.push_back(use);
   return uses;
 }

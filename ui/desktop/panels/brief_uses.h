@@ -8,7 +8,7 @@
 
 namespace bl::desktop {
 
-/// Those of the briefs in their order, then those that volumes have besides, by name; each once.
+/// Those of the briefs in their order without open space, then those that volumes have besides, by name; each once.
 std::vector<std::string> known_uses(const Scene& scene);
 /// The uses of the briefs, with the largest missing floor area first.
 std::vector<std::string> uses_by_need(Workbench& editor);

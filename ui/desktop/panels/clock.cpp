@@ -81,7 +81,9 @@ void draw_standing(Workbench& editor) {
     text = std::string(icon::kCheck) + "  settled, worst error " + fixed(100 * state.largest_residual, 2) + " %";
   } else if (moment.is_resting) {
     colour = c.warning;
-    text = "nothing moves, but not settled: worst error " + fixed(100 * state.largest_residual, 2) + " %";
+    text = "nothing moves, but not settled: " + (state.largest_residual <= state.plan->settings.tolerance && has_failure(state)
+                                                     ? "see the problems for what fails or cannot be met"
+                                                     : "worst error " + fixed(100 * state.largest_residual, 2) + " %");
   } else if (state.tick > 0 && !moment.is_playing) {
     text = "paused: worst error " + fixed(100 * state.largest_residual, 2) + " %, press P to go on";
   } else if (state.tick > 0) {

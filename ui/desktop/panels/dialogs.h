@@ -94,6 +94,7 @@ class Dialogs {
   void draw_import();
   void draw_import_files();
   void draw_import_options();
+  void draw_kept_clear();
   void draw_import_progress();
   void begin_import();
   bool take_import(making::ImportedScene& imported);

@@ -8,6 +8,7 @@
 
 #include <imgui_stdlib.h>
 
+#include "core/making/site_grounds.h"
 #include "core/reading/figures.h"
 #include "ui/desktop/document/import_task.h"
 #include "ui/desktop/panels/inspector_cell.h"
@@ -116,14 +117,16 @@ void Dialogs::draw_import_options() {
   }
   text_field(theme, "Coordinates are in", "A CRS in place of the one in the files.", context.crs,
              "as the file says, or EPSG:28992");
-  const std::string crs = editor_->document ? settings_of(editor_->scene()).coordinate_system : std::string();
-  if (crs.empty()) {
+  const Settings settings = editor_->document ? settings_of(editor_->scene()) : Settings();
+  const std::string& crs = settings.coordinate_system;
+  if (crs.empty() && settings.latitude == 0 && settings.longitude == 0) {
     text_field(theme, "Origin of the scene (X,Y)", "In the CRS of the first file; later files land in the same frame.",
                import_.origin, "the middle of the first file");
   } else {
     import_.origin.clear();
     label(theme, "Origin of the scene", "Set by the first imported file, or by the plan that the scene was made from.");
-    ImGui::TextDisabled("stays where it is, in %s", crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
+    ImGui::TextDisabled("stays where it is, %s%s", crs.empty() ? "by the latitude and longitude of the scene" : "in ",
+                        crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
   }
   number_field(theme, "Radius around the origin", "Elements that begin farther away are skipped, and reported. 0: no limit.",
                context.radius, "%.5g m");
@@ -139,9 +142,25 @@ void Dialogs::draw_import_options() {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(theme.px(152));
   ImGui::InputTextWithHint("##licence", "licence", &import_.licence);
+  draw_kept_clear();
   ImGui::Checkbox("Footpaths, cycleways and steps too", &import_.takes_all_streets);
   ImGui::SameLine(theme.px(330));
   ImGui::Checkbox("Buildings from outline and height only", &import_.is_extruded);
+}
+
+// `--keep-clear` of the command line.
+void Dialogs::draw_kept_clear() {
+  label(editor_->theme, "Keep clear of volumes", making::kKeepClearDoc);
+  std::vector<std::string> kept;
+  for (const char* ground : making::kClearGrounds) {
+    bool is_kept = std::find(import_.keep_clear.begin(), import_.keep_clear.end(), ground) != import_.keep_clear.end();
+    ImGui::Checkbox(ground, &is_kept);
+    note_place(*editor_, std::string("import/clear/") + ground);
+    ImGui::SameLine();
+    if (is_kept) kept.emplace_back(ground);
+  }
+  ImGui::NewLine();
+  import_.keep_clear = std::move(kept);
 }
 
 void Dialogs::draw_import_progress() {
@@ -186,7 +205,7 @@ void Dialogs::stop_import() {
 }
 
 void Dialogs::draw_import() {
-  if (!begin("Import surroundings", 780, 590)) {
+  if (!begin("Import surroundings", 780, 625)) {
     if (kind_ != Kind::import) stop_import();  // closed by Esc or its cross
     return;
   }

@@ -172,6 +172,14 @@ void ProblemList::add_shortages(const State& state, const reading::ReportModel& 
       if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts.tolerance)))
         item->nodes.push_back(volume.id);
   }
+  for (const reading::OpenAccount& open : accounts.open)
+    if (std::string text = reading::shortage_of(open, accounts.tolerance); !text.empty()) {
+      ProblemItem& item = items_.emplace_back();
+      item.kind = ProblemKind::shortage;
+      item.key = "open/" + open.use;
+      item.subject = "Not enough open space for " + open.use;
+      item.text = std::move(text);
+    }
   if (accounts.all.short_volumes == 0) return;
   for (const reading::VolumeRow& volume : figures.volumes) {
     if (!volume.is_short(accounts.tolerance)) continue;

@@ -117,10 +117,9 @@ Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   // Of a volume that is cut, or drawn as another shape, the middle of what is seen.
   const Seen shown = volume->is_drawn_otherwise ? seen(volume->cell->wrap->ball_centre) : middle;
   const Seen low = seen({p.x, p.y, volume->figures.bottom + 0.4 * volume->figures.storey_height});
-  for (const Seen& at : {shown, middle, seen({p.x, p.y, top}), low}) {
-    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section, shows("buildings"));
-    if (front && front->node == node) return at;
-  }
+  for (const Seen& at : {shown, middle, seen({p.x, p.y, top}), low})
+    if (is_met_first(choices_.camera.ray(at.x, at.y, width(), height()), *volume, *facts_, choices_.section, shows("buildings")))
+      return at;
   Seen nowhere = middle;
   nowhere.is_in_front = false;
   return nowhere;
@@ -149,8 +148,12 @@ std::vector<LabelRequest> SceneView::label_wishes() const {
   const VolumeColumns& columns = facts_->columns;
   for (std::size_t k = 0; k < volumes; ++k)
     consider(columns.node[k], columns.radius[k] / lens.metres_per_pixel(columns.position[k]), order++);
-  for (std::size_t k = 0; k < marks; ++k)
-    if (!hides(choices_.section, place_of(facts_->marks[k].node))) consider(facts_->marks[k].node, of_marks, order++);
+  // Who has no name has an id for programs, such as each junction of a map: that is told where people point.
+  for (std::size_t k = 0; k < marks; ++k, ++order) {
+    const MarkFacts& mark = facts_->marks[k];
+    const bool is_nameless = mark.name == mark.id && !chosen.contains(mark.node) && mark.node != hovered;
+    if (!is_nameless && !hides(choices_.section, place_of(mark.node))) consider(mark.node, of_marks, order);
+  }
   const std::size_t count = std::min(kMostLabels, candidates.size());
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end());
   std::vector<LabelRequest> wishes;

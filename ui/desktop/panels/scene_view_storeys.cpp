@@ -226,7 +226,7 @@ void SceneView::draw_dimensions() {
     if (volume == nullptr || ++drawn > kMostPlans) continue;
     const auto figures = reading::row_of<reading::FootprintFigures>(*facts_->state, volume->node);
     if (!figures || figures->plates.rows.empty()) continue;
-    const geometry::StandingBody body = geometry::read_body(figures->plates, volume->figures.position);
+    const geometry::StandingBody body = geometry::read_body(figures->plates);
     const geometry::PlateStack cellar = cellar_drawn(body, volume->node);
     const bool is_below = cellar.storeys > 0;
     const PlanFloor floor =

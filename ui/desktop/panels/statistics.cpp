@@ -211,42 +211,73 @@ const std::string& why_less(const Workbench& editor, RunRecord& record, const re
   return record.why[use.use];
 }
 
-// One line of the programme: what is wanted as the mark, what there is as the bar, and below why it is not what was wanted.
-void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, double largest, double tolerance,
-              const std::string& why) {
+// One line of the programme [m²].
+struct AmountLine {
+  std::string name;
+  double area = 0, asked = 0;
+  bool is_short = false;
+  std::string why;         // there is not what was wanted
+  std::string asked_what;  // "floor area asked for"
+  std::string more;        // on its card
+};
+
+// What is wanted as the mark, what there is as the bar, and below why it is not what was wanted.
+void draw_amount(Workbench& editor, const AmountLine& use, ImU32 colour, double largest) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, line = theme.fonts().small->FontSize;
-  const float height = std::round(line + theme.px(14) + (why.empty() ? 0 : line + theme.px(2)));
+  const float height = std::round(line + theme.px(14) + (use.why.empty() ? 0 : line + theme.px(2)));
   ImGui::Dummy({width, height});
   ImFont* small = theme.fonts().small;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(small);
-  const std::string amount = reading::quantity(use.floor_area, Unit::square_metre) +
-                             (use.asked_area > 0 ? "  " + reading::difference_of(use.floor_area, use.asked_area) : "");
+  const std::string amount =
+      reading::quantity(use.area, Unit::square_metre) + (use.asked > 0 ? "  " + reading::difference_of(use.area, use.asked) : "");
   const float amount_width = ImGui::CalcTextSize(amount.c_str()).x;
-  const bool is_short = use.is_short(tolerance);
-  const std::string name = use.use.empty() ? "without a use" : use.use;
-  list.AddText({at.x, at.y}, c.text, fitted(name, width - amount_width - theme.px(12)).c_str());
-  list.AddText({at.x + width - amount_width, at.y}, is_short ? c.warning : c.text_soft, amount.c_str());
+  list.AddText({at.x, at.y}, c.text, fitted(use.name, width - amount_width - theme.px(12)).c_str());
+  list.AddText({at.x + width - amount_width, at.y}, use.is_short ? c.warning : c.text_soft, amount.c_str());
   ImGui::PopFont();
   const float y = at.y + small->FontSize + theme.px(4);
-  bar(theme, {at.x, y}, {at.x + width, y + theme.px(5)}, use.floor_area / std::max(largest, 1e-9),
-      use.asked_area / std::max(largest, 1e-9), colour);
-  if (!why.empty()) {
+  bar(theme, {at.x, y}, {at.x + width, y + theme.px(5)}, use.area / std::max(largest, 1e-9), use.asked / std::max(largest, 1e-9),
+      colour);
+  note_place(editor, "use/" + use.name);
+  if (!use.why.empty()) {
     ImGui::PushFont(small);
-    list.AddText({at.x, y + theme.px(8)}, theme.colours().warning, fitted(why, width).c_str());
+    list.AddText({at.x, y + theme.px(8)}, theme.colours().warning, fitted(use.why, width).c_str());
     ImGui::PopFont();
-    note_place(editor, "use/" + use.use + "/why");
+    note_place(editor, "use/" + use.name + "/why");
   }
   if (!ImGui::IsItemHovered()) return;
-  card(editor, name,
-       reading::quantity(use.floor_area, Unit::square_metre) + " of " + reading::quantity(use.asked_area, Unit::square_metre) +
-           " floor area asked for",
-       reading::counted(use.volumes, "volume") + ", " + reading::quantity(use.volume, Unit::cubic_metre) +
-           (why.empty() ? "" : "\n" + why) +
-           (use.is_in_programme ? "" : "\nnot in any programme: the demands of its volumes count"));
+  card(editor, use.name,
+       reading::quantity(use.area, Unit::square_metre) + " of " + reading::quantity(use.asked, Unit::square_metre) + " " +
+           use.asked_what,
+       use.more + (use.why.empty() ? "" : "\n" + use.why));
+}
+
+void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, double largest, double tolerance,
+              const std::string& why) {
+  draw_amount(editor,
+              {use.use.empty() ? "without a use" : use.use, use.floor_area, use.asked_area, use.is_short(tolerance), why,
+               "floor area asked for",
+               reading::counted(use.volumes, "volume") + ", " + reading::quantity(use.volume, Unit::cubic_metre) +
+                   (use.is_in_programme ? "" : "\nnot in any programme: the demands of its volumes count")},
+              colour, largest);
+}
+
+// Ground that is asked for and kept open, below the uses that have volumes.
+void draw_open_space(Workbench& editor, const reading::Accounts& accounts, const UseNumbers& numbers) {
+  if (accounts.open.empty()) return;
+  ImGui::Separator();
+  column_title(editor, "Open space by use");
+  double largest = 0;
+  for (const reading::OpenAccount& open : accounts.open) largest = std::max({largest, open.area, open.asked});
+  for (const reading::OpenAccount& open : accounts.open)
+    draw_amount(
+        editor,
+        {open.use, open.area, open.asked, open.is_short(accounts.tolerance), why_short(open, accounts.tolerance),
+         "of ground asked for as open space", open.is_in_programme ? "no volume, and no floor area" : "not in any programme"},
+        colour_of_use(editor.theme, numbers.of(open.use)), largest);
 }
 
 // Sums over the same volumes, in the form that is drawn.
@@ -290,6 +321,7 @@ void draw_programme(Workbench& editor, RunRecord& record) {
     draw_use(editor, total, editor.theme.colours().text_faint, std::max(total.floor_area, total.asked_area), accounts.tolerance,
              "");
   }
+  draw_open_space(editor, accounts, numbers);
   ImGui::EndChild();
 }
 

@@ -28,7 +28,7 @@ constexpr double kJointShare = 0.1, kMostJoint = 0.3;
 
 geometry::StandingBody body_of(const SceneFacts& facts, const VolumeFacts& volume) {
   const auto figures = reading::row_of<reading::FootprintFigures>(*facts.state, volume.node);
-  return figures ? geometry::read_body(figures->plates, volume.figures.position) : geometry::StandingBody{};
+  return figures ? geometry::read_body(figures->plates) : geometry::StandingBody{};
 }
 
 // The lowest `storeys` of it; 0: all.
@@ -59,7 +59,7 @@ MeshPointer shape_of(const Mesh& mesh) {
 struct Slabs {
   Mesh mesh;
   double area = 0, volume = 0;
-  std::vector<std::vector<geometry::PlateFace>> faces;  // of the storeys of a rounded volume
+  std::vector<reading::FormedStorey> floors;  // of the storeys of a rounded volume
 };
 
 Slabs slabs_of(const geometry::StandingBody& body) {
@@ -83,10 +83,9 @@ Slabs slabs_of(const SceneFacts& facts, const VolumeFacts& volume, int storeys) 
   const reading::VolumeFigures& figures = volume.figures;
   const reading::ExactShape exact = reading::exact_shape(*facts.state, volume.node, figures);
   if (!(exact.radius > 0) && !figures.mesh) return made;
-  const double storey = figures.storey_height;
   const int all = storeys_of(volume), shown = storeys == 0 ? all : std::min(storeys, all);
-  for (const reading::FloorCut& cut : reading::floor_cuts(figures.bottom, figures.height, storey)) {
-    const auto drawn = static_cast<int>(made.faces.size());
+  for (const reading::FloorCut& cut : reading::floor_cuts(figures.bottom, figures.height, figures.storey_height)) {
+    const auto drawn = static_cast<int>(made.floors.size());
     if (cut.is_drawn ? drawn == shown : drawn < all) break;
     std::vector<geometry::Ring> rings;
     if (exact.radius > 0) {
@@ -95,17 +94,18 @@ Slabs slabs_of(const SceneFacts& facts, const VolumeFacts& volume, int storeys) 
       for (geometry::Polyline& line : geometry::section(*figures.mesh, cut.at, [](std::size_t) { return true; }))
         if (line.is_closed) rings.push_back(std::move(line.points));
     }
-    if (cut.is_drawn) made.faces.emplace_back();
+    if (cut.is_drawn) made.floors.push_back({cut.bottom, cut.top, 0, {}});
     for (geometry::Ring& ring : rings) {
       if (ring.size() < 3) continue;
       if (geometry::signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
-      const double area = cut.share * geometry::signed_area(ring);
-      made.area += area;
+      const double plate = geometry::signed_area(ring), height = cut.top - cut.bottom;
+      made.area += cut.share * plate;
+      made.floors.back().area += cut.share * plate;
       if (!cut.is_drawn) continue;
-      made.volume += area * storey;
-      append(geometry::prism_mesh(ring, {}, cut.bottom, cut.bottom + thickness_of(storey)), made.mesh);
+      made.volume += plate * height;
+      append(geometry::prism_mesh(ring, {}, cut.bottom, cut.bottom + thickness_of(height)), made.mesh);
       for (Point3& corner : ring) corner.z = 0;
-      made.faces.back().push_back({std::move(ring), {}});
+      made.floors.back().faces.push_back({std::move(ring), {}});
     }
   }
   return made;
@@ -118,17 +118,10 @@ reading::FormSource source_of(const VolumeFacts& volume, bool is_standing) {
 
 // Its floors where the solver measures them, with their shares of the floor area of the scene.
 std::vector<reading::FormedStorey> floors_of(const SceneFacts& facts, const VolumeFacts& volume) {
-  const Slabs whole = slabs_of(facts, volume, 0);
-  std::vector<reading::FormedStorey> floors;
-  double drawn = 0;
-  for (std::size_t k = 0; k < whole.faces.size(); ++k) {
-    const double bottom = volume.figures.bottom + static_cast<double>(k) * volume.figures.storey_height;
-    const double area = geometry::area_of(whole.faces[k]);
-    if (area > 0) floors.push_back({bottom, bottom + volume.figures.storey_height, area, whole.faces[k]});
-    drawn += area;
-  }
-  for (reading::FormedStorey& floor : floors) floor.area *= volume.floor_area / drawn;
-  return floors;
+  Slabs whole = slabs_of(facts, volume, 0);
+  std::erase_if(whole.floors, [](const reading::FormedStorey& floor) { return !(floor.area > 0); });
+  for (reading::FormedStorey& floor : whole.floors) floor.area *= volume.floor_area / whole.area;
+  return std::move(whole.floors);
 }
 
 }  // namespace

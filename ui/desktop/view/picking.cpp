@@ -22,17 +22,20 @@ std::optional<Span> through_ball(const Ray& ray, const Point3& centre, double ra
   return Span{std::max(0.0, -b - root), -b + root};
 }
 
-// Where the line crosses the triangle, and in which direction: +1 into the body, -1 out of it, 0 not at all.
+// Where the line crosses the triangle, and in which direction: +1 into the body, -1 out of it, 0 not at all (Möller and Trumbore
+// 1997). Most triangles are missed: nothing is divided before it is known that this one is not.
 int crossing(const Ray& ray, const Point3& a, const Point3& b, const Point3& c, double& t) {
-  const Vector3 u = b - a, v = c - a, n = cross(u, v);
-  const double across = dot(n, ray.direction);
-  if (across == 0) return 0;
-  t = dot(n, a - ray.origin) / across;
-  const Vector3 at = ray.origin + t * ray.direction - a;
-  const double nn = squared_norm(n), along_u = dot(cross(at, v), n) / nn, along_v = dot(cross(u, at), n) / nn;
-  constexpr double kRim = -1e-9;
-  if (!(along_u >= kRim && along_v >= kRim && along_u + along_v <= 1 - kRim)) return 0;
-  return across < 0 ? 1 : -1;
+  const Vector3 u = b - a, v = c - a, from = ray.origin - a, across_v = cross(ray.direction, v);
+  const double signed_size = dot(u, across_v), way = signed_size < 0 ? -1 : 1, size = way * signed_size;
+  if (size == 0) return 0;
+  constexpr double kRim = 1e-9;
+  const double along_u = way * dot(from, across_v), least = -kRim * size, most = (1 + kRim) * size;
+  if (!(along_u >= least && along_u <= most)) return 0;
+  const Vector3 across_u = cross(from, u);
+  const double along_v = way * dot(ray.direction, across_u);
+  if (!(along_v >= least && along_u + along_v <= most)) return 0;
+  t = dot(v, across_u) / signed_size;
+  return way > 0 ? 1 : -1;
 }
 
 // Is all of it on the hidden side? Its shape is inside the ball and inside the cell.
@@ -85,7 +88,6 @@ struct BallOnTheWay {
   auto operator<=>(const BallOnTheWay&) const = default;
 };
 
-// Nearest first.
 std::vector<BallOnTheWay> balls_on_the_way(const Ray& ray, const SightBalls& balls) {
   std::vector<BallOnTheWay> found;
   for (const std::uint32_t k : balls.rows_along(ray)) {
@@ -95,8 +97,12 @@ std::vector<BallOnTheWay> balls_on_the_way(const Ray& ray, const SightBalls& bal
     const double root = std::sqrt(inside);
     if (-along + root >= 0) found.push_back({std::max(0.0, -along - root), k});
   }
-  std::sort(found.begin(), found.end());
   return found;
+}
+
+// Of two at one place the first one of the list is met.
+bool is_nearer(double at, std::uint32_t node, double other_at, std::uint32_t other) {
+  return at < other_at || (at == other_at && node < other);
 }
 
 }  // namespace
@@ -105,11 +111,12 @@ std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSecti
   std::optional<Hit> nearest;
   const auto take = [&](std::uint32_t node, const Mesh& cell) {
     const auto at = meet(ray, cell, section);
-    // Of two at one place the first one of the list is met.
-    if (at && (!nearest || *at < nearest->distance || (*at == nearest->distance && node < nearest->node)))
+    if (at && (!nearest || is_nearer(*at, node, nearest->distance, nearest->node)))
       nearest = Hit{node, *at, ray.origin + *at * ray.direction};
   };
-  for (const BallOnTheWay& ball : balls_on_the_way(ray, facts.balls)) {
+  std::vector<BallOnTheWay> balls = balls_on_the_way(ray, facts.balls);
+  std::sort(balls.begin(), balls.end());
+  for (const BallOnTheWay& ball : balls) {
     if (nearest && ball.from > nearest->distance) break;
     take(facts.volumes[ball.row].node, *facts.volumes[ball.row].cell);
   }
@@ -118,6 +125,23 @@ std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSecti
   for (const BodyFacts& body : facts.urban.bodies)
     if (with_bodies) take(body.node, *body.cell);
   return nearest;
+}
+
+bool is_met_first(const Ray& ray, const VolumeFacts& volume, const SceneFacts& facts, const ViewSection& section,
+                  bool with_bodies) {
+  if (!volume.cell) return false;
+  const auto at = meet(ray, *volume.cell, section);
+  if (!at) return false;
+  const auto is_before = [&](std::uint32_t node, const Mesh& cell) {
+    const auto other = meet(ray, cell, section);
+    return other && is_nearer(*other, node, *at, volume.node);
+  };
+  for (const BallOnTheWay& ball : balls_on_the_way(ray, facts.balls)) {
+    const VolumeFacts& other = facts.volumes[ball.row];
+    if (ball.from <= *at && other.node != volume.node && is_before(other.node, *other.cell)) return false;
+  }
+  return !with_bodies ||
+         std::ranges::none_of(facts.urban.bodies, [&](const BodyFacts& body) { return is_before(body.node, *body.cell); });
 }
 
 std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Sight& sight) {

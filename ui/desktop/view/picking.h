@@ -20,6 +20,10 @@ struct Hit {
 std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& section);
 /// `with_bodies`: are the buildings around seen?
 std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies);
+/// Is the volume the first thing on the line of sight? What `pick` would find, and cheaper where the answer is all that is
+/// wanted.
+bool is_met_first(const Ray& ray, const VolumeFacts& volume, const SceneFacts& facts, const ViewSection& section,
+                  bool with_bodies);
 
 /// A rectangle in the picture [pixels].
 struct Box {

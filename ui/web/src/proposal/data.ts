@@ -43,15 +43,21 @@ export interface Use {
   volume: number;
   asked_volume: number;
 }
+export interface OpenSpace {
+  use: string;
+  area: number; ///< kept open [m²]
+  asked_area: number;
+  why: string; ///< why there is less than asked for
+}
 export interface Plot {
   name: string;
   is_boundary: boolean;
   area: number;
   fsi: number;
   gsi: number;
-  fsi_max: number;
-  gsi_max: number;
-  height_max: number;
+  fsi_max: number | null; ///< no rule where null, as the others
+  gsi_max: number | null;
+  height_max: number | null;
 }
 export interface Indicator {
   name: string;
@@ -84,6 +90,7 @@ export interface Proposal {
   buildings: Building[];
   uses: Use[];
   all: Use;
+  open: OpenSpace[];
   plots: Plot[];
   indicators: Indicator[];
   conflicts: { node: string; port: string; tension: string; pulls: string[] }[];

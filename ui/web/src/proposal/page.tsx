@@ -6,7 +6,7 @@ import { cut_shapes } from "./cut";
 import type { Proposal } from "./data";
 import { Model } from "./model";
 import { Plans } from "./plans";
-import { Buildings, Indicators, Plots, Programme, Storeys } from "./tables";
+import { Buildings, Indicators, OpenSpaces, Plots, Programme, Storeys } from "./tables";
 
 const kParts: [string, string][] = [
   ["model", "Model"],
@@ -86,6 +86,7 @@ function Page({ proposal }: { proposal: Proposal }): JSX.Element {
         <section id="areas" aria-labelledby="areas_title">
           <h2 id="areas_title">Programme against result</h2>
           <Programme proposal={proposal} />
+          {proposal.open.length > 0 ? <OpenSpaces proposal={proposal} /> : null}
           {proposal.indicators.length > 0 ? (
             <>
               <h2>Indicators</h2>

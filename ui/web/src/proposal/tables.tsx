@@ -71,6 +71,22 @@ export function Programme({ proposal }: { proposal: Proposal }): JSX.Element {
   );
 }
 
+export function OpenSpaces({ proposal }: { proposal: Proposal }): JSX.Element {
+  return (
+    <Table label="Open space" head={["Open space", "Asked m²", "Open m²", "Difference m²", "Met", "Why"]}>
+      {proposal.open.map((one) => (
+        <tr key={one.use}>
+          <th scope="row">{one.use}</th>
+          <td>{whole(one.asked_area)}</td>
+          <td>{whole(one.area)}</td>
+          <td>{signed(one.area - one.asked_area)}</td>
+          <td>{one.asked_area > 0 ? `${whole((100 * one.area) / one.asked_area)} %` : ""}</td>
+          <td class="words">{one.why}</td>
+        </tr>
+      ))}
+    </Table>
+  );
+}
 const has_cellars = (proposal: Proposal): boolean => proposal.buildings.some((one) => one.cellars.length > 0);
 
 export function Buildings({ proposal, chosen, choose }: { proposal: Proposal } & Choice): JSX.Element {
@@ -129,7 +145,7 @@ export function Storeys({ proposal }: { proposal: Proposal }): JSX.Element {
 }
 
 export function Plots({ proposal }: { proposal: Proposal }): JSX.Element {
-  const limit = (value: number): string => (value > 0 && value < 1e6 ? hundredths(value) : "");
+  const limit = (value: number | null): string => (value === null ? "" : hundredths(value));
   return (
     <Table label="Plots" head={["Plot", "Land m²", "FSI", "Most FSI", "GSI", "Most GSI", "Most height m"]}>
       {proposal.plots.map((one) => (

@@ -1,0 +1,114 @@
+// Open space from the brief to the tables: `new`, `run`, reports, exports, and `add garden --open --use`.
+#include <gtest/gtest.h>
+
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+
+namespace {
+
+class OpenSpaceRows : public testing::Test {
+ protected:
+  OpenSpaceRows() {
+    place.write("site.geojson", R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+      "coordinates": [[[85000,447000],[85100,447000],[85100,447060],[85000,447060],[85000,447000]]]})");
+  }
+  Outcome make(const std::string& brief, const std::string& form = "standing") {
+    place.write("brief.csv", brief);
+    return place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--form", form, "--out",
+                      "s.json", "--force"});
+  }
+  nlohmann::json result() {
+    EXPECT_EQ(place.run({"run", "s.json", "--json", "r.json"}).code, 0);
+    return place.json("r.json");
+  }
+  Workplace place;
+};
+
+constexpr const char* kOpenBrief =
+    "use,floor_area_m2,count,storey_height_m,adjacent_to\nhousing,900,3,3,garden\nGarden,300,2,,\noffices,1200,1,3.2,housing\n";
+
+TEST_F(OpenSpaceRows, AskForGroundAndGetIt) {
+  for (const std::string form : {"standing", "rounded"}) {
+    const Outcome made = make(kOpenBrief, form);
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_NE(made.out.find("`Garden` is open space: 2 rectangles of 600.0 m² are kept open"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("programme: 3 uses, 4 volumes, 3900.0 m² floor area"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("open:      600.0 m² of 600.0 m² of open space asked for"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("`Garden` is open space and no body that `housing` could touch"), std::string::npos) << made.out;
+    EXPECT_EQ(made.out.find("Rows without a storey height"), std::string::npos) << made.out;
+    const nlohmann::json run = result();
+    EXPECT_EQ(run["volumes"].size(), 4u) << "a garden is no body";
+    ASSERT_EQ(run["totals"]["open_space"].size(), 1u);
+    const nlohmann::json garden = run["totals"]["open_space"][0];
+    EXPECT_EQ(garden["use"], "Garden");
+    EXPECT_EQ(garden["wanted_area"], 600);
+    EXPECT_NEAR(garden["area"].get<double>(), 600, 1e-3);
+    EXPECT_EQ(garden["why_short"], "");
+    EXPECT_EQ(run["totals"]["uses"].size(), 2u);
+    EXPECT_EQ(run["totals"]["wanted_floor_area"], 3900);
+    for (const auto& problem : run["problems"]) ADD_FAILURE() << problem;
+    if (form == "rounded") continue;
+    const nlohmann::json plot = run["plots"].back();
+    EXPECT_NEAR(plot["land"].get<double>(), 6000, 1e-6) << "the garden is land";
+    EXPECT_NEAR(plot["open_space"].get<double>(), 600, 1e-3);
+    const double floors = run["totals"]["floor_area"].get<double>(), gsi = plot["gsi"].get<double>();
+    EXPECT_NEAR(plot["fsi"].get<double>(), floors / 6000, 1e-6) << "and no floor area";
+    EXPECT_NEAR(plot["osr"].get<double>(), 6000 * (1 - gsi) / floors, 1e-6) << "and open";
+  }
+}
+
+TEST_F(OpenSpaceRows, StandInAllTables) {
+  ASSERT_EQ(make(kOpenBrief).code, 0);
+  const Outcome run = place.run({"run", "s.json", "--report", "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("open space"), std::string::npos) << run.out;
+  EXPECT_NE(place.text("out/open_space.csv").find("Garden,yes,600,"), std::string::npos) << place.text("out/open_space.csv");
+  EXPECT_NE(place.text("out/report.html").find("Open space"), std::string::npos);
+  EXPECT_EQ(place.text("out/uses.csv").find("Garden"), std::string::npos) << "no floor area";
+  const Outcome sent = place.run({"export", "s.json", "--settle", "--format", "csv", "--out", "a.csv", "--format", "xlsx",
+                                  "--out", "a.xlsx", "--format", "pdf", "--out", "a.pdf"});
+  ASSERT_EQ(sent.code, 0) << sent.err;
+  EXPECT_NE(place.text("a.csv").find("open space,,,Garden,"), std::string::npos);
+  EXPECT_NE(place.text("a.csv").find(",600,m2,met,"), std::string::npos);
+}
+
+TEST_F(OpenSpaceRows, ThatLackGroundAreShortWithAReason) {
+  const Outcome made = make("use,floor_area_m2,count,open\nhousing,900,3,\nsports,5900,1,yes\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("No more of the 5900.0 m²"), std::string::npos) << made.out;
+  const nlohmann::json run = result();
+  const nlohmann::json sports = run["totals"]["open_space"][0];
+  EXPECT_GT(sports["short_share"].get<double>(), 0.01);
+  EXPECT_NE(sports["why_short"].get<std::string>(), "");
+  const auto says = [&](const nlohmann::json& problem) { return problem["place"] == "open space sports"; };
+  EXPECT_TRUE(std::any_of(run["problems"].begin(), run["problems"].end(), says)) << run["problems"];
+}
+
+TEST_F(OpenSpaceRows, TheColumnDecidesBeforeTheName) {
+  const Outcome made = make("use,floor_area_m2,count,open\npark,900,1,no\nhousing,900,1,\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(result()["volumes"].size(), 2u) << "a park of floors, as its row says";
+  const Outcome wrong = make("use,floor_area_m2,count,open\npark,900,1,maybe\n");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("`maybe` is not understood. Write `yes`"), std::string::npos) << wrong.err;
+}
+
+TEST_F(OpenSpaceRows, AGardenThatIsAddedCountsForItsUse) {
+  ASSERT_EQ(make("use,floor_area_m2,count\nhousing,900,3\nplayground,200,1\n").code, 0);
+  const Outcome done =
+      place.run({"add", "s.json", "garden", "--corners", "20,0", "30,0", "30,10", "20,10", "--open", "--use", "playground"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const nlohmann::json ground = result()["totals"]["open_space"][0];
+  EXPECT_EQ(ground["use"], "playground");
+  EXPECT_GT(ground["area"].get<double>(), 200.5) << "besides what `new` has laid";
+  EXPECT_EQ(place.run({"add", "s.json", "garden", "--corners", "0,0", "9,0", "9,9", "--open", "--use", "housing"}).code, 2)
+      << "housing has a node that says what it is";
+  const Outcome other = place.run({"add", "s.json", "garden", "--corners", "0,0", "9,0", "9,9", "--open"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_NE(other.out.find("by which `garden` is open space"), std::string::npos) << other.out;
+}
+
+}  // namespace
+
+}  // namespace bl::test
