@@ -44,12 +44,8 @@ std::shared_ptr<const State> Session::look() {
   if (shown->tick == 0 || !tick()) return shown;
   const std::shared_ptr<const State> after = simulation_.state();
   StateDraft told(*shown);
-  for (std::uint32_t l = 0; l < shown->links.size(); ++l) {
-    LinkState link = shown->links[l];
-    const LinkState& said = after->links[l];
-    link.error = said.error, link.remark = said.remark, link.work = said.work, link.is_stuck = said.is_stuck;
-    if (!link.says_the_same(shown->links[l])) told.links.put(l, std::move(link));
-  }
+  for (std::uint32_t l = 0; l < shown->links.size(); ++l)
+    if (!after->links[l].says_the_same(shown->links[l])) told.links.put(l, LinkState(after->links[l]));
   return std::make_shared<const State>(std::move(told).publish());
 }
 

@@ -156,7 +156,7 @@ TEST(Solids, AnOpenMeshIsNotPrinted) {
     EXPECT_TRUE(made.notes.front().starts_with("Shed ")) << made.notes.front();
   }
   std::vector<std::string> notes;
-  for (const Solid& solid : printable_solids_of(proposal, true, notes)) EXPECT_TRUE(is_closed(*solid.mesh)) << solid.name;
+  for (const Solid& solid : printable_solids_of(proposal, true, true, notes)) EXPECT_TRUE(is_closed(*solid.mesh)) << solid.name;
 }
 
 // An option must not be without effect and without a word.

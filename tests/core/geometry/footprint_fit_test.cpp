@@ -114,7 +114,7 @@ TEST(FootprintFit, TheShareThatAllHaveIsKnownToTheNextFit) {
   const auto demands = floor_demands(areas);
   FootprintDiagram diagram;
   ASSERT_TRUE(diagram.set_domain(fit_square(120)));
-  const FootprintFitOptions options{.most_steps = 8, .is_local = true};
+  const FootprintFitOptions options{.most_steps = 8, .is_local = true, .progress = {}};
   const auto cold = geometry::fit_footprints(diagram, sites, demands, options);
   ASSERT_TRUE(cold);
   ASSERT_LT(cold->factor, 0.92);
@@ -224,7 +224,7 @@ TEST(FootprintFitLaws, WarmEqualsCold) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const geometry::Domain plot = plot_of(seed % 2 == 0 ? PlotShape::square : PlotShape::hexagon);
     const Mixture made = random_mixture(plot_area_of(plot), seed);
-    const FootprintFitOptions exact{.tolerance = 1e-9};
+    const FootprintFitOptions exact{.tolerance = 1e-9, .progress = {}};
     const auto cold = fitted(plot, made.sites, floor_demands(made.areas), exact);
     ASSERT_TRUE(cold.report.is_met) << seed;
     Random random(seed);
@@ -254,7 +254,7 @@ TEST(FootprintFitLaws, ThreadsChangeNoBit) {
     const auto one = fitted(plot, made.sites, floor_demands(made.areas));
     for (const int threads : {2, 3}) {
       ThreadPool pool(threads);
-      const auto found = fitted(plot, made.sites, floor_demands(made.areas), {.pool = &pool});
+      const auto found = fitted(plot, made.sites, floor_demands(made.areas), {.pool = &pool, .progress = {}});
       EXPECT_EQ(found.floors, one.floors) << seed;
       EXPECT_TRUE(found.sites == one.sites) << seed;
     }

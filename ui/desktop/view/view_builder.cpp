@@ -86,8 +86,9 @@ void Builder::add_frame() {
   scene.ground = facts.pit.value_or(facts.ground);
   // Where one looks at what is above a level plane, the ground stays.
   const bool is_from_below = is_level(scene.section) && scene.section.normal.z < 0;
-  scene.is_ground_cut = scene.section.is_on && !is_from_below &&
-                        std::any_of(facts.cellars.begin(), facts.cellars.end(), [](const auto& c) { return c.cell != nullptr; });
+  scene.is_ground_cut =
+      scene.section.is_on && !is_from_below &&
+      std::any_of(facts.cellars.begin(), facts.cellars.end(), [](const auto& cellar) { return cellar.cell != nullptr; });
   // Whole kilometres, so that nothing is sent again when the scene's middle moves a little.
   scene.origin = {1000 * std::round(facts.centre.x / 1000), 1000 * std::round(facts.centre.y / 1000), 0};
   scene.grid = round_distance(facts.radius / 8);
