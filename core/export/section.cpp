@@ -107,24 +107,17 @@ double distance_of(const SectionFrame& frame, const std::vector<PlateFace>& face
   return least;
 }
 
-// Whole storeys: each is a rectangle, with a floor under it and a roof above.
-void cut_standing(const SectionFrame& frame, const Building& building, SectionPart& part) {
-  for (const Storey& storey : building.storeys) {
-    const std::vector<double> ends = frame.crossings(storey.faces);
-    add_rectangles(ends, storey.bottom, storey.top, part.cut);
-    add_rectangles(ends, storey.bottom - kSectionSlab, storey.bottom, part.slabs);
-    add_rectangles(ends, storey.top - kSectionSlab, storey.top, part.slabs);
-    add_rectangles(frame.behind(storey.faces), storey.bottom, storey.top, part.beyond);
-  }
+// A whole storey: a rectangle, with a floor under it and a roof above.
+void cut_storey(const SectionFrame& frame, const Storey& storey, std::vector<Ring>& cut, std::vector<Ring>& slabs) {
+  const std::vector<double> ends = frame.crossings(storey.faces);
+  add_rectangles(ends, storey.bottom, storey.top, cut);
+  for (const double top : {storey.bottom, storey.top}) add_rectangles(ends, top - kSectionSlab, top, slabs);
 }
 
-// Below the ground, where nothing is seen of what is not cut.
-void cut_cellars(const SectionFrame& frame, const Building& building, SectionPart& part) {
-  for (const Storey& storey : building.cellars) {
-    const std::vector<double> ends = frame.crossings(storey.faces);
-    add_rectangles(ends, storey.bottom, storey.top, part.cellars);
-    add_rectangles(ends, storey.bottom - kSectionSlab, storey.bottom, part.slabs);
-    add_rectangles(ends, storey.top - kSectionSlab, storey.top, part.slabs);
+void cut_standing(const SectionFrame& frame, const Building& building, SectionPart& part) {
+  for (const Storey& storey : building.storeys) {
+    cut_storey(frame, storey, part.cut, part.slabs);
+    add_rectangles(frame.behind(storey.faces), storey.bottom, storey.top, part.beyond);
   }
 }
 
@@ -148,7 +141,8 @@ void add_buildings(const SectionFrame& frame, const Proposal& proposal, Section&
     part.building = &building;
     if (building.is_standing) cut_standing(frame, building, part);
     else cut_rounded(frame, building, part);
-    cut_cellars(frame, building, part);
+    // Below the ground nothing is seen of what is not cut.
+    for (const Storey& storey : building.cellars) cut_storey(frame, storey, part.cellars, part.slabs);
     for (const Storey* storey : drawn_storeys(building)) {
       const bool is_cut = storey->number < 0 ? !part.cellars.empty() : !part.cut.empty();
       if (is_cut) made.heights.insert(made.heights.end(), {storey->bottom, storey->top});

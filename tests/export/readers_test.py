@@ -46,10 +46,33 @@ def area(points):
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:] + points[:1])) / 2
 
 
-class Export(unittest.TestCase):
+# A folder with exported files, and how they are compared with the area schedule.
+class Files(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
+
+    @classmethod
+    def read_schedule(cls):
+        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
+        cls.storeys, cls.buildings, cls.cellars = ([row for row in cls.rows if row["row"] == kind] for kind in ("storey", "building", "cellar"))
+
+    def near(self, found, wanted, share):
+        self.assertLessEqual(abs(found - wanted), share * max(1, abs(wanted)), (found, wanted))
+
+
+class Export(Files):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         scene = json.loads(text_of(SCENE))
         # A place on Earth, for the formats that need one.
         scene["settings"].update({"coordinate_system": "EPSG:28992", "origin_x": 85000, "origin_y": 446000,
@@ -79,20 +102,7 @@ class Export(unittest.TestCase):
                 arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
         done = run(*arguments)
         assert done.returncode == 0, done.stdout + done.stderr
-        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
-        cls.storeys = [row for row in cls.rows if row["row"] == "storey"]
-        cls.buildings = [row for row in cls.rows if row["row"] == "building"]
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder, name)
-
-    def near(self, found, wanted, share):
-        self.assertLessEqual(abs(found - wanted), share * max(1, abs(wanted)), (found, wanted))
+        cls.read_schedule()
 
     def number(self, row, name):
         return float(row[name])
@@ -431,10 +441,10 @@ class Export(unittest.TestCase):
 
 
 # A quarter that stands: whole storeys on footprints, with courtyards.
-class Standing(unittest.TestCase):
+class Standing(Files):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
+        super().setUpClass()
         pairs = {"csv": "a.csv", "dxf": "a.dxf", "svg": "plans/", "ifc": "a.ifc"}
         if os.path.exists(SHELL):
             pairs["html"] = "a.html"
@@ -443,15 +453,7 @@ class Standing(unittest.TestCase):
             arguments += ["--format", name, "--out", os.path.join(cls.folder, file)]
         done = run(*arguments, page=os.path.dirname(SHELL))
         assert done.returncode == 0, done.stdout + done.stderr
-        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder, name)
+        cls.read_schedule()
 
     def total(self, kind, column):
         return math.fsum(float(row[column]) for row in self.rows if row["row"] == kind)
@@ -594,10 +596,10 @@ class Standing(unittest.TestCase):
 
 
 # Volumes that stand over storeys below the ground: what all formats say of these, and that they count as nothing else.
-class Cellars(unittest.TestCase):
+class Cellars(Files):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp()
+        super().setUpClass()
         scene = os.path.join(SOURCE, "scenes/nodes/footprint.json")
         pairs = {"csv": "a.csv", "dxf": "a.dxf", "svg": "plans/", "pdf": "a.pdf", "ifc": "a.ifc", "cityjson": "a.city.json", "xlsx": "a.xlsx",
                  "glb": "a.glb", "obj": "a.obj", "3mf": "a.3mf", "stl": "a.stl"}
@@ -612,21 +614,7 @@ class Cellars(unittest.TestCase):
             done = run(*arguments, page=os.path.dirname(SHELL))
             assert done.returncode == 0, done.stdout + done.stderr
             cls.said += done.stdout + done.stderr
-        cls.rows = list(csv.DictReader(text_of(cls.path("a.csv")).splitlines(True)))
-        cls.cellars = [row for row in cls.rows if row["row"] == "cellar"]
-        cls.storeys = [row for row in cls.rows if row["row"] == "storey"]
-        cls.buildings = [row for row in cls.rows if row["row"] == "building"]
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder, name)
-
-    def near(self, found, wanted, share):
-        self.assertLessEqual(abs(found - wanted), share * max(1, abs(wanted)), (found, wanted))
+        cls.read_schedule()
 
     @staticmethod
     def total(rows, column="floor_area [m2]"):
