@@ -34,7 +34,8 @@ def needs_module(name):
 
 def run(*arguments, page=None):
     surroundings = {**os.environ, "BEHAVIOURLINKS_PAGE": page} if page else None
-    return subprocess.run(arguments, capture_output=True, text=True, timeout=600, env=surroundings)
+    # admesh prints whatever stands in memory behind the head of a binary file.
+    return subprocess.run(arguments, capture_output=True, text=True, errors="replace", timeout=600, env=surroundings)
 
 
 def text_of(path):
