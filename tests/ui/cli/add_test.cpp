@@ -59,7 +59,9 @@ TEST_F(Add, RulesHoldThePlotThatTheBoundaryBecomes) {
 TEST_F(Add, AGardenBringsItsSunAndHoldsIt) {
   const Outcome done = add({"garden", "--corners", "-12,40", "12,40", "12,52", "-12,52", "--hours", "9", "--date", "2026-06-21"});
   ASSERT_EQ(done.code, 0) << done.err;
-  EXPECT_NE(done.out.find("New: the garden `garden`, 24.0 m by 12.0 m, with 9 h of sun a day."), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("New: the garden `garden`, 24.0 m by 12.0 m, with 9 h of sun a day on 50 % of its area."),
+            std::string::npos)
+      << done.out;
   const nlohmann::json scene = place.json("s.json");
   EXPECT_EQ(added_node(scene, "sun")["types"]["sun_and_sky"]["date"], "2026-06-21");
   EXPECT_TRUE(added_node(scene, "offices")["types"].contains("shadow_caster"));
