@@ -253,6 +253,8 @@ struct Footprint {
         .column({.id = "top", .unit = Unit::metre, .doc = "Height of its roof above the origin."})
         .column({.id = "limit", .unit = Unit::metre, .doc = "The least height limit of the volumes that share it."})
         .column({.id = "part", .unit = Unit::ratio, .doc = "Part of this volume in the floor area that all of them ask for."})
+        .column(
+            {.id = "limited_by", .is_text = true, .default_value = std::string(), .doc = "Id of the volume that has this limit."})
         .doc("The building that several volumes share: one row, or none where the volume has a building of its own.");
   }
 };

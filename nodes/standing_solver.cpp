@@ -299,7 +299,11 @@ struct StandingSolver {
     const geometry::StandingWish& wish = kept.wishes[*host];
     const auto floors = [&](std::size_t m) { return std::max(members[m].demand, members[m].least) / members[m].storey_height; };
     double all = 0;
-    for (const geometry::BuildingShare& share : kept.cache.shares[*host]) all += floors(share.site);
+    std::size_t lowest = *host;
+    for (const geometry::BuildingShare& share : kept.cache.shares[*host]) {
+      all += floors(share.site);
+      if (members[share.site].height_limit < members[lowest].height_limit) lowest = share.site;
+    }
     return demand::table_of(
         demand::Building{.host = kept.names[*host],
                          .wished = wish.storeys,
@@ -309,7 +313,8 @@ struct StandingSolver {
                          .bottom = whole.bottom,
                          .top = whole.bottom + whole.height,
                          .limit = wish.height_limit,
-                         .part = all > 0 ? floors(i) / all : 0});
+                         .part = all > 0 ? floors(i) / all : 0,
+                         .limited_by = kept.names[lowest]});
   }
 
   // What one of a building asks for is read of the others too.

@@ -4,7 +4,7 @@
 namespace bl::demand {
 
 Table table_of(const std::optional<Building>& building) {
-  Table table{{"host", "storeys", "least", "held", "storey_height", "bottom", "top", "limit", "part"}, {}};
+  Table table{{"host", "storeys", "least", "held", "storey_height", "bottom", "top", "limit", "part", "limited_by"}, {}};
   if (!building) return table;
   auto& row = table.rows.emplace_back();
   row.emplace_back(building->host);
@@ -12,6 +12,7 @@ Table table_of(const std::optional<Building>& building) {
        {static_cast<double>(building->wished), static_cast<double>(building->least), static_cast<double>(building->held),
         building->storey_height, building->bottom, building->top, building->limit, building->part})
     row.emplace_back(number);
+  row.emplace_back(building->limited_by);
   return table;
 }
 
@@ -26,7 +27,8 @@ std::optional<Building> building_in(const std::optional<Shared<Table>>& table) {
                   number("bottom"),
                   number("top"),
                   number("limit"),
-                  number("part")};
+                  number("part"),
+                  (*table)->text(0, "limited_by")};
 }
 
 StandingVolume standing_in(StandingVolume own, const std::optional<Building>& building) {

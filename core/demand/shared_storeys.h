@@ -18,6 +18,7 @@ struct Building {
   double bottom = 0, top = 0;           ///< of all [m]
   double limit = 0;                     ///< the least one of those who share it [m above the bottom]
   double part = 1;                      ///< of this one in the floor area that all ask for
+  std::string limited_by = {};          ///< whose limit is the least; of equal ones that of the host
   bool operator==(const Building&) const = default;
 };
 

@@ -60,8 +60,7 @@ std::string own_word(const TypePlan& type, std::uint16_t p, const std::string& w
 std::string wish_at(const State& state, PortRef ref) {
   const auto withheld = withheld_height(state, ref.node);
   if (!withheld || withheld->limit != ref) return "";
-  return quantity(static_cast<double>(reading::read<&StoreyFigures::storeys>(state, ref.node)), Unit::none) +
-         " storeys are wished";
+  return quantity(static_cast<double>(withheld->wished), Unit::none) + " storeys are wished";
 }
 
 }  // namespace

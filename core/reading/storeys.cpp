@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/demand/shared_storeys.h"
 #include "core/reading/views/building.h"
 #include "core/reading/views/volume.h"
 
@@ -32,24 +33,44 @@ std::string holders_of(const State& state, PortRef ref) {
   return who.empty() ? "its height limit" : who;
 }
 
-// The storeys that limits hold; a volume that shares the footprint of another has none of its own to ask for.
-std::optional<StoreyFigures> held_storeys(const State& state, std::uint32_t node) {
-  auto figures = reading::row_of<StoreyFigures>(state, node);
+// The storeys that limits hold: of a volume, or of the building that it shares with others.
+struct HeldStoreys {
+  std::int64_t wished = 0, built = 0;
+  bool is_limited = false;
+  double storey_height = 0, limit = 0;  // [m]
+  std::uint32_t limited_by = 0;         // the node that has this limit
+  bool is_its_own = true;               // not those of the building of another
+};
+
+std::optional<HeldStoreys> held_storeys(const State& state, std::uint32_t node) {
+  const auto figures = reading::row_of<StoreyFigures>(state, node);
   const auto sharing = reading::row_of<SharingFigures>(state, node);
-  if (!figures || !sharing || !sharing->shares.empty()) return std::nullopt;
-  figures->storeys_built = sharing->storeys_held;
-  return figures;
+  if (!figures || !sharing) return std::nullopt;
+  HeldStoreys held{figures->storeys, sharing->storeys_held, figures->is_limited, 0, figures->height_limit, node, true};
+  if (const auto building = demand::building_in(sharing->building)) {
+    const std::uint32_t by = state.plan->node_index(building->limited_by);
+    return HeldStoreys{building->wished,
+                       building->held,
+                       held.is_limited,
+                       building->storey_height,
+                       building->limit,
+                       by < state.nodes.size() ? by : node,
+                       building->host == state.plan->nodes[node].id};
+  }
+  // Before the first tick, and where its host is none.
+  if (!sharing->shares.empty()) return std::nullopt;
+  held.storey_height = reading::read<&VolumeFigures::storey_height>(state, node);
+  return held;
 }
 
 }  // namespace
 
 std::optional<WithheldHeight> withheld_height(const State& state, std::uint32_t node) {
-  const auto figures = held_storeys(state, node);
-  if (!figures || !figures->is_limited || figures->storeys_built >= figures->storeys) return std::nullopt;
+  const auto held = held_storeys(state, node);
+  if (!held || held->limited_by != node || !held->is_limited || held->built >= held->wished) return std::nullopt;
   const auto limit = reading::port_of<&StoreyFigures::height_limit>(*state.plan, node);
-  const double storey = reading::read<&VolumeFigures::storey_height>(state, node);
-  const auto missing = static_cast<double>(figures->storeys - figures->storeys_built);
-  return WithheldHeight{*limit, missing * storey, missing / static_cast<double>(figures->storeys)};
+  const auto missing = static_cast<double>(held->wished - held->built);
+  return WithheldHeight{*limit, missing * held->storey_height, missing / static_cast<double>(held->wished), held->wished};
 }
 
 bool has_effect(const State& state, PortRef ref) {
@@ -63,17 +84,17 @@ bool has_effect(const State& state, PortRef ref) {
 }
 
 std::string why_lower(const State& state, std::uint32_t node) {
-  const auto figures = held_storeys(state, node);
-  if (!figures || figures->storeys_built == 0 || figures->storeys_built >= figures->storeys) return "";
-  const std::string had = std::to_string(figures->storeys_built) + " of " + std::to_string(figures->storeys) + " storeys: ";
-  if (!figures->is_limited) return had + "the boundary is no higher";
-  const auto limit = reading::port_of<&StoreyFigures::height_limit>(*state.plan, node);
-  return had + holders_of(state, *limit) + " leaves " + fixed(figures->height_limit, 2) + " m";
+  const auto held = held_storeys(state, node);
+  if (!held || !held->is_its_own || held->built == 0 || held->built >= held->wished) return "";
+  const std::string had = std::to_string(held->built) + " of " + std::to_string(held->wished) + " storeys: ";
+  if (!held->is_limited) return had + "the boundary is no higher";
+  const auto limit = reading::port_of<&StoreyFigures::height_limit>(*state.plan, held->limited_by);
+  return had + (limit ? holders_of(state, *limit) : "its height limit") + " leaves " + fixed(held->limit, 2) + " m";
 }
 
 bool has_all_storeys(const State& state, std::uint32_t node) {
-  const auto figures = held_storeys(state, node);
-  return figures && figures->storeys_built > 0 && figures->storeys_built >= figures->storeys;
+  const auto held = held_storeys(state, node);
+  return held && held->built > 0 && held->built >= held->wished;
 }
 
 }  // namespace bl::reading

@@ -7,6 +7,7 @@ void SharingFigures::declare(ViewBuilder<SharingFigures>& v) {
   v.of("footprint");
   v.reads(&SharingFigures::shares, "footprint.shares");
   v.reads(&SharingFigures::storeys_held, "footprint.storeys_held");
+  v.reads(&SharingFigures::building, "footprint.building");
 }
 BL_VIEW(SharingFigures)
 

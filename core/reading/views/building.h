@@ -13,6 +13,7 @@ namespace bl::reading {
 struct SharingFigures {
   std::vector<std::string> shares;  ///< id of the host; none: it has its own
   std::int64_t storeys_held = 0;    ///< those that limits of height hold: of a host those of the whole building
+  Shared<Table> building;           ///< see core/demand/shared_storeys.h
 
   static void declare(ViewBuilder<SharingFigures>& v);
   static const ViewDefinition& view();

@@ -6,7 +6,7 @@
 namespace bl::demand {
 namespace {
 
-const Building kBuilding{"shops", 7, 2, 6, 3.2, 4, 23, 19.5, 0.25};
+const Building kBuilding{"shops", 7, 2, 6, 3.2, 4, 23, 19.5, 0.25, "flats"};
 
 TEST(SharedStoreys, ATableHoldsThem) {
   EXPECT_EQ(building_in(Shared<Table>(table_of(kBuilding))), kBuilding);

@@ -46,6 +46,27 @@ TEST(Holders, TheTightestLimitAloneIsInTheConflict) {
   }
 }
 
+// The tower is two volumes, and the sun holds the upper one: the storeys are those of the building.
+TEST(Holders, ABuildingIsToldOnceWithWhoHoldsIt) {
+  std::string text = project_file("scenes/studies/tower_and_garden.json");
+  text.insert(text.find("\"nodes\": [") + 10, R"({"id": "upper", "position": [32, 30, 0], "types": {"shadow_caster": {},
+    "smart_volume": {"use": "office"}, "footprint": {"order": 1}}},)");
+  text.insert(text.find("\"links\": [") + 10, R"({"id": "above", "kind": "share_footprint", "from": "tower", "to": "upper"},)");
+  World world = World::from_text(text);
+  ASSERT_TRUE(world.settle(500));
+  const Plan& plan = *world.state().plan;
+  EXPECT_NE(why_lower(world.state(), plan.node_index("tower")).find("8 of 10 storeys: link `sun` (Solar right) leaves 2"),
+            std::string::npos)
+      << why_lower(world.state(), plan.node_index("tower"));
+  EXPECT_EQ(why_lower(world.state(), plan.node_index("upper")), "");
+  ReportModel model;
+  read_conflicts(world.state(), model);
+  ASSERT_EQ(model.conflicts.size(), 1u);
+  EXPECT_EQ(model.conflicts[0].node_id, "upper");
+  EXPECT_EQ(model.conflicts[0].links, (std::vector<std::string>{"sun", ""}));
+  EXPECT_NEAR(model.conflicts[0].severity, 0.2, 1e-12);
+}
+
 // Two limits of which neither takes a storey: that they differ is nobody's loss.
 TEST(Holders, ALimitThatTakesNothingIsNoConflict) {
   const std::string scene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
