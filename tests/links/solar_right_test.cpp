@@ -14,7 +14,7 @@ LinkCase right(const std::string& mode, const std::string& caster, double defici
   link.set("mode", mode).set("gain", 0.5).set("tolerance", 0.05);
   link.from("node.id", std::string("garden")).from("node.position", Vector3{0, 0, 0});
   link.from("shadow_receiver.deficit", deficit).from("shadow_receiver.required_sun", 7200.0);
-  link.from("shadow_receiver.sun_possible", 20000.0).from("shadow_receiver.sun_min", 1000.0);
+  link.from("shadow_receiver.sun_possible", 20000.0).from("shadow_receiver.sun_of_share", 1000.0);
   link.from("shadow_receiver.losses",
             Shared<Table>(Table{{"node", "lost", "shared"}, {{"house", 600.0, 600.0}, {"tower", 2400.0, 2400.0}}}));
   link.to("node.id", caster).to("node.position", Vector3{0, -30, 12}).to("smart_volume.demand", 8000.0);
@@ -184,7 +184,7 @@ TEST(SolarRight, OtherWaysToGiveWaySettleOrSaySo) {
 TEST(SolarRight, GrowsByTheSunThatIsLeftOver) {
   auto far = right("shave", "tower", 0);
   far.set("tolerance", 0.001).set("gain", 0.1);
-  far.from("shadow_receiver.sun_min", 1.5 * 7200).to("smart_volume.demand_limit", 2000.0);
+  far.from("shadow_receiver.sun_of_share", 1.5 * 7200).to("smart_volume.demand_limit", 2000.0);
   ASSERT_EQ(far.run(), "");
   EXPECT_NEAR(limit(far), 2000 * (1 + 0.1 * 0.5), 1e-9);
 }
@@ -244,8 +244,8 @@ TEST(SolarRight, StoreysRestAndTheLimitIsNamed) {
 
 TEST(SolarRight, AStoreyComesBackWhereThereIsMuchMoreThanEnough) {
   auto little = standing(6, 19.9, 0), much = standing(6, 19.9, 0);
-  little.from("shadow_receiver.sun_min", 1.4 * 7200);
-  much.from("shadow_receiver.sun_min", 1.6 * 7200);
+  little.from("shadow_receiver.sun_of_share", 1.4 * 7200);
+  much.from("shadow_receiver.sun_of_share", 1.6 * 7200);
   for (LinkCase* link : {&little, &much}) ASSERT_EQ(link->run(), "");
   EXPECT_DOUBLE_EQ(height(little).value(), 19.9);
   EXPECT_NEAR(height(much).value(), 20.2, 1e-9);
@@ -356,7 +356,7 @@ TEST(SolarRight, AGardenHoldsWhatItHasTakenAlone) {
   ASSERT_TRUE(world.settle(400));
   ASSERT_EQ(world.number("tower", "footprint.storeys_held"), 8);
   ASSERT_EQ(world.number("garden_2", "shadow_receiver.deficit"), 0);
-  ASSERT_LT(world.number("garden_2", "shadow_receiver.sun_min"), 1.5 * 34200) << "not so much that all could be let go";
+  ASSERT_LT(world.number("garden_2", "shadow_receiver.sun_of_share"), 1.5 * 34200) << "not so much that all could be let go";
   ASSERT_EQ(world.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {"0"}})), "");
   world.tick(60);
   ASSERT_TRUE(world.settle(200));
