@@ -34,7 +34,8 @@ def needs_module(name):
 
 def run(*arguments, page=None):
     surroundings = {**os.environ, "BEHAVIOURLINKS_PAGE": page} if page else None
-    return subprocess.run(arguments, capture_output=True, text=True, timeout=600, env=surroundings)
+    # Some readers print bytes of the files as they are.
+    return subprocess.run(arguments, capture_output=True, text=True, errors="replace", timeout=600, env=surroundings)
 
 
 def text_of(path):
@@ -667,7 +668,7 @@ class Cellars(Files):
         space = document.modelspace()
         line = space.query('LINE[layer=="SECTION-LINE"]')[0]
         x, y = line.dxf.start[0], line.dxf.start[1]
-        length = math.dist((x, y), line.dxf.end[:2])
+        length = math.hypot(line.dxf.end[0] - x, line.dxf.end[1] - y)
         along = ((line.dxf.end[0] - x) / length, (line.dxf.end[1] - y) / length)
         found, crossed = 0.0, 0.0
         for plate in space.query("LWPOLYLINE"):
@@ -787,7 +788,7 @@ class Cellars(Files):
         # Millimetres at 1:500.
         self.near(found["a"] / 8, self.volume(self.storeys), 2e-3)
         self.near(found["with"] / 8, self.volume(self.storeys) + self.volume(self.cellars), 2e-3)
-        self.assertEqual(self.said.count("without the cellars of 2 volumes"), 3)
+        self.assertEqual(len(re.findall(r"without the cellars of 2\svolumes", self.said)), 3, self.said)
 
     @needs("admesh")
     def test_stl_with_cellars_is_sound(self):
