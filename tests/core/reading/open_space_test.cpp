@@ -52,7 +52,7 @@ TEST(OpenSpace, WhatIsMissingIsToldWithItsReason) {
   Accounts accounts = settled_accounts(small);
   EXPECT_NEAR(accounts.open[0].missing_share(), 1.0 / 3, 1e-9);
   EXPECT_EQ(accounts.worst, "garden");
-  EXPECT_EQ(why_short(accounts.open[0], accounts.tolerance).substr(0, 19), "400\xC2\xA0m² are drawn") << "that is all of it";
+  EXPECT_EQ(why_short(accounts.open[0], accounts.tolerance).substr(0, 18), "400\xC2\xA0m² are drawn") << "that is all of it";
   World outside = World::from_text(open_scene("garden", -20, 10));
   accounts = settled_accounts(outside);
   EXPECT_NEAR(accounts.open[0].area, 200, 1e-9);

@@ -6,7 +6,9 @@ import type { Choice } from "./model";
 
 // Around the plots, of their larger side; more where there is something to see.
 const kMargin = 0.04,
-  kSurroundings = 0.25;
+  kSurroundings = 0.25,
+  kLetter = 0.29, // half of the width of a letter, and the height of a line, of the size of the letters
+  kLine = 1.2;
 
 // The storey of a building that belongs to a level, or the higher one that passes through it.
 function storey_on(building: Building, level: Level, cut: number): { storey: Storey; isOwn: boolean } | null {
@@ -14,6 +16,25 @@ function storey_on(building: Building, level: Level, cut: number): { storey: Sto
   if (own) return { storey: own, isOwn: true };
   const passing = level.number < 0 ? undefined : building.storeys.find((one) => one.bottom <= cut && cut < one.top);
   return passing ? { storey: passing, isOwn: false } : null;
+}
+
+interface Seen {
+  building: Building;
+  on: { storey: Storey; isOwn: boolean };
+}
+
+// Of names that would lie on each other the larger storey keeps its own; all are in the tables.
+function named(here: Seen[], font: number): Seen[] {
+  const taken: { x: number; y: number; half: number }[] = [];
+  return [...here]
+    .sort((a, b) => b.on.storey.area - a.on.storey.area)
+    .filter(({ building }) => {
+      const [x, y] = building.at,
+        half = kLetter * font * building.name.length;
+      const isFree = taken.every((one) => Math.abs(one.x - x) >= one.half + half || Math.abs(one.y - y) >= kLine * font);
+      if (isFree) taken.push({ x, y, half });
+      return isFree;
+    });
 }
 
 /// The level that is shown, by its number, and whether the model is cut above it.
@@ -35,7 +56,7 @@ export function Plans({ proposal, chosen, choose, level, setLevel, isCut, setCut
     cut = here_now.bottom + plan.level_height / 2;
   const shown = proposal.buildings
     .map((building) => ({ building, on: storey_on(building, here_now, cut) }))
-    .filter((one): one is { building: Building; on: { storey: Storey; isOwn: boolean } } => one.on !== null);
+    .filter((one): one is Seen => one.on !== null);
   const here = shown.filter(({ on }) => on.isOwn),
     area = here.reduce((sum, { on }) => sum + on.storey.area, 0),
     font = (Math.max(width, height) + 2 * margin) / 46;
@@ -49,7 +70,16 @@ export function Plans({ proposal, chosen, choose, level, setLevel, isCut, setCut
           <span>
             {here_now.name} of {isBelow ? -first : last}, {here_now.heights}
           </span>
-          <input type="range" min={first} max={last} step={1} value={level} aria-valuetext={here_now.name} onInput={(event) => setLevel(Number(event.currentTarget.value))} />
+          <input
+            type="range"
+            min={first}
+            max={last}
+            step={1}
+            value={level}
+            aria-valuetext={here_now.name}
+            style={`--filled: ${last > first ? (100 * (level - first)) / (last - first) : 0}%`}
+            onInput={(event) => setLevel(Number(event.currentTarget.value))}
+          />
         </label>
         <button class="round" aria-label="One level higher" disabled={level >= last} onClick={() => setLevel(level + 1)}>
           <Icon name="up" />
@@ -89,7 +119,7 @@ export function Plans({ proposal, chosen, choose, level, setLevel, isCut, setCut
             </title>
           </path>
         ))}
-        {(here.length <= 40 ? here : []).map(({ building }) => (
+        {named(here, font).map(({ building }) => (
           <text key={`n${building.id}`} class="name" font-size={font} stroke-width={font * 0.22} x={building.at[0]} y={building.at[1] + 0.35 * font}>
             {building.name}
           </text>
