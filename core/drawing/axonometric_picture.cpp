@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/drawing/furniture.h"
@@ -63,15 +65,38 @@ Scenery scenery_of(const reading::ReportModel& model, const View& view) {
   return scenery;
 }
 
-std::vector<const reading::VolumeRow*> back_to_front(const reading::ReportModel& model, const View& view) {
+// A volume, or the part of it between two heights, where others of its building lie beside, below and above.
+struct VolumePiece {
+  const reading::VolumeRow* volume = nullptr;
+  std::shared_ptr<const Mesh> mesh;  // of a part; null: the whole volume
+  double storey_height = 0;          // [m]
+};
+
+// Those that stand about one centre share a footprint.
+std::vector<VolumePiece> pieces_of(const reading::VolumeRow& volume, const std::map<std::pair<double, double>, int>& centres) {
+  constexpr double kChords = 0.05;  // [m]
+  const geometry::StandingBody& body = volume.body;
+  const auto sharing = body.stacks.empty() ? centres.end() : centres.find({body.centre.x, body.centre.y});
+  std::vector<VolumePiece> pieces;
+  if (sharing != centres.end() && sharing->second > 1 && body.stacks.size() > 1)
+    for (const geometry::PlateStack& stack : body.stacks)
+      pieces.push_back(
+          {&volume, std::make_shared<const Mesh>(geometry::mesh_of({body.centre, {stack}}, kChords)), stack.storey_height});
+  else pieces.push_back({&volume, nullptr, volume.figures.storey_height});
+  return pieces;
+}
+
+std::vector<VolumePiece> back_to_front(const reading::ReportModel& model, const View& view) {
   std::map<std::size_t, std::pair<double, double>> groups;
+  std::map<std::pair<double, double>, int> centres;  // of standing volumes, with how many stand about each
+  std::map<std::string_view, const reading::VolumeRow*> by_id;
   for (const reading::VolumeRow& volume : model.volumes) {
     auto& [sum, count] = groups[volume.group];
     sum += dot(volume.figures.position, view.toward);
     count += 1;
+    by_id.emplace(volume.id, &volume);
+    if (!volume.body.stacks.empty()) ++centres[{volume.body.centre.x, volume.body.centre.y}];
   }
-  std::map<std::string_view, const reading::VolumeRow*> by_id;
-  for (const reading::VolumeRow& volume : model.volumes) by_id.emplace(volume.id, &volume);
   // Whoever stands on a roof hides, and is hidden, where the building on the ground does; among themselves the lower comes first.
   const auto on_ground = [&](const reading::VolumeRow* volume) {
     for (std::size_t k = 0; k < by_id.size() && !volume->body.stacks.empty(); ++k) {
@@ -81,18 +106,45 @@ std::vector<const reading::VolumeRow*> back_to_front(const reading::ReportModel&
     }
     return volume;
   };
-  std::vector<std::pair<std::array<double, 4>, const reading::VolumeRow*>> order;
-  for (const reading::VolumeRow& volume : model.volumes)
-    if (volume.mesh) {
-      const auto& [sum, count] = groups[volume.group];
-      const double place = dot(on_ground(&volume)->figures.position, view.toward);
-      const double level = volume.body.stacks.empty() ? 0 : volume.figures.bottom;
-      order.push_back({{sum / count, static_cast<double>(volume.group), place, level}, &volume});
+  const auto middle_of = [](const Mesh& mesh) {
+    Point3 sum;
+    for (const Point3& vertex : mesh.vertices) sum += vertex / static_cast<double>(mesh.vertices.size());
+    sum.z = 0;
+    return sum;
+  };
+  std::vector<std::pair<std::array<double, 5>, VolumePiece>> order;
+  for (const reading::VolumeRow& volume : model.volumes) {
+    if (!volume.mesh) continue;
+    const auto& [sum, count] = groups[volume.group];
+    const reading::VolumeRow& base = *on_ground(&volume);
+    const bool stands = !volume.body.stacks.empty();
+    const double place = dot(base.body.stacks.empty() ? base.figures.position : base.body.centre, view.toward);
+    std::size_t stack = 0;
+    for (VolumePiece& piece : pieces_of(volume, centres)) {
+      const double level = stands ? volume.body.stacks[stack].bottom : 0;
+      // Parts of one storey lie beside each other, cut straight across.
+      const double beside = stands ? dot(middle_of(piece.mesh ? *piece.mesh : *volume.mesh), view.toward) : 0;
+      order.push_back({{sum / count, static_cast<double>(volume.group), place, level, beside}, std::move(piece)});
+      ++stack;
     }
+  }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const reading::VolumeRow*> out;
-  for (const auto& [key, volume] : order) out.push_back(volume);
+  std::vector<VolumePiece> out;
+  for (auto& [key, piece] : order) out.push_back(std::move(piece));
   return out;
+}
+
+// Each volume where its last piece is.
+std::vector<const reading::VolumeRow*> volumes_in(const std::vector<VolumePiece>& pieces, const reading::ReportModel& model) {
+  std::vector<bool> is_there(model.volumes.size(), false);
+  std::vector<const reading::VolumeRow*> volumes;
+  for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
+    const auto row = static_cast<std::size_t>(piece->volume - model.volumes.data());
+    if (!is_there[row]) volumes.push_back(piece->volume);
+    is_there[row] = true;
+  }
+  std::reverse(volumes.begin(), volumes.end());
+  return volumes;
 }
 
 // The plot with a grid of round metres, so that the eye has a measure for depth too.
@@ -163,18 +215,19 @@ void draw_envelope(Markup& svg, const Sheet& sheet, const reading::ReportModel& 
                   {"stroke-dasharray", near ? "7 3 1.5 3" : "2 3"}});
 }
 
-void draw_volume(Markup& svg, const Sheet& sheet, const reading::VolumeRow& volume, const Palette& palette,
-                 const Scenery& scenery, bool has_storeys, const std::string& id) {
+void draw_piece(Markup& svg, const Sheet& sheet, const VolumePiece& piece, const Palette& palette, const Scenery& scenery,
+                bool has_storeys, const std::string& id) {
+  const reading::VolumeRow& volume = *piece.volume;
   svg.open("g");
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
                            reading::quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
                            reading::quantity(volume.volume, Unit::cubic_metre));
-  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.figures.storey_height : 0,
-                         volume.figures.bottom, volume.figures.bottom + volume.figures.height};
+  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? piece.storey_height : 0, volume.figures.bottom,
+                         volume.figures.bottom + volume.figures.height};
   if (volume.exact.radius > 0)
     draw_ball(svg, sheet, volume.exact, style, id + "-shade-" + palette.letter(volume.use),
               id + "-ball-" + std::to_string(volume.number));
-  else draw_solid(svg, sheet, *volume.mesh, style);
+  else draw_solid(svg, sheet, piece.mesh ? *piece.mesh : *volume.mesh, style);
   svg.close();
 }
 
@@ -284,7 +337,8 @@ Picture draw_axonometry(const reading::ReportModel& model, const Palette& palett
   for (const Point3& corner : frame) middle += corner / static_cast<double>(frame.size());
   const Sheet sheet(view, shown.empty() ? with_corners(scenery, frame) : shown, kAxonometryWidth, kMostAxonometryHeight,
                     {40, 34, 40, 52});
-  const std::vector<const reading::VolumeRow*> order = back_to_front(model, view);
+  const std::vector<VolumePiece> pieces = back_to_front(model, view);
+  const std::vector<const reading::VolumeRow*> order = volumes_in(pieces, model);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), id, "Axonometry",
                "The proposal seen from above and aside: " + reading::counted(order.size(), "volume") +
@@ -297,7 +351,7 @@ Picture draw_axonometry(const reading::ReportModel& model, const Palette& palett
   for (const reading::UseAccount& use : model.accounts.uses)
     define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, id + "-shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
-  for (const reading::VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys, id);
+  for (const VolumePiece& piece : pieces) draw_piece(svg, sheet, piece, palette, scenery, has_storeys, id);
   draw_envelope(svg, sheet, model, true);
   draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, true);
   const std::string missing = write_labels(svg, sheet, order, palette);

@@ -146,6 +146,27 @@ TEST(Report, WhatStandsOnARoofIsDrawnAfterIt) {
   }
 }
 
+// Of volumes that share a footprint the upper storeys are drawn last, and those of one storey by how near they are.
+TEST(Report, SharedBuildingsAreDrawnStoreyByStorey) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "flats", "name": "Flats", "types": {"footprint": {"order": 1, "shares": ["shops"]},
+                                                 "smart_volume": {"use": "housing", "demand": 9000, "storey_height": 3}}},
+      {"id": "shops", "name": "Shops", "types": {"footprint": {"storeys": 3},
+                                                 "smart_volume": {"use": "shops", "demand": 5400, "storey_height": 4.5}}},
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-40, -40, 0], [40, -40, 0], [40, 40, 0], [-40, 40, 0]], "height": 30}}},
+      {"id": "solver", "types": {"standing_solver": {}}}]})");
+  world.tick(40);
+  const std::string html = write_and_read("shared", data_of(world.state())).html;
+  const std::size_t begin = html.find("<svg");
+  const std::string picture = html.substr(begin, html.find("</svg>", begin) - begin);
+  const std::size_t first = picture.find(". Flats,"), last = picture.rfind(". Flats,"), shops = picture.find(". Shops,");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(shops, std::string::npos);
+  EXPECT_NE(first, last) << "their part of the ground floor is drawn by itself";
+  EXPECT_LT(shops, last) << "the flats above hide the roof of the shops";
+  EXPECT_EQ(picture.find(". Shops,", shops + 1), std::string::npos) << "one storey is one piece";
+}
+
 TEST(Report, HoldsEveryVolumeInAllThreeFiles) {
   World world = World::from_text(kBlock);
   world.tick(60);
