@@ -106,7 +106,7 @@ class DemandSearch {
     Result<bool> met = false;
     for (std::size_t k = first; k < starts_.size() && !report_.is_stopped; ++k) {
       sites_ = starts_[k];
-      met = newton_.run(1, steps_);
+      met = newton_.run(1, steps_, false);
       if (!met || *met) break;
     }
     return met;
@@ -193,6 +193,20 @@ class DemandSearch {
   std::vector<std::vector<StandingSite>> starts_;
 };
 
+// Weights of an earlier state may hide somebody so deep that it gets nothing however heavy it is made. Before it is left out, all
+// start from equal weights.
+Result<bool> run_first(FootprintNewton& newton, const FootprintDiagram& diagram, std::vector<StandingSite>& sites,
+                       std::span<const FloorDemand> demands, const FootprintFitOptions& options, const FootprintFit& report) {
+  const std::vector<StandingSite> initial = sites;
+  const auto met = newton.run(1, options.most_steps);
+  if (!met || *met || report.is_stopped || !newton.has_lost()) return met;
+  sites = initial;
+  const auto again = DemandSearch(newton, diagram, sites, demands, options, report).run_again(1);
+  if (!again || *again) return again;
+  sites = initial;
+  return newton.run(1, options.most_steps);
+}
+
 void add_words(const std::string& words, FootprintFit& report) {
   report.infeasible += (report.infeasible.empty() ? "" : "; ") + words;
 }
@@ -227,7 +241,7 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
   for (std::uint32_t g = 0; g < demands.size(); ++g)
     if (newton.may_have(g)) needed += needed_plot(sites, demands[g]);
   const double most = !newton.fills_plot() && needed > (1 + 1e-9) * diagram.plot_area() ? diagram.plot_area() / needed : 1;
-  Result<bool> met = most < 1 ? Result<bool>(false) : newton.run(1, options.most_steps);
+  Result<bool> met = most < 1 ? Result<bool>(false) : run_first(newton, diagram, sites, demands, options, report);
   while (met && !*met && most == 1 && newton.leave_out_lost()) {
     sites = initial;
     met = newton.run(1, options.most_steps);

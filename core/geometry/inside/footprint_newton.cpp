@@ -47,7 +47,7 @@ Result<void> FootprintNewton::prepare() {
   return {};
 }
 
-Result<bool> FootprintNewton::run(double factor, int most_steps) {
+Result<bool> FootprintNewton::run(double factor, int most_steps, bool ends_with_lost) {
   factor_ = factor;
   is_stalled_ = false;
   make_room();
@@ -56,7 +56,7 @@ Result<bool> FootprintNewton::run(double factor, int most_steps) {
   for (std::uint32_t g = 0; g < demands_.size(); ++g) began_empty_[g] = floors_[g] > 0 ? 0 : 1;
   if (auto done = repair(); !done) return done.error();
   // What has nothing however heavy it is has nothing at any factor.
-  is_stalled_ = has_lost();
+  is_stalled_ = ends_with_lost && has_lost();
   if (is_stalled_) return false;
   least_ratio_ = 0.5 * std::min(1.0, smallest_ratio());
   int small_steps = 0;

@@ -24,7 +24,8 @@ class FootprintNewton {
   Result<void> prepare();
   /// Steps from the weights of the sites until the demands, times `factor`, are met. False: they are not, because no step brings
   /// them nearer (`is_stalled`), or because `most_steps` were not enough.
-  Result<bool> run(double factor, int most_steps);
+  /// Where it `ends_with_lost`, it ends at once if a site has nothing however heavy it was made (`has_lost`).
+  Result<bool> run(double factor, int most_steps, bool ends_with_lost = true);
   /// Measures the sites as they are.
   Result<void> evaluate();
 
@@ -41,6 +42,7 @@ class FootprintNewton {
   bool leave_out_worst();
   /// Takes out those that had no floor before the last run, and whose sites, made ever heavier, got none. False: there are none.
   bool leave_out_lost();
+  bool has_lost() const;
   bool may_have(std::uint32_t demand) const { return is_out_[demand] == 0; }
 
   /// The share of what they ask for that nearly all demands have, as they do after a compromise; 0 where they differ.
@@ -58,7 +60,6 @@ class FootprintNewton {
   void leave_doubled();
   void leave_groundless();
   bool is_lost(std::uint32_t g) const;
-  bool has_lost() const;
   void find_filled();
   void make_room();
   double error() const;

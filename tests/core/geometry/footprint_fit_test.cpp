@@ -1,6 +1,7 @@
 // Fits of footprints: whole cells beside discs and blocks on one plot, by hand and over random sets.
 #include "core/geometry/footprint_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -167,7 +168,21 @@ struct Mixture {
   std::vector<double> areas;
 };
 
-Mixture random_mixture(double plot_area, std::uint64_t seed) {
+double plot_area_of(const geometry::Domain& plot) {
+  FootprintDiagram diagram;
+  EXPECT_TRUE(diagram.set_domain(plot));
+  return diagram.plot_area();
+}
+
+bool is_on(const geometry::Domain& plot, const Point3& at) {
+  return std::ranges::any_of(plot.pieces, [&](const geometry::Domain::Piece& piece) {
+    return std::ranges::all_of(piece.shape.planes,
+                               [&](const geometry::Plane& plane) { return dot(plane.normal, at) <= plane.offset; });
+  });
+}
+
+// Sites on the plot.
+Mixture random_mixture(const geometry::Domain& plot, std::uint64_t seed) {
   constexpr double kCovers[] = {0.1, 0.3, 0.5, 0.7, 0.85};
   constexpr int kKinds[][3] = {{1, 1, 1}, {1, 1, 6}, {3, 0, 1}, {0, 1, 3}};  // how often a disc, a block, a cell
   Random random(seed);
@@ -182,8 +197,10 @@ Mixture random_mixture(double plot_area, std::uint64_t seed) {
     while (at >= kinds[form]) at -= kinds[form++];
     if (i == 0 && form == 2) form = kinds[0] > 0 ? 0 : 1;
     StandingSite site = site_of(static_cast<FootprintForm>(form), 0, 0, 1 + static_cast<int>(random.below(5)));
-    site.site.position.x = random.uniform(1, 79);
-    site.site.position.y = random.uniform(1, 79);
+    do {
+      site.site.position.x = random.uniform(1, 79);
+      site.site.position.y = random.uniform(1, 79);
+    } while (!is_on(plot, site.site.position + Vector3{0, 0, 1}));
     site.angle = random.uniform(-3, 3);
     site.aspect = random.uniform(0.4, 2.5);
     made.sites.push_back(site);
@@ -191,14 +208,9 @@ Mixture random_mixture(double plot_area, std::uint64_t seed) {
     sum += shares.back();
   }
   const double cover = kCovers[random.below(5)];
-  for (std::size_t i = 0; i < count; ++i) made.areas.push_back(cover * plot_area * shares[i] / sum * made.sites[i].storeys());
+  for (std::size_t i = 0; i < count; ++i)
+    made.areas.push_back(cover * plot_area_of(plot) * shares[i] / sum * made.sites[i].storeys());
   return made;
-}
-
-double plot_area_of(const geometry::Domain& plot) {
-  FootprintDiagram diagram;
-  EXPECT_TRUE(diagram.set_domain(plot));
-  return diagram.plot_area();
 }
 
 TEST(FootprintFitLaws, WhatFitsIsMetWhateverFormsAreBesideEachOther) {
@@ -206,7 +218,7 @@ TEST(FootprintFitLaws, WhatFitsIsMetWhateverFormsAreBesideEachOther) {
   for (const PlotShape shape : kPlotShapes) {
     const geometry::Domain plot = plot_of(shape);
     for (std::uint64_t seed = 1; seed <= 120; ++seed) {
-      const Mixture made = random_mixture(plot_area_of(plot), 1000 * static_cast<std::uint64_t>(shape) + seed);
+      const Mixture made = random_mixture(plot, 1000 * static_cast<std::uint64_t>(shape) + seed);
       const auto found = fitted(plot, made.sites, floor_demands(made.areas));
       EXPECT_TRUE(found.report.is_met) << static_cast<int>(shape) << ", seed " << seed << ": " << found.report.infeasible;
       EXPECT_TRUE(found.report.losses.empty());
@@ -223,7 +235,7 @@ TEST(FootprintFitLaws, WhatFitsIsMetWhateverFormsAreBesideEachOther) {
 TEST(FootprintFitLaws, WarmEqualsCold) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const geometry::Domain plot = plot_of(seed % 2 == 0 ? PlotShape::square : PlotShape::hexagon);
-    const Mixture made = random_mixture(plot_area_of(plot), seed);
+    const Mixture made = random_mixture(plot, seed);
     const FootprintFitOptions exact{.tolerance = 1e-9, .progress = {}};
     const auto cold = fitted(plot, made.sites, floor_demands(made.areas), exact);
     ASSERT_TRUE(cold.report.is_met) << seed;
@@ -250,7 +262,7 @@ TEST(FootprintFitLaws, WarmEqualsCold) {
 TEST(FootprintFitLaws, ThreadsChangeNoBit) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const geometry::Domain plot = plot_of(kPlotShapes[seed % 5]);
-    const Mixture made = random_mixture(plot_area_of(plot), seed);
+    const Mixture made = random_mixture(plot, seed);
     const auto one = fitted(plot, made.sites, floor_demands(made.areas));
     for (const int threads : {2, 3}) {
       ThreadPool pool(threads);
@@ -265,7 +277,7 @@ TEST(FootprintFitLaws, ThreadsChangeNoBit) {
 TEST(FootprintFitLaws, WhatDoesNotFitIsSharedInProportion) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const geometry::Domain plot = plot_of(seed % 2 == 0 ? PlotShape::square : PlotShape::hexagon);
-    Mixture made = random_mixture(plot_area_of(plot), seed);
+    Mixture made = random_mixture(plot, seed);
     double needed = 0;
     for (std::size_t i = 0; i < made.sites.size(); ++i) needed += made.areas[i] / made.sites[i].storeys();
     for (double& area : made.areas) area *= 1.3 * plot_area_of(plot) / needed;
