@@ -367,6 +367,7 @@ struct StandingSolver {
   }
 
   static void add_up(const Kept& kept, std::span<const geometry::StandingResult> results, Out& out) {
+    out.plot_area = kept.cache.plot_area + out.open_area;
     for (std::size_t i = 0; i < results.size(); ++i) {
       out.count += results[i].volume > 0 ? 1 : 0;
       out.total_floor_area += results[i].floor_area;
@@ -441,7 +442,6 @@ struct StandingSolver {
     }
     add_sharers(kept, answered);
     out.open_area = sets.plots.front().open_area;
-    out.plot_area = kept.cache.plot_area + out.open_area;
     for (const std::uint32_t i : done->in_circles) {
       kept.wishes[i].base = geometry::StandingWish::kGround;
       words += "; `" + kept.names[i] +
