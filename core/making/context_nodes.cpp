@@ -337,7 +337,7 @@ void ContextNodes::add_street(const std::string& id, const importing::ContextStr
   fit.set("for_cars", piece.for_cars);
   Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
                {"position", position_json(piece.line[piece.line.size() / 2])},
-               {"types", {{"street", fit.values}}}};
+               {"types", {{"street", fit.values()}}}};
   add_node("street", id, piece.id, node);
   for (const Point3& point : piece.line) reach(point);
 }

@@ -1,4 +1,4 @@
-// What a saved scene shows before its next tick is what the running one showed: bodies of surroundings, and what links say.
+// Law: what a saved scene shows before its next tick is what the running one showed: bodies of surroundings, and what links say.
 #include <gtest/gtest.h>
 
 #include "tests/support/scene_files.h"
