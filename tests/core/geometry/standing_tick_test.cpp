@@ -287,7 +287,7 @@ TEST(StandingTick, ALeaningBoundaryIsReachedOutOf) {
   EXPECT_EQ(run(domain, wishes, kept).results[0].outside, BoundaryReach()) << "a disc of 5.6 m below 9 m";
   wishes[0].volume = 3 * 3 * 1200;
   const StandingResult& wide = run(domain, wishes, kept).results[0];
-  // 1200 m² of a ground of 1600 m²; at 9 m the section is a square of 22 m, and it is taken a little below that.
+  // 1200 m² of a ground of 1600 m²; at 9 m the section is a square of 22 m. Chords of the disc lack a little.
   EXPECT_EQ(wide.outside.storey, 1);
   EXPECT_NEAR(wide.outside.area, wide.footprint - 22 * 22, 1);
 }
