@@ -14,8 +14,6 @@ namespace bl::geometry {
 
 namespace {
 
-// Shares of demands are found to a part of this many.
-constexpr double kFinestShare = 64;
 constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4;
 // Parts of the equal weights, from which fits start that lead nowhere otherwise: the smaller forms are, the more of them end
 // inside their cells.
@@ -114,9 +112,7 @@ class DemandSearch {
 
   // The largest share of all demands that can be met; where there is none, of those that do not stand in the way of all others.
   Result<double> compromise(double most) {
-    auto share = share_so_far(most);
-    if (!share || *share > 0) return share;
-    share = largest_share(most);
+    auto share = largest_share(most);
     for (int k = 0; share && *share == 0 && k < kMostLeftOut && !report_.is_stopped; ++k) {
       if (!newton_.leave_out_worst()) break;
       const auto met = run_again(0);
@@ -127,37 +123,6 @@ class DemandSearch {
   }
 
  private:
-  // Where all have the same share of what they ask for, as after the last search, that share or more; 0 where that is not so.
-  // While somebody drags one of a thousand volumes, the share of all stays what it is.
-  Result<double> share_so_far(double most) {
-    sites_ = starts_.front();
-    if (auto done = newton_.evaluate(); !done) return done.error();
-    const double known = newton_.common_share();
-    if (!(known > 0) || known >= most) return 0.0;
-    std::vector<StandingSite> best = starts_.front();
-    double low = 0, high = most, more = most / kFinestShare;
-    // Upwards by ever larger steps, and by halving between the last two; what is known already is tried last.
-    for (bool is_rising = true; !report_.is_stopped;) {
-      const double next = is_rising ? std::min(most, std::max(low, known) + more) : 0.5 * (low + high);
-      sites_ = best;
-      const auto met = newton_.run(next, steps_);
-      if (!met) return met.error();
-      if (*met) best = sites_;
-      (*met ? low : high) = next;
-      is_rising = is_rising && *met && next < most;
-      more *= 2;
-      if (low == 0 || low >= most || (!is_rising && high - low <= most / kFinestShare)) break;
-    }
-    sites_ = best;
-    if (low > 0) {
-      if (auto done = newton_.evaluate(); !done) return done.error();
-      return low;
-    }
-    const auto met = newton_.run(known, steps_);
-    if (!met) return met.error();
-    return *met ? known : 0;
-  }
-
   Result<double> largest_share(double most) {
     Result<double> share = 0.0;
     for (std::size_t k = 0; k < starts_.size() && !report_.is_stopped; ++k) {

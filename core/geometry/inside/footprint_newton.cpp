@@ -131,19 +131,6 @@ bool FootprintNewton::has_lost() const {
   return false;
 }
 
-double FootprintNewton::common_share() const {
-  constexpr double kOthers = 0.05;
-  const double alike = std::max(1e-3, 2 * options_.tolerance);
-  std::vector<double> shares;
-  for (std::uint32_t g = 0; g < demands_.size(); ++g)
-    if (counts(g) && demands_[g].least > 0) shares.push_back(floors_[g] / demands_[g].least);
-  if (shares.size() < 2) return 0;
-  std::sort(shares.begin(), shares.end());
-  const double middle = shares[shares.size() / 2];
-  const auto others = std::ranges::count_if(shares, [&](double share) { return std::abs(share - middle) > alike * middle; });
-  return static_cast<double>(others) <= kOthers * static_cast<double>(shares.size()) ? middle : 0;
-}
-
 double FootprintNewton::floor_of(std::uint32_t g) const {
   double sum = 0;
   for (const std::uint32_t i : demands_[g].sites) sum += diagram_.footprints()[i].floor_area;

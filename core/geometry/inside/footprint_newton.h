@@ -45,8 +45,6 @@ class FootprintNewton {
   bool has_lost() const;
   bool may_have(std::uint32_t demand) const { return is_out_[demand] == 0; }
 
-  /// The share of what they ask for that nearly all demands have, as they do after a compromise; 0 where they differ.
-  double common_share() const;
   double floor_of(std::uint32_t demand) const;
   double error_of(std::uint32_t demand, double factor) const;
 

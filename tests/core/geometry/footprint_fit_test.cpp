@@ -98,37 +98,6 @@ TEST(FootprintFit, WhatDoesNotFitIsSharedInProportionAndNamed) {
   EXPECT_NEAR(found.floors[1] / 800, found.report.factor, 1e-4);
 }
 
-// Of volumes that want a tenth more than there is, one is dragged: the share of all is not searched for again from the start, and
-// is found as exactly.
-TEST(FootprintFit, TheShareThatAllHaveIsKnownToTheNextFit) {
-  Random random(11);
-  std::vector<StandingSite> sites;
-  std::vector<double> areas;
-  for (int i = 0; i < 40; ++i) {
-    sites.push_back(
-        site_of(i % 2 == 0 ? FootprintForm::block : FootprintForm::round, random.uniform(2, 118), random.uniform(2, 118), 2));
-    areas.push_back(random.uniform(0.7, 1.3));
-  }
-  double sum = 0;
-  for (const double area : areas) sum += area;
-  for (double& area : areas) area *= 1.1 * 2 * 120 * 120 / sum;
-  const auto demands = floor_demands(areas);
-  FootprintDiagram diagram;
-  ASSERT_TRUE(diagram.set_domain(fit_square(120)));
-  const FootprintFitOptions options{.most_steps = 8, .is_local = true, .progress = {}};
-  const auto cold = geometry::fit_footprints(diagram, sites, demands, options);
-  ASSERT_TRUE(cold);
-  ASSERT_LT(cold->factor, 0.92);
-  for (int frame = 0; frame < 5; ++frame) {
-    sites[7].site.position.x += 0.2;
-    const auto warm = geometry::fit_footprints(diagram, sites, demands, options);
-    ASSERT_TRUE(warm);
-    EXPECT_NEAR(warm->factor, cold->factor, 2.0 / 64);
-    EXPECT_LT(3 * warm->evaluations, cold->evaluations) << "frame " << frame;
-    for (std::size_t i = 0; i < sites.size(); ++i) EXPECT_NEAR(diagram.footprints()[i].floor_area / areas[i], warm->factor, 1e-5);
-  }
-}
-
 // A block in the place of a cell has nothing, so that cells are all there is, and these fill the plot.
 TEST(FootprintFit, CellsAloneShareThePlotWhoeverStandsInTheirPlace) {
   const std::vector<StandingSite> sites{site_of(FootprintForm::cell, 10, 20), site_of(FootprintForm::block, 10, 20),
