@@ -477,6 +477,17 @@ class Standing(Files):
                 out.append((middle[0] + u * math.cos(turn) - v * math.sin(turn), middle[1] + u * math.sin(turn) + v * math.cos(turn)))
         return out
 
+    # Where a ring crosses a line through `start`, along it.
+    @staticmethod
+    def crossings(ring, start, along):
+        found = []
+        for a, b in zip(ring, ring[1:] + ring[:1]):
+            left = [along[0] * (p[1] - start[1]) - along[1] * (p[0] - start[0]) for p in (a, b)]
+            if (left[0] > 0) != (left[1] > 0):
+                part = left[0] / (left[0] - left[1])
+                found.append(sum((a[k] + (b[k] - a[k]) * part - start[k]) * along[k] for k in (0, 1)))
+        return found
+
     # What a straight line through the plan crosses of all plates, measured in the plans, is as long as what the section shows.
     @needs_module("ezdxf")
     def test_section_cuts_what_the_plans_show(self):
@@ -498,12 +509,7 @@ class Standing(Files):
         for rings in storeys.values():
             found = []
             for ring in rings:
-                for a, b in zip(ring, ring[1:] + ring[:1]):
-                    left = [along[0] * (p[1] - y) - along[1] * (p[0] - x) for p in (a, b)]
-                    if (left[0] > 0) != (left[1] > 0):
-                        part = left[0] / (left[0] - left[1])
-                        at = [a[k] + (b[k] - a[k]) * part for k in (0, 1)]
-                        found.append((at[0] - x) * along[0] + (at[1] - y) * along[1])
+                found += self.crossings(ring, (x, y), along)
             found.sort()
             self.assertEqual(len(found) % 2, 0)
             crossed += sum(b - a for a, b in zip(found[::2], found[1::2]))
@@ -681,12 +687,7 @@ class Cellars(Files):
                     angle = 4 * math.atan(a[2])
                     radius = math.dist(a[:2], b[:2]) / (2 * math.sin(angle / 2))
                     found += radius * radius * (angle - math.sin(angle)) / 2
-            ring, at = Standing.fine(plate), []
-            for a, b in zip(ring, ring[1:] + ring[:1]):
-                left = [along[0] * (p[1] - y) - along[1] * (p[0] - x) for p in (a, b)]
-                if (left[0] > 0) != (left[1] > 0):
-                    part = left[0] / (left[0] - left[1])
-                    at.append(sum((a[k] + (b[k] - a[k]) * part - (x, y)[k]) * along[k] for k in (0, 1)))
+            at = Standing.crossings(Standing.fine(plate), (x, y), along)
             at.sort()
             crossed += sum(b - a for a, b in zip(at[::2], at[1::2]))
         self.near(found, self.total(self.cellars), 1e-6)

@@ -287,7 +287,7 @@ TEST(CellarView, TheSliderGoesDownToTheCellarsAndASectionOpensTheGround) {
   desktop.choose("flats");
   view.look_from(SceneView::Side::plan);
   desktop.frames(40);
-  EXPECT_EQ(view.dimensions().size(), 4u) << "a block has four sides";
+  EXPECT_EQ(view.dimensions().size(), 5u) << "a block, one corner of which the shop cuts off";
 }
 
 class StandingView : public ::testing::Test {
