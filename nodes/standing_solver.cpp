@@ -317,6 +317,13 @@ struct StandingSolver {
                          .limited_by = kept.names[lowest]});
   }
 
+  // Where a volume stands, and in which building.
+  static void place_reply(std::size_t i, std::span<const Member> members, const Kept& kept, Reply& reply) {
+    const std::size_t host = host_of(kept, i).value_or(i);
+    reply.building = building_of(i, members, kept);
+    reply.stands_at = geometry::nearest_place(*kept.cache.results[host].body, members[host].position, kPlaceChords);
+  }
+
   // What one of a building asks for is read of the others too.
   static void add_sharers(const Kept& kept, std::vector<std::uint32_t>& answered) {
     std::vector<std::size_t> hosts;
@@ -455,10 +462,7 @@ struct StandingSolver {
     for (const std::uint32_t i : answered) {
       out.replies.replies.push_back(
           reply_of(kept.wishes[i], done->results[i], cellar_of(kept.cellars[i], done->results[i]), kept.names));
-      out.replies.replies.back().building = building_of(i, sets.members.all, kept);
-      const std::size_t host = host_of(kept, i).value_or(i);
-      out.replies.replies.back().stands_at =
-          geometry::nearest_place(*kept.cache.results[host].body, sets.members.all[host].position, kPlaceChords);
+      place_reply(i, sets.members.all, kept, out.replies.replies.back());
     }
     out.message = done->message;
     for (const auto& [base, text] : done->on_roofs) {

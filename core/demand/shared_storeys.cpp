@@ -1,7 +1,16 @@
 // Buildings of several volumes as rows of tables, and as rules read them.
 #include "core/demand/shared_storeys.h"
 
+#include <algorithm>
+
 namespace bl::demand {
+
+namespace {
+
+constexpr double kMostMetres = 1e9, kLeastStorey = 0.1;  // [m]
+constexpr int kMostCount = 1000;
+
+}  // namespace
 
 Table table_of(const std::optional<Building>& building) {
   Table table{{"host", "storeys", "least", "held", "storey_height", "bottom", "top", "limit", "part", "limited_by"}, {}};
@@ -18,16 +27,20 @@ Table table_of(const std::optional<Building>& building) {
 
 std::optional<Building> building_in(const std::optional<Shared<Table>>& table) {
   if (!table || (*table)->rows.empty()) return std::nullopt;
-  const auto number = [&](const char* name) { return (*table)->number(0, name); };
+  // A table may hold any numbers; what is reckoned with has to stay finite.
+  const auto metres = [&](const char* name, double least) { return std::clamp((*table)->number(0, name), least, kMostMetres); };
+  const auto count = [&](const char* name) {
+    return static_cast<int>(std::clamp((*table)->number(0, name), 0.0, static_cast<double>(kMostCount)));
+  };
   return Building{(*table)->text(0, "host"),
-                  static_cast<int>(number("storeys")),
-                  static_cast<int>(number("least")),
-                  static_cast<int>(number("held")),
-                  number("storey_height"),
-                  number("bottom"),
-                  number("top"),
-                  number("limit"),
-                  number("part"),
+                  count("storeys"),
+                  count("least"),
+                  count("held"),
+                  metres("storey_height", kLeastStorey),
+                  metres("bottom", -kMostMetres),
+                  metres("top", -kMostMetres),
+                  metres("limit", 0),
+                  std::clamp((*table)->number(0, "part"), 0.0, 1.0),
                   (*table)->text(0, "limited_by")};
 }
 

@@ -1,6 +1,8 @@
 // Buildings that several volumes share, as rows of tables and as rules of height read them.
 #include "core/demand/shared_storeys.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace bl::demand {
@@ -12,6 +14,20 @@ TEST(SharedStoreys, ATableHoldsThem) {
   EXPECT_EQ(building_in(Shared<Table>(table_of(kBuilding))), kBuilding);
   EXPECT_EQ(building_in(Shared<Table>(table_of(std::nullopt))), std::nullopt);
   EXPECT_EQ(building_in(std::nullopt), std::nullopt);
+}
+
+TEST(SharedStoreys, AnyNumbersOfATableCanBeReckonedWith) {
+  Table table = table_of(kBuilding);
+  for (std::size_t column = 1; column + 1 < table.columns.size(); ++column)
+    for (const double number : {-1e308, 0.0, 1e308}) {
+      Table odd = table;
+      odd.rows.front()[column] = number;
+      const auto building = building_in(Shared<Table>(odd));
+      ASSERT_TRUE(building.has_value());
+      const StandingVolume seen = standing_in({3, 4, 1, 4.5, 1e6, false}, building);
+      for (const auto& limit : {lower_limit(seen, 0.1, 0.2), higher_limit(seen), kept_limit(seen), limit_at(seen, 20, 0.2)})
+        if (limit) { EXPECT_TRUE(std::isfinite(*limit)) << table.columns[column] << " " << number; }
+    }
 }
 
 TEST(SharedStoreys, RulesSeeTheBuildingAndTheirOwnLock) {
