@@ -351,6 +351,13 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
   state = std::move(draft).publish();
 }
 
+State with_links_of(const State& state, const State& after) {
+  StateDraft told(state);
+  for (std::uint32_t l = 0; l < state.links.size(); ++l)
+    if (!after.links[l].says_the_same(state.links[l])) told.links.put(l, LinkState(after.links[l]));
+  return std::move(told).publish();
+}
+
 State with_sums_of_now(const State& state) {
   const StateDraft before(state);
   StateDraft seen(state);

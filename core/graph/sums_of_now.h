@@ -10,5 +10,7 @@ namespace bl {
 /// late. Here a list of volumes and its sum agree. No tick continues from this state: its hash is that of the given state.
 /// Typifications with memory, analyses and those that fail are left unchanged.
 State with_sums_of_now(const State& state);
+/// The state with what its links say of it: the next tick reads it, and is `after`.
+State with_links_of(const State& state, const State& after);
 
 }  // namespace bl

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "core/graph/sums_of_now.h"
 
 namespace bl {
 
@@ -42,11 +43,7 @@ bool Session::tick() {
 std::shared_ptr<const State> Session::look() {
   const std::shared_ptr<const State> shown = simulation_.shown(simulation_.state());
   if (shown->tick == 0 || !tick()) return shown;
-  const std::shared_ptr<const State> after = simulation_.state();
-  StateDraft told(*shown);
-  for (std::uint32_t l = 0; l < shown->links.size(); ++l)
-    if (!after->links[l].says_the_same(shown->links[l])) told.links.put(l, LinkState(after->links[l]));
-  return std::make_shared<const State>(std::move(told).publish());
+  return std::make_shared<const State>(with_links_of(*shown, *simulation_.state()));
 }
 
 Result<void> Session::replay(const LogEntry& entry) {
