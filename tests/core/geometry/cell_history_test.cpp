@@ -55,7 +55,7 @@ void expect_history_leaves_no_trace(const SiteSet& set, bool with_shape, std::ui
 }
 
 TEST(CellHistory, AHundredChangesLeaveNoTrace) {
-  for (int k = 0; k < rounds(120) && !HasFailure(); ++k) {
+  for (int k = 0; k < rounds(40) && !HasFailure(); ++k) {
     const SiteSet set = zoo_set(k % kZooKinds, 30 + static_cast<std::size_t>(k) % 50, 500 + static_cast<std::uint64_t>(k));
     SCOPED_TRACE(set.name);
     for (const bool with_shape : {true, false})

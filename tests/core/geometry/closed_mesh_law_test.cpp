@@ -14,7 +14,7 @@ namespace bl::test {
 namespace {
 
 // Each kind of plan once at least.
-constexpr int kPlans = kIsSanitized ? 5 : 40;
+constexpr int kPlans = kIsSanitized ? 5 : 10;
 
 // Corners that are one place get one number.
 std::vector<std::uint32_t> mesh_places(const Mesh& mesh, double tolerance) {

@@ -82,10 +82,11 @@ TEST(Outages, OfADragWithoutAConnectionTheLastValueIsSaid) {
   ASSERT_TRUE(guest.end_gesture(gesture).ok());
   ASSERT_TRUE(outage.room.turn_until([&] { return guest.fold().seq() == outage.room.host->health().seq; }));
   EXPECT_EQ(guest.history().size(), 4u);
-  std::int64_t commands = 0;
+  // A snapshot, which a window gets that is far behind, stands in the log as an empty batch.
+  std::int64_t said = 0;
   for (const LogEntry& entry : guest.log())
-    if (entry.is_command() && entry.seq > before) ++commands;
-  EXPECT_EQ(commands, 4);
+    if (entry.command.id == "set_port" && entry.seq > before) ++said;
+  EXPECT_EQ(said, 4);
   EXPECT_EQ(std::get<Vector3>(guest.fold().confirmed().nodes.find("cafe")->second.types.at("node").at("position")).x, 20);
 }
 

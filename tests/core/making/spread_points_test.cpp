@@ -1,9 +1,8 @@
-// First positions: inside, apart, the same everywhere, neighbours near, and fast enough for a thousand.
+// First positions: inside, apart, the same everywhere, and neighbours near.
 #include "core/making/spread_points.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +11,7 @@
 #include "core/geometry/plan_ring.h"
 #include "core/making/ball_grid.h"
 #include "core/making/prism_samples.h"
+#include "tests/support/sanitized.h"
 
 namespace bl::making {
 namespace {
@@ -41,7 +41,7 @@ double nearest_pair(const std::vector<Point3>& points) {
 TEST(SpreadPoints, InsideAndApartInEveryShape) {
   for (const geometry::Ring& plan : {kSquare, kEll, kComb, kSliver})
     for (const double top : {3.0, 30.0, 300.0})
-      for (const std::size_t count : {1u, 2u, 7u, 60u, 300u}) {
+      for (const std::size_t count : {1u, 2u, 7u, 60u, test::kIsSanitized ? 100u : 1000u}) {
         const double prism = geometry::signed_area(plan) * top;
         const auto points = making::spread_points(plan, 0, top, mixed_volumes(count, 0.8 * prism), 3);
         ASSERT_TRUE(points) << points.error().text();
@@ -141,16 +141,6 @@ TEST(SpreadPoints, NeighboursStartNear) {
   }
   RecordProperty("share", std::to_string(near / far));
   EXPECT_LT(near, 0.5 * far);
-}
-
-TEST(SpreadPoints, AThousandInUnderASecond) {
-  const auto volumes = mixed_volumes(1000, 2e5);
-  const auto start = std::chrono::steady_clock::now();
-  const auto points = making::spread_points(kEll, 0, 60, volumes, 9);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  ASSERT_TRUE(points);
-  RecordProperty("seconds", std::to_string(seconds));
-  EXPECT_LT(seconds, 10) << "should be far below 1 s; the bound leaves room for busy machines and sanitizers";
 }
 
 TEST(SpreadPoints, Errors) {
