@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/drawing/line_chart.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/sanitized.h"
 #include "tests/ui/cli/program.h"
 
@@ -30,7 +31,7 @@ TEST(Bench, RowsHoldWhatWasAsked) {
 // Measured by kinds, nodes and links, the ticks are those of the rows beside rivals.
 TEST(Bench, TimesAreThoseOfTheSameTicksSlowestFirst) {
   const Workplace place;
-  const std::string scene = BL_SOURCE_DIR "/scenes/start/quarter.json";
+  const std::string scene = test::source_folder() + "/scenes/start/quarter.json";
   const Outcome plain = place.bench({scene, "--repeat", "1", "--ticks", "6", "--json", "rows.json"});
   ASSERT_EQ(plain.code, 0) << plain.err;
   const Outcome outcome = place.bench({scene, "--times", "--ticks", "6", "--threads", "1", "2", "--json", "times.json"});

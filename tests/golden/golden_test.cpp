@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/world.h"
 
@@ -17,7 +18,7 @@ std::string golden_path(const std::string& scene) {
   std::string name = scene.substr(std::string("scenes/").size());
   for (char& c : name)
     if (c == '/') c = '-';
-  return std::string(BL_SOURCE_DIR) + "/tests/golden/" + name.substr(0, name.size() - 5) + ".trace";
+  return test::source_folder() + "/tests/golden/" + name.substr(0, name.size() - 5) + ".trace";
 }
 
 // One line for some of the first ticks: what moves, what is missing, and the hash of everything.

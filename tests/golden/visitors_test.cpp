@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -49,7 +50,7 @@ TEST(VisitorsForm, StepsHaveTheirTraceAndLeadToTheShippedScene) {
     trace += std::to_string(visit + 1) + " " + std::to_string(state.tick) + " " + shortest(state.largest_residual) + " " +
              shortest(state.largest_move) + " " + hex_digits(state.hash) + "\n";
   }
-  const std::string path = std::string(BL_SOURCE_DIR) + "/tests/golden/steps-visitors_form.trace";
+  const std::string path = test::source_folder() + "/tests/golden/steps-visitors_form.trace";
   if (std::getenv("BL_UPDATE_GOLDEN") != nullptr) { ASSERT_TRUE(write_file(path, trace).ok()); }
   const auto kept = read_file(path);
   ASSERT_TRUE(kept.ok()) << kept.error().text();

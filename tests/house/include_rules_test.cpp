@@ -8,6 +8,7 @@
 
 #include "tests/house/layers.h"
 #include "tests/house/rules.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::house {
 namespace {
@@ -32,7 +33,7 @@ bool is_foreign(const fs::path& folder) {
 
 // All .h and .cpp files below the named folders, in ascending order of their paths.
 std::vector<SourceFile> sources(std::initializer_list<const char*> tops) {
-  const fs::path root = BL_SOURCE_DIR;
+  const fs::path root = test::source_folder();
   std::vector<SourceFile> files;
   for (const char* top : tops) {
     if (!fs::exists(root / top)) continue;
@@ -69,7 +70,7 @@ std::vector<std::string> sentences(const std::vector<Finding>& findings) {
 
 TEST(House, IncludesFollowTheDesign) {
   const auto files = sources({"core", "nodes", "links", "ui"});
-  ASSERT_GT(files.size(), 10u) << "too few sources found below " << BL_SOURCE_DIR;
+  ASSERT_GT(files.size(), 10u) << "too few sources found below " << test::source_folder();
   for (const SourceFile& file : files) expect_none(check_includes(file.path, file.text));
 }
 
@@ -89,7 +90,8 @@ TEST(House, TheTableOfLayersHasNoFaults) {
   for (const std::string& fault : layers().faults) ADD_FAILURE() << "core/layers.txt: " << fault;
   std::vector<std::string> known;
   for (const Room& room : layers().rooms) {
-    EXPECT_TRUE(fs::is_directory(fs::path(BL_SOURCE_DIR) / room.folder)) << "core/layers.txt: there is no folder " << room.folder;
+    EXPECT_TRUE(fs::is_directory(fs::path(test::source_folder()) / room.folder))
+        << "core/layers.txt: there is no folder " << room.folder;
     for (const std::string& seen : room.sees)
       EXPECT_TRUE(room.folder == "tests" || std::find(known.begin(), known.end(), seen) != known.end())
           << "core/layers.txt: " << room.folder << " includes " << seen << ", which has no row above it";
@@ -116,7 +118,7 @@ TEST(House, FunctionsStaySmall) {
 }
 
 TEST(House, TheReadmesShowTheTableOfLayers) {
-  const fs::path root = BL_SOURCE_DIR;
+  const fs::path root = test::source_folder();
   const std::string list = "```\n" + list_of(layers()) + "```\n", picture = "```mermaid\n" + picture_of(layers()) + "```\n";
   EXPECT_NE(read(root / "core/README.md").find(list), std::string::npos)
       << "core/README.md has another list of the folders than core/layers.txt; it reads now:\n"
@@ -127,7 +129,7 @@ TEST(House, TheReadmesShowTheTableOfLayers) {
 }
 
 TEST(House, EveryFolderHasAReadme) {
-  const fs::path root = BL_SOURCE_DIR;
+  const fs::path root = test::source_folder();
   std::vector<fs::path> folders = {root / "tests"};
   for (const char* top : {"core", "nodes", "links", "ui", "scenes"}) {
     if (!fs::exists(root / top)) continue;

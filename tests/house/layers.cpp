@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/place/source_folder.h"
+
 namespace bl::house {
 
 namespace {
@@ -77,7 +79,7 @@ Layers read_layers(std::string_view text) {
 
 const Layers& layers() {
   static const Layers read = [] {
-    std::ifstream stream(BL_SOURCE_DIR "/core/layers.txt", std::ios::binary);
+    std::ifstream stream(test::source_folder() + "/core/layers.txt", std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
     return read_layers(text.str());

@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/define/schema.h"
 #include "core/file/file_io.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/world.h"
 
@@ -82,7 +83,7 @@ TEST(SchemaLaws, TheSchemaAcceptsWhatTheReaderAccepts) {
   }
   ASSERT_TRUE(write_file(documents, lines).ok());
   const std::string command =
-      "/usr/bin/python3 '" + std::string(BL_SOURCE_DIR) + "/tests/laws/schema_check.py' '" + schema + "' '" + documents + "'";
+      "/usr/bin/python3 '" + test::source_folder() + "/tests/laws/schema_check.py' '" + schema + "' '" + documents + "'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   char verdict[64];

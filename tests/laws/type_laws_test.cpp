@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/random_values.h"
 #include "tests/support/world.h"
 
@@ -283,7 +284,7 @@ TEST(TypeLaws, LinksEvaluateRandomInputToFiniteProposalsOrAnError) {
 }
 
 TEST(TypeLaws, EveryNodeAndLinkTypeHasASourceASceneAndATestOfItsStem) {
-  const std::filesystem::path root(BL_SOURCE_DIR);
+  const std::filesystem::path root(test::source_folder());
   auto check = [&](const std::string& folder, const std::string& id) {
     EXPECT_TRUE(exists(root / folder / (id + ".cpp"))) << folder << "/" << id;
     EXPECT_TRUE(exists(root / "scenes" / folder / (id + ".json"))) << folder << "/" << id;

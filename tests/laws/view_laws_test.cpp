@@ -6,6 +6,7 @@
 
 #include "core/reading/view.h"
 #include "core/reading/views/volume.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl {
 namespace {
@@ -78,7 +79,8 @@ TEST(ViewLaws, NoMemberShowsTwoPorts) {
 
 TEST(ViewLaws, EveryViewOfTheSourcesIsKnown) {
   std::size_t declared = 0;
-  for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(BL_SOURCE_DIR) / "core/reading/views")) {
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::filesystem::path(test::source_folder()) / "core/reading/views")) {
     if (file.path().extension() != ".cpp") continue;
     std::ifstream source(file.path());
     for (std::string line; std::getline(source, line);) declared += line.starts_with("BL_VIEW(") ? 1 : 0;

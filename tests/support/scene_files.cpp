@@ -1,5 +1,6 @@
 // Finding the scenes on disk.
 #include "tests/support/scene_files.h"
+#include "tests/support/place/source_folder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,7 +12,7 @@ namespace {
 constexpr const char* kLarge = "scenes/large/";
 
 std::vector<std::string> all_scenes() {
-  const std::filesystem::path root(BL_SOURCE_DIR);
+  const std::filesystem::path root(test::source_folder());
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "scenes"))
     if (entry.path().extension() == ".json") paths.push_back(std::filesystem::relative(entry.path(), root).string());

@@ -9,6 +9,7 @@
 
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl {
 
@@ -35,7 +36,7 @@ const Value& value_in(const State& state, std::string_view node, std::string_vie
 }
 
 std::string project_file(std::string_view path_from_root) {
-  auto text = read_file(std::string(BL_SOURCE_DIR) + "/" + std::string(path_from_root));
+  auto text = read_file(test::source_folder() + "/" + std::string(path_from_root));
   if (!text) give_up(text.error().text());
   return *text;
 }

@@ -9,6 +9,7 @@
 #include "core/file/scene_file.h"
 #include "core/graph/carry.h"
 #include "core/graph/simulation.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/random_values.h"
 #include "tests/support/world.h"
 
@@ -54,7 +55,7 @@ void put(Scene& scene, const std::string& node, const TypificationDefinition& ty
 TEST(Amend, GivesWhatCompilingGivesForAnyValueOfAnyScene) {
   int amended = 0;
   for (const char* folder : {"scenes/nodes", "scenes/links", "scenes/studies"})
-    for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(BL_SOURCE_DIR) / folder)) {
+    for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(test::source_folder()) / folder)) {
       if (file.path().extension() != ".json" || file.path().stem() == "thousand_volumes") continue;
       const std::string where = file.path().stem().string();
       SceneReading reading =

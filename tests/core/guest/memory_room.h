@@ -23,6 +23,7 @@
 #include "core/serve/room_host.h"
 #include "core/wire/operations.h"
 #include "tests/support/hand_clock.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 
 namespace bl::guest {
@@ -129,7 +130,7 @@ class MemoryRoom {
       const std::lock_guard lock(mutex_);
       tasks_.push_back({turns_ + slowness, std::move(task)});
     };
-    auto opened = serve::RoomHost::open(path(), "BKRT", std::string(BL_SOURCE_DIR) + "/" + scene_, options);
+    auto opened = serve::RoomHost::open(path(), "BKRT", test::source_folder() + "/" + scene_, options);
     ASSERT_TRUE(opened.ok()) << opened.error().text();
     host = std::move(*opened);
   }

@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/import/image_facts.h"
 #include "tests/support/photograph.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::importing {
 namespace {
@@ -95,13 +96,13 @@ std::string bytes_of(const std::filesystem::path& path) {
 }
 
 TEST(ImageFacts, OfFilesAsTheyLieOnADisk) {
-  const auto drawn = read_image_facts(bytes_of(std::filesystem::path(BL_SOURCE_DIR) / "scenes/media/houses.png"));
+  const auto drawn = read_image_facts(bytes_of(std::filesystem::path(test::source_folder()) / "scenes/media/houses.png"));
   ASSERT_TRUE(drawn.ok());
   EXPECT_EQ(drawn->width, 160);
   EXPECT_EQ(drawn->height, 100);
   EXPECT_FALSE(drawn->latitude);
   // A photograph of a street, where published data lie beside the project.
-  const auto path = std::filesystem::path(BL_SOURCE_DIR) / "../shared/data/media/lund_street_01.jpg";
+  const auto path = std::filesystem::path(test::source_folder()) / "../shared/data/media/lund_street_01.jpg";
   if (!std::filesystem::exists(path)) return;
   const auto facts = read_image_facts(bytes_of(path));
   ASSERT_TRUE(facts.ok()) << facts.error().text();

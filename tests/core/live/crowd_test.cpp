@@ -8,6 +8,7 @@
 #include "core/base/hash.h"
 #include "core/live/connections.h"
 #include "tests/core/live/live_support.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/world.h"
 
@@ -114,7 +115,7 @@ TEST(Crowds, TablesThatCannotBeReadAreToldWithTheirLine) {
 
 // The study as it is shipped: territories follow twenty people, and the log alone leads to the same hash.
 TEST(Crowds, TwentyPeopleWalkThroughTheStudyAndAReplayNeedsNoSensor) {
-  Hall study(project_file("scenes/studies/people_in_a_hall.json"), std::string(BL_SOURCE_DIR) + "/scenes/studies");
+  Hall study(project_file("scenes/studies/people_in_a_hall.json"), test::source_folder() + "/scenes/studies");
   std::size_t most = 0, looked_at = 0, with_territory = 0;
   const int ticks = test::kIsSanitized ? 40 : 260;
   for (int k = 0; k < ticks; ++k) {

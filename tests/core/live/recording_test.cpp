@@ -10,6 +10,7 @@
 #include "core/live/recording.h"
 #include "core/live/time_text.h"
 #include "tests/core/live/live_support.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::live {
 namespace {
@@ -192,7 +193,7 @@ TEST(Recording, AMissingFileIsASentence) {
 
 // The published tables beside the project.
 std::string published(const std::string& name) {
-  const std::string path = std::string(BL_SOURCE_DIR) + "/../shared/data/sensors/" + name;
+  const std::string path = test::source_folder() + "/../shared/data/sensors/" + name;
   if (std::filesystem::exists(path)) return path;
   std::cout << "not tried: " << name << " does not lie beside the project\n";
   return "";

@@ -13,6 +13,7 @@
 #include "core/define/json_text.h"
 #include "core/journal/export.h"
 #include "core/serve/room_host.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 
 namespace bl::serve {
@@ -51,7 +52,7 @@ class Restarting : public ::testing::Test {
       tasks_.push_back(std::move(task));
       wake_.notify_all();
     };
-    auto opened = RoomHost::open(path_, "BKRT", std::string(BL_SOURCE_DIR) + "/scenes/start/quarter.json", options);
+    auto opened = RoomHost::open(path_, "BKRT", test::source_folder() + "/scenes/start/quarter.json", options);
     ASSERT_TRUE(opened.ok()) << opened.error().text();
     host_ = std::move(*opened);
     lead_ = std::make_shared<Listener>();

@@ -15,6 +15,7 @@
 #include "core/journal/journal.h"
 #include "core/minutes/minutes.h"
 #include "core/serve/pages.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::serve {
 namespace {
@@ -44,7 +45,7 @@ class FilesOfRooms : public ::testing::Test {
       tasks_.push_back(std::move(task));
       wake_.notify_all();
     };
-    auto opened = RoomHost::open(path(), "BKRT", std::string(BL_SOURCE_DIR) + "/scenes/start/quarter.json", options);
+    auto opened = RoomHost::open(path(), "BKRT", test::source_folder() + "/scenes/start/quarter.json", options);
     ASSERT_TRUE(opened.ok()) << opened.error().text();
     rooms_.emplace("BKRT", std::move(*opened));
     lead_ = join("facilitator");

@@ -17,6 +17,7 @@
 #include "core/journal/export.h"
 #include "core/serve/readiness.h"
 #include "tests/support/hand_clock.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/world.h"
 
@@ -73,7 +74,7 @@ class RoomHosts : public ::testing::Test {
       tasks_.push_back(std::move(task));
       wake_.notify_all();
     };
-    auto opened = RoomHost::open(path_, "BKRT", std::string(BL_SOURCE_DIR) + "/scenes/start/quarter.json", options);
+    auto opened = RoomHost::open(path_, "BKRT", test::source_folder() + "/scenes/start/quarter.json", options);
     ASSERT_TRUE(opened.ok()) << opened.error().text();
     host_ = std::move(*opened);
   }

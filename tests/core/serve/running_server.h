@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/serve/server.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::serve {
 
@@ -34,7 +35,7 @@ class RunningServer {
       return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
     };
     how.on_own_thread = [this](std::function<void()> task) { server_->post(std::move(task)); };
-    auto room = RoomHost::open(folder_ / "room.blsession", "BKRT", BL_SOURCE_DIR + scene, how);
+    auto room = RoomHost::open(folder_ / "room.blsession", "BKRT", test::source_folder() + scene, how);
     if (!room) throw std::runtime_error(room.error().text());
     invites_ = (*room)->invites();
     follow_key_ = (*room)->follow_key();

@@ -7,6 +7,7 @@
 #include "core/file/file_io.h"
 #include "core/room/refusals.h"
 #include "core/wire/operations.h"
+#include "tests/support/place/source_folder.h"
 
 namespace bl::wire {
 namespace {
@@ -72,7 +73,7 @@ TEST(Messages, ThePageHasTheTypesOfEveryMessage) {
   EXPECT_NE(types.find("    mains?: \"unknown\" | \"yes\" | \"no\";\n"), std::string::npos);
   EXPECT_NE(types.find("    views?: string[];\n"), std::string::npos);
   EXPECT_NE(types.find("    verdicts: unknown;\n"), std::string::npos);
-  const auto kept = read_file(BL_SOURCE_DIR "/ui/web/src/messages.ts");
+  const auto kept = read_file(test::source_folder() + "/ui/web/src/messages.ts");
   ASSERT_TRUE(kept) << kept.error().text();
   EXPECT_EQ(types + "\n", *kept) << "make it anew: behaviourlinks schema --messages --typescript >ui/web/src/messages.ts";
 }

@@ -1,14 +1,16 @@
 // The program explains itself, and says what it does not understand.
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"run",     "open",  "new", "check",  "docs",   "schema", "replay",  "erase",
-                                            "minutes", "cells", "fit", "assign", "import", "script", "compare", "place", "add", "export", "serve", "rehearse"};
+const std::vector<std::string> kCommands = {"run",     "open",    "new",   "check",  "docs",   "schema",  "replay",
+                                            "erase",   "minutes", "cells", "fit",    "assign", "import",  "script",
+                                            "compare", "place",   "add",   "export", "serve",  "rehearse"};
 
 TEST(Help, AloneIsAnOverview) {
   const Workplace place;
@@ -69,7 +71,7 @@ TEST(Docs, ListsAndExplainsTypes) {
 // A script is not one of the program's types: its page is had from the scene that holds it, or from its own file.
 TEST(Docs, ExplainsWhatScriptsDeclare) {
   const Workplace place;
-  const std::string lua = (std::filesystem::path(BL_SOURCE_DIR) / "links/scripts/fair_share.lua").string();
+  const std::string lua = (std::filesystem::path(test::source_folder()) / "links/scripts/fair_share.lua").string();
   const Outcome without = place.run({"docs", "fair_share"});
   EXPECT_EQ(without.code, 2);
   EXPECT_NE(without.err.find("--from SCENE"), std::string::npos) << without.err;

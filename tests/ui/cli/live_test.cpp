@@ -3,6 +3,7 @@
 
 #include "core/session/session.h"
 #include "tests/support/hand_clock.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 #include "tests/ui/cli/program.h"
 #include "ui/cli/live_run.h"
@@ -152,7 +153,7 @@ TEST(Live, ASceneAtRestIsSleptThrough) {
 
 TEST(Live, ARestLeavesTheLogThatItsTicksWouldLeave) {
   const Workplace place;
-  const std::string scene_file = (std::filesystem::path(BL_SOURCE_DIR) / "scenes/start/quarter.json").string(),
+  const std::string scene_file = (std::filesystem::path(test::source_folder()) / "scenes/start/quarter.json").string(),
                     run_it = "run '" + scene_file + "' --ticks 700";
   const Outcome ticked = run(place, run_it + " --log ticked.log --report ticked");
   const Outcome live = run(place, run_it + " --log live.log --report live --live --rate 1000");

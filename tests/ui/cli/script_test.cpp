@@ -1,6 +1,7 @@
 // `script`, `run --script` and `check` of Lua files, as a person types them.
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
@@ -11,7 +12,7 @@ const std::string kScene =
     R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "foot"}, {"id": "hut", "position": [8, 0, 0]}],
  "links": [{"id": "l", "kind": "lean_uphill", "from": "foot", "to": "hut"}]})";
 
-std::string shipped(const std::string& name) { return std::string(BL_SOURCE_DIR) + "/links/scripts/" + name; }
+std::string shipped(const std::string& name) { return test::source_folder() + "/links/scripts/" + name; }
 
 TEST(Script, GoesIntoASceneRunsAndComesOutAgain) {
   const Workplace place;
@@ -55,7 +56,7 @@ TEST(Script, CheckTriesEvaluate) {
       head + "    if ends.volume == 0 then error('nothing to read') end\n    return {demand = 1 / ends.volume}\n  end}\n");
   const Outcome sound = place.run({"check", "mine.lua"});
   EXPECT_EQ(sound.code, 0) << sound.err;
-  for (const auto& file : std::filesystem::directory_iterator(std::string(BL_SOURCE_DIR) + "/links/scripts"))
+  for (const auto& file : std::filesystem::directory_iterator(test::source_folder() + "/links/scripts"))
     if (file.path().extension() == ".lua") {
       const Outcome shipped_one = place.run({"check", file.path().string()});
       EXPECT_EQ(shipped_one.code, 0) << shipped_one.err;

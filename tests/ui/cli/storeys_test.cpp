@@ -1,13 +1,14 @@
 // A garden takes two storeys from a tower: the conflict and its reason in `run`, and the same in `compare`.
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
 
 namespace {
 
-const std::string kTowerScene = std::string(BL_SOURCE_DIR) + "/scenes/studies/tower_and_garden.json";
+const std::string kTowerScene = test::source_folder() + "/scenes/studies/tower_and_garden.json";
 
 // The same without the link of the sun.
 void write_without(const Workplace& place) {

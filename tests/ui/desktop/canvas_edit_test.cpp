@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 
@@ -325,7 +326,7 @@ TEST_F(CanvasEditTest, FamiliesCanBeHidden) {
 TEST_F(CanvasEditTest, BoxesNeverOverlapInTheAutomaticLayout) {
   for (const char* file :
        {"scenes/start/quarter.json", "scenes/studies/sixty_volumes.json", "scenes/studies/thousand_volumes.json"}) {
-    ASSERT_TRUE(editor().open(std::string(BL_SOURCE_DIR "/") + file));
+    ASSERT_TRUE(editor().open(test::source_folder() + "/" + file));
     desktop.frames(2);
     const auto& boxes = board().model.boxes;
     for (std::size_t a = 0; a < boxes.size(); ++a)

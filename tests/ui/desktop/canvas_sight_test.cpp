@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
@@ -65,7 +66,7 @@ TEST_F(SmallSightTest, FitUsesMostOfASmallPane) {
 
 TEST_F(SightTest, NothingLiesUnderTheMinimapAfterFit) {
   for (const char* scene : {"scenes/start/quarter.json", "scenes/studies/sixty_volumes.json"}) {
-    ASSERT_TRUE(editor().open(std::string(BL_SOURCE_DIR "/") + scene));
+    ASSERT_TRUE(editor().open(test::source_folder() + "/" + scene));
     desktop.frames(3);
     canvas().fit(true);
     desktop.frames(30);

@@ -11,6 +11,7 @@
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
 #include "core/host/journal.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/stored_places.h"
@@ -135,12 +136,12 @@ TEST_F(CanvasStored, TheFirstChangeStoresWhatIsSeenAndUndoForgetsIt) {
 
 TEST_F(CanvasStored, WhoOnlyLooksAndSavesKeepsTheFile) {
   const std::string path = path_of("looked_at");
-  ASSERT_TRUE(write_file(path, read_file(std::string(BL_SOURCE_DIR "/scenes/start/quarter.json")).value()).ok());
+  ASSERT_TRUE(write_file(path, read_file(test::source_folder() + "/scenes/start/quarter.json").value()).ok());
   ASSERT_TRUE(editor().open(path));
   desktop.frames(3);
   EXPECT_FALSE(editor().document->is_unsaved()) << "an opened scene counts as saved";
   ASSERT_TRUE(editor().save(path).ok());
-  EXPECT_EQ(read_file(path).value(), read_file(std::string(BL_SOURCE_DIR "/scenes/start/quarter.json")).value());
+  EXPECT_EQ(read_file(path).value(), read_file(test::source_folder() + "/scenes/start/quarter.json").value());
 }
 
 TEST_F(CanvasStored, SavedInTheSameFrameAsTheChangeItHasThePlacesToo) {

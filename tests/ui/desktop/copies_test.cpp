@@ -1,6 +1,7 @@
 // Scenes that come with the program are opened as copies: nothing that people do in the window changes their files.
 #include <filesystem>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/import_support.h"
 
 namespace bl::desktop {
@@ -8,7 +9,7 @@ namespace {
 
 namespace files = std::filesystem;
 
-constexpr const char* kMedia = BL_SOURCE_DIR "/scenes/nodes/media.json";
+const std::string kMedia = test::source_folder() + "/scenes/nodes/media.json";
 
 std::string media_file(Workbench& editor, const std::string& node) {
   return std::get<std::string>(editor.scene().nodes.at(node).types.at("media").at("file"));
@@ -39,8 +40,8 @@ TEST(Copies, AShippedSceneIsNeverWrittenOver) {
   desktop.frames(4);
   EXPECT_TRUE(editor.dialogs->is_choosing_file()) << "the folder of shipped scenes is refused";
   EXPECT_EQ(read_file(kMedia).value(), before);
-  type_path(desktop, BL_SOURCE_DIR "/scenes/nodes/my_own.json");
-  EXPECT_FALSE(files::exists(BL_SOURCE_DIR "/scenes/nodes/my_own.json"));
+  type_path(desktop, test::source_folder() + "/scenes/nodes/my_own.json");
+  EXPECT_FALSE(files::exists(test::source_folder() + "/scenes/nodes/my_own.json"));
   type_path(desktop, folder.at("mine.json"));
   EXPECT_FALSE(editor.dialogs->is_choosing_file());
   EXPECT_EQ(editor.document->path(), folder.at("mine.json"));
@@ -120,11 +121,11 @@ TEST(Copies, AFailedSaveLeavesTheNamesAsTheyWere) {
 TEST(Copies, AnotherNameOfAShippedFileIsNoCopyOfIt) {
   const Folder folder("copies_links");
   files::create_symlink(kMedia, folder.at("link.json"));
-  files::create_directory_symlink(BL_SOURCE_DIR "/scenes", folder.at("scenes"));
+  files::create_directory_symlink(test::source_folder() + "/scenes", folder.at("scenes"));
   EXPECT_TRUE(is_shipped(folder.at("link.json")));
   EXPECT_TRUE(is_shipped(folder.at("scenes/start/new.json")));
-  EXPECT_TRUE(is_shipped(BL_SOURCE_DIR "/scenes/../scenes/start/quarter.json"));
-  EXPECT_FALSE(is_shipped(BL_SOURCE_DIR "/scenes_of_mine/quarter.json"));
+  EXPECT_TRUE(is_shipped(test::source_folder() + "/scenes/../scenes/start/quarter.json"));
+  EXPECT_FALSE(is_shipped(test::source_folder() + "/scenes_of_mine/quarter.json"));
   EXPECT_FALSE(is_shipped(folder.at("own.json")));
   ImportDesktop desktop;
   ASSERT_TRUE(desktop.editor().open(folder.at("link.json")));

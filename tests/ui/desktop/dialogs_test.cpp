@@ -7,6 +7,7 @@
 
 #include "core/file/file_io.h"
 #include "core/host/journal.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/look/fuzzy.h"
 #include "ui/desktop/panels/actions.h"
@@ -98,7 +99,7 @@ TEST(Dialogs, AFileThatCannotBeOpenedPointsToWhereItIsSaidWhy) {
 void begin_new_scene(NullDesktop& desktop) {
   desktop.key(GLFW_KEY_N, true);
   desktop.frames(3);
-  desktop.type(BL_SOURCE_DIR "/tests/data/plan_dutch.geojson");
+  desktop.type(test::source_folder() + "/tests/data/plan_dutch.geojson");
   desktop.key(GLFW_KEY_TAB);
   desktop.frames(2);
 }
@@ -122,7 +123,7 @@ TEST(Dialogs, AFileThatIsNotThereIsNamedOnce) {
 TEST(Dialogs, NewSceneFromFilesByKeyboard) {
   NullDesktop desktop;
   begin_new_scene(desktop);
-  desktop.type(BL_SOURCE_DIR "/tests/data/functions.csv");
+  desktop.type(test::source_folder() + "/tests/data/functions.csv");
   desktop.frames(1);
   desktop.key(GLFW_KEY_ENTER);
   desktop.frames(3);
@@ -214,7 +215,7 @@ TEST(Dialogs, CancellingAQuestionCancelsWhatItWasAskedFor) {
 TEST(Dialogs, CancellingTheFileOfAQuestionCancelsWhatItWasAskedFor) {
   NullDesktop desktop;
   std::vector<Problem> problems;
-  const std::string scene = read_file(BL_SOURCE_DIR "/scenes/start/quarter.json").value();
+  const std::string scene = read_file(test::source_folder() + "/scenes/start/quarter.json").value();
   desktop.editor().take(Document::from_text(full_registry(), scene, "", 1, problems));
   desktop.frames(2);
   desktop.key(GLFW_KEY_W, true);
@@ -264,7 +265,7 @@ TEST(Dialogs, AJournalThatCannotBeRecoveredStays) {
 }
 
 TEST(Dialogs, AJournalThatWasRecoveredInPartStays) {
-  const std::string scene = read_file(BL_SOURCE_DIR "/scenes/start/quarter.json").value();
+  const std::string scene = read_file(test::source_folder() + "/scenes/start/quarter.json").value();
   for (const bool is_whole : {false, true}) {
     NullDesktop desktop;
     auto remains = remains_of(scene, command<RenameNode>({is_whole ? "library" : "nobody", "Reading room"}));

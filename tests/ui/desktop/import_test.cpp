@@ -4,6 +4,7 @@
 
 #include "core/making/site_grounds.h"
 #include "core/reading/views/solver.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/reference_files.h"
 #include "tests/ui/desktop/import_support.h"
 #include "ui/desktop/panels/actions.h"
@@ -176,7 +177,7 @@ TEST(WindowImport, DropsAreToldApart) {
   EXPECT_EQ(desktop.editor().dialogs->import_options().files.size(), 2u);
   desktop.key(GLFW_KEY_ESCAPE);
   desktop.frames(2);
-  const std::string scene = folder.write("scene.json", read_file(BL_SOURCE_DIR "/scenes/start/quarter.json").value());
+  const std::string scene = folder.write("scene.json", read_file(test::source_folder() + "/scenes/start/quarter.json").value());
   desktop.desktop().drop(scene);
   desktop.frames(2);
   EXPECT_FALSE(desktop.is_open()) << "a scene is opened";

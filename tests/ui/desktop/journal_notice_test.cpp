@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/null_desktop.h"
 
 namespace bl::desktop {
@@ -13,7 +14,7 @@ TEST(JournalNotice, PeopleHearOnceThatItCannotBeWritten) {
   NullDesktop desktop;
   setenv("XDG_STATE_HOME", "/dev/null", 1);  // no folder can be made in there
   Editor& editor = desktop.editor();
-  ASSERT_TRUE(editor.open(BL_SOURCE_DIR "/scenes/start/quarter.json"));
+  ASSERT_TRUE(editor.open(test::source_folder() + "/scenes/start/quarter.json"));
   desktop.frames(2);
   const auto told = [&] {
     return std::count_if(editor.notices.begin(), editor.notices.end(),

@@ -8,6 +8,7 @@
 
 #include "core/base/random.h"
 #include "core/file/file_io.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/dialogs.h"
@@ -82,8 +83,7 @@ TEST_P(MonkeyRun, SurvivesAndCanBeUndone) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "monkey";
   std::filesystem::create_directories(folder);
   const std::filesystem::path scene = folder / std::filesystem::path(GetParam()).filename();
-  std::filesystem::copy_file(std::string(BL_SOURCE_DIR "/") + GetParam(), scene,
-                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(test::source_folder() + "/" + GetParam(), scene, std::filesystem::copy_options::overwrite_existing);
   NullDesktop desktop;
   ASSERT_TRUE(desktop.editor().open(scene.string()));
   desktop.frames(2);

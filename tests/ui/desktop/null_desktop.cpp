@@ -1,5 +1,6 @@
 // Feeds ImGui's input by hand.
 #include "tests/ui/desktop/null_desktop.h"
+#include "tests/support/place/source_folder.h"
 
 #include <unistd.h>
 
@@ -57,7 +58,7 @@ NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   int width = 0, height = 0;
   io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
   editor().theme.apply(true, 1);
-  if (!scene.empty() && !editor().open(std::string(BL_SOURCE_DIR "/") + scene)) ADD_FAILURE() << scene << " does not open";
+  if (!scene.empty() && !editor().open(test::source_folder() + "/" + scene)) ADD_FAILURE() << scene << " does not open";
   frames(2);
 }
 

@@ -1,6 +1,7 @@
 // Laws of the panels: whatever is registered or saved can be shown, unfolded and looked at, and looking changes nothing.
 #include <filesystem>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/panels_support.h"
 
 namespace bl::desktop {
@@ -8,8 +9,9 @@ namespace {
 
 std::vector<std::string> scenes_below(const std::string& folder) {
   std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(BL_SOURCE_DIR "/") + folder))
-    if (entry.path().extension() == ".json") found.push_back(std::filesystem::relative(entry.path(), BL_SOURCE_DIR).string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder() + "/" + folder))
+    if (entry.path().extension() == ".json")
+      found.push_back(std::filesystem::relative(entry.path(), test::source_folder()).string());
   std::sort(found.begin(), found.end());
   return found;
 }

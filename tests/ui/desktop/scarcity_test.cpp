@@ -10,6 +10,7 @@
 #include "core/base/scarcity.h"
 #include "core/file/file_io.h"
 #include "core/host/journal.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/sanitized.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/shell/window.h"
@@ -31,7 +32,7 @@ void work_until_memory_ends(const std::string& folder) noexcept {
   prepare_for_scarcity(kComfort);
   NullDesktop desktop;
   setenv("XDG_STATE_HOME", folder.c_str(), 1);
-  desktop.editor().open(BL_SOURCE_DIR "/scenes/start/quarter.json");
+  desktop.editor().open(test::source_folder() + "/scenes/start/quarter.json");
   desktop.editor().submit(command<RenameNode>({"library", "Kept by the journal"}));
   desktop.frames(2);
   allow_only(std::size_t{48} << 20);

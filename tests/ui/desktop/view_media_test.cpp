@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 #include "tests/ui/desktop/offscreen_gl.h"
 #include "ui/desktop/document/media_place.h"
@@ -14,7 +15,7 @@
 namespace bl::desktop {
 namespace {
 
-const std::string kMediaFolder = std::string(BL_SOURCE_DIR) + "/scenes/media/";
+const std::string kMediaFolder = test::source_folder() + "/scenes/media/";
 
 TEST(MediaPlace, StandsAsItIsTold) {
   const MediaPlace ground = place_of({"ground", {10, 20, 0}, 90, 0, 8, 4, 1});
@@ -109,9 +110,9 @@ TEST_F(ViewMedia, AMissingFileIsAFrameAndSaysWhy) {
   add(kMediaFolder + "lost.png", 1);
   EXPECT_GT(difference(drawn(), nothing), 5);
   EXPECT_NE(renderer_->why_missing(kMediaFolder + "lost.png"), "");
-  add(std::string(BL_SOURCE_DIR) + "/README.md", 1);
+  add(test::source_folder() + "/README.md", 1);
   drawn();
-  EXPECT_NE(renderer_->why_missing(std::string(BL_SOURCE_DIR) + "/README.md").find("no picture"), std::string::npos);
+  EXPECT_NE(renderer_->why_missing(test::source_folder() + "/README.md").find("no picture"), std::string::npos);
 }
 
 TEST_F(ViewMedia, SceneShowsItsPictures) {
@@ -123,7 +124,7 @@ TEST_F(ViewMedia, SceneShowsItsPictures) {
   const auto facts = read_facts(world.session().state(), nullptr);
   ASSERT_EQ(facts->media.size(), 5u);
   ViewChoices choices;
-  choices.folder = std::string(BL_SOURCE_DIR) + "/scenes/nodes";
+  choices.folder = test::source_folder() + "/scenes/nodes";
   choices.camera.azimuth = -1.75;
   choices.camera.elevation = 0.42;
   choices.camera.fit({2, 4, 5}, 24, 4.0 / 3);

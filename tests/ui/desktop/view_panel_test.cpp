@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/picking.h"
@@ -374,7 +375,7 @@ TEST_F(ViewPanel, AnotherSceneIsSeenAfresh) {
     ASSERT_TRUE(editor().view->section().is_on);
     editor().document.reset();
     editor().moment.reset();
-    ASSERT_TRUE(editor().open(std::string(BL_SOURCE_DIR "/scenes/nodes/") + files[k] + ".json"));
+    ASSERT_TRUE(editor().open(test::source_folder() + "/scenes/nodes/" + files[k] + ".json"));
     desktop.frames(1);
     EXPECT_FALSE(editor().view->section().is_on) << "the cut of the scene before, time " << k;
   }

@@ -8,6 +8,7 @@
 #include "core/export/format.h"
 #include "core/export/read_proposal.h"
 #include "core/export/section.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/import_support.h"
 #include "tests/ui/desktop/offscreen_gl.h"
 #include "ui/desktop/panels/export_dialog.h"
@@ -171,7 +172,7 @@ TEST(ViewSectionPlane, IsKeptWithTheSceneOfEachPerson) {
   desktop.view().set_section(upright_section(35, 60));
   desktop.frames(2);
   EXPECT_EQ(desktop.editor().person.sections.at(file), "upright 35 60");
-  ASSERT_TRUE(desktop.editor().open(std::string(BL_SOURCE_DIR) + "/scenes/start/quarter.json"));
+  ASSERT_TRUE(desktop.editor().open(test::source_folder() + "/scenes/start/quarter.json"));
   desktop.frames(3);
   EXPECT_FALSE(desktop.section().is_on) << "another scene has its own";
   ASSERT_TRUE(desktop.editor().open(file));

@@ -21,6 +21,7 @@
 #include "core/geometry/tessellate.h"
 #include "core/reading/exact_shape.h"
 #include "core/reading/figures.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/support/world.h"
 
 namespace bl::report {
@@ -134,7 +135,7 @@ bool is_closed(const Mesh& mesh) {
 
 // Whoever stands on a roof is drawn after it, or the roof would hide its foot.
 TEST(Report, WhatStandsOnARoofIsDrawnAfterIt) {
-  World world = World::from_text(*read_file(std::string(BL_SOURCE_DIR) + "/scenes/studies/tower_on_podium.json"));
+  World world = World::from_text(*read_file(test::source_folder() + "/scenes/studies/tower_on_podium.json"));
   world.tick(40);
   const std::string html = write_and_read("podium", data_of(world.state())).html;
   const std::size_t picture = html.find("<svg");

@@ -27,10 +27,15 @@ Document::Document(const Registry& registry, std::string path) : registry_(&regi
 
 Document::~Document() = default;
 
+const std::string& shipped_folder() {
+  static const std::string folder = BL_SCENES_DIR;
+  return folder;
+}
+
 bool is_shipped(const std::string& path) {
   namespace files = std::filesystem;
   std::error_code error;
-  static const files::path shipped = files::weakly_canonical(BL_SCENES_DIR, error);
+  static const files::path shipped = files::weakly_canonical(shipped_folder(), error);
   // Links lead to what they point at: another name of the same file is no copy of it.
   const files::path real = files::weakly_canonical(path, error);
   if (path.empty() || error) return false;

@@ -17,6 +17,8 @@
 
 namespace bl::desktop {
 
+/// The folder of the scenes that come with the program.
+const std::string& shipped_folder();
 /// Does the file lie among the scenes that come with the program? Those are never written over.
 bool is_shipped(const std::string& path);
 

@@ -8,6 +8,7 @@
 
 #include <imgui_stdlib.h>
 
+#include "ui/desktop/document/document.h"
 #include "ui/desktop/look/buttons.h"
 
 namespace bl::desktop {
@@ -68,7 +69,7 @@ void FileChooser::draw_places(Workbench& editor) {
   std::vector<std::pair<std::string, std::string>> places;
   if (home != nullptr && *home == '/') places.emplace_back("Home", home);
   places.emplace_back("Here", ".");
-  places.emplace_back("Shipped scenes", BL_SCENES_DIR);
+  places.emplace_back("Shipped scenes", shipped_folder());
   for (const std::string& recent : editor.person.recent) {
     const std::string folder = files::path(recent).parent_path().string();
     if (places.size() < 9 && !folder.empty() &&

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/reading/figures.h"
+#include "ui/desktop/document/document.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/view/colouring.h"
@@ -29,7 +30,7 @@ std::vector<std::string> shipped_scenes() {
   for (const char* folder : {"start", "studies"}) {
     std::vector<std::string> here;
     std::error_code error;
-    for (const auto& entry : files::directory_iterator(files::path(BL_SCENES_DIR) / folder, error))
+    for (const auto& entry : files::directory_iterator(files::path(shipped_folder()) / folder, error))
       if (entry.path().extension() == ".json") here.push_back(entry.path().string());
     std::sort(here.begin(), here.end(),
               [](const std::string& a, const std::string& b) { return std::pair(rank_of(a), a) < std::pair(rank_of(b), b); });

@@ -16,6 +16,7 @@
 
 #include "core/guest/room_guest.h"
 #include "tests/support/deadline.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/room/hosting_window.h"
 #include "ui/desktop/panels/invitation_sheet.h"
 
@@ -56,7 +57,7 @@ class HostedRooms : public HostingWindow {
     folder_ = fs::temp_directory_path() / ("behaviourlinks_hosting_" + std::to_string(::getpid()) + "_" +
                                            ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
-    fs::copy_file(BL_SOURCE_DIR "/scenes/start/quarter.json", folder_ / "quarter.json");
+    fs::copy_file(test::source_folder() + "/scenes/start/quarter.json", folder_ / "quarter.json");
     desktop_ = std::make_unique<NullDesktop>();
     ASSERT_FALSE(command_line_program().empty()) << "the program `behaviourlinks` is not built";
     editor().server_program = command_line_program();
@@ -214,7 +215,7 @@ TEST_F(HostedRooms, AServerThatDiesIsTold) {
 }
 
 TEST_F(HostedRooms, ASceneWithoutAFileIsSavedFirst) {
-  ASSERT_TRUE(editor().open(BL_SOURCE_DIR "/scenes/start/quarter.json"));
+  ASSERT_TRUE(editor().open(test::source_folder() + "/scenes/start/quarter.json"));
   editor().dialogs->show_host();
   desktop_->frames(3);
   press("host/next");

@@ -10,6 +10,7 @@
 
 #include "core/file/file_io.h"
 #include "tests/support/deadline.h"
+#include "tests/support/place/source_folder.h"
 #include "tests/ui/desktop/room/hosting_window.h"
 
 namespace bl::desktop {
@@ -24,7 +25,7 @@ class RehearsedRooms : public HostingWindow {
     folder_ = fs::temp_directory_path() / ("behaviourlinks_rehearsal_" + std::to_string(::getpid()) + "_" +
                                            ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
-    fs::copy_file(BL_SOURCE_DIR "/scenes/start/quarter.json", folder_ / "quarter.json");
+    fs::copy_file(test::source_folder() + "/scenes/start/quarter.json", folder_ / "quarter.json");
     ASSERT_TRUE(write_file((folder_ / "quarter.blsession").string(), "the session of last week"));
     before_ = files();
     desktop_ = std::make_unique<NullDesktop>();
