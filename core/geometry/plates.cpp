@@ -61,7 +61,7 @@ void add_curves(const PlanPolygon& part, double radius, std::vector<Curve>& curv
     const Curve& side = sides[k];
     const Curve& next = sides[(k + 1) % sides.size()];
     if (side.beyond != PlanSide::kInner) curves.push_back(side);
-    if (side.beyond == PlanSide::kStreet) curves.back().beyond = PlanSide::kPlot;
+    if (side.beyond == PlanSide::kStreet || side.beyond == PlanSide::kLeftOut) curves.back().beyond = PlanSide::kPlot;
     if (!is_same(side.to, next.from)) curves.push_back({side.to, next.from, PlateRing::kFree, true});
   }
 }
