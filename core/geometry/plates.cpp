@@ -243,6 +243,23 @@ std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, d
   return faces;
 }
 
+Point3 middle_of(std::span<const PlateFace> faces) {
+  const auto largest = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    return std::abs(signed_area(a.outer)) < std::abs(signed_area(b.outer));
+  });
+  if (largest == faces.end() || largest->outer.empty()) return {};
+  const Ring& ring = largest->outer;
+  const Point3 first = ring.front();
+  Vector3 sum;
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const double part = turn(first, ring[k], ring[k + 1]);
+    sum = sum + part * ((ring[k] - first) + (ring[k + 1] - first));
+    twice += part;
+  }
+  return twice == 0 ? first : first + sum / (3 * twice);
+}
+
 double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance) {
   double least = std::numeric_limits<double>::infinity();
   if (body.stacks.empty()) return least;
