@@ -56,7 +56,8 @@ struct PlotRules {
     l.param(&In::hold_setback, "hold_setback")
         .doc(
             "When on, volumes that stand keep the setback of the plot from the border of their boundary, in all storeys. Where "
-            "the plot has sides inside the boundary, they may still reach over these.");
+            "the plot has sides inside the boundary, they may still reach over these. Ground that the boundary leaves out is no "
+            "border: `exclusion_distance` of a footprint keeps from it.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)

@@ -31,7 +31,7 @@ struct Boundary {
   };
 
   struct Out {
-    Table planes;
+    Table planes, land_planes;
     double volume = 0, ground_area = 0, open_area = 0;
     Table open_areas;
     MeshPointer shape;
@@ -99,14 +99,10 @@ struct Boundary {
   }
 
   static void declare_results(TypificationBuilder<Boundary>& t) {
-    t.out(&Out::planes, "planes")
-        .column({.id = "x", .doc = "First component of the outward unit normal."})
-        .column({.id = "y", .doc = "Second component of the outward unit normal."})
-        .column({.id = "z", .doc = "Third component of the outward unit normal."})
-        .column({.id = "offset", .unit = Unit::metre, .doc = "Distance of the plane from the origin along the normal."})
-        .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
-        .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."})
+    plane_columns(t.out(&Out::planes, "planes"))
         .doc("The boundary as convex pieces, in a fixed order. Where the boundary is convex, row k is the side `#k`.");
+    plane_columns(t.out(&Out::land_planes, "land_planes"))
+        .doc("The same with the ground that `exclusions` take away; empty where there are none.");
     t.out(&Out::volume, "volume").shown_first().unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::ground_area, "ground_area")
         .shown_first()
@@ -125,8 +121,19 @@ struct Boundary {
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for display and export.");
     t.made("domain", {"planes"}, &geometry::shared_domain<Shared<Table>>)
         .doc("The solid that `planes` bound, for solvers and links.");
+    t.made("land", {"land_planes"}, &geometry::shared_domain<Shared<Table>>)
+        .doc(
+            "The solid that `land_planes` bound: its sides are the border of the plot, and no sides of ground that is left out.");
   }
 
+  static PortBuilder<Table> plane_columns(PortBuilder<Table> port) {
+    return port.column({.id = "x", .doc = "First component of the outward unit normal."})
+        .column({.id = "y", .doc = "Second component of the outward unit normal."})
+        .column({.id = "z", .doc = "Third component of the outward unit normal."})
+        .column({.id = "offset", .unit = Unit::metre, .doc = "Distance of the plane from the origin along the normal."})
+        .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
+        .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."});
+  }
   static PortBuilder<Table> ring_columns(PortBuilder<Table> port) {
     return port
         .column(
@@ -221,19 +228,29 @@ struct Boundary {
     return left ? Result<void>() : left.error();
   }
 
-  static Result<Out> evaluate(const In& in, const Tick&) {
-    auto domain = whole(in, solids_of(in.exclusions));
+  // With these exclusions, and cut by the planes of `setbacks`.
+  static Result<geometry::Domain> cut_back(const In& in, const Solids& exclusions) {
+    auto domain = whole(in, exclusions);
     std::vector<geometry::Plane> setbacks;
     for (std::size_t row = 0; row < in.setbacks.rows.size(); ++row) {
       const Vector3 normal{in.setbacks.number(row, "x"), in.setbacks.number(row, "y"), in.setbacks.number(row, "z")};
       setbacks.push_back({normal, in.setbacks.number(row, "offset") * norm(normal)});
     }
-    if (domain && !setbacks.empty()) {
-      auto cut = cut_domain(*domain, setbacks);
-      domain = cut ? cut : Result<geometry::Domain>(cut.error().within("setbacks"));
-    }
+    if (!domain || setbacks.empty()) return domain;
+    auto cut = cut_domain(*domain, setbacks);
+    return cut ? cut : Result<geometry::Domain>(cut.error().within("setbacks"));
+  }
+
+  static Result<Out> evaluate(const In& in, const Tick&) {
+    const auto domain = cut_back(in, solids_of(in.exclusions));
     if (!domain) return at_row(domain.error(), in);
     Out out;
+    geometry::write_domain(geometry::Domain(), out.land_planes);
+    if (!in.exclusions.rows.empty()) {
+      const auto land = cut_back(in, {});
+      if (!land) return at_row(land.error(), in);
+      geometry::write_domain(*land, out.land_planes);
+    }
     if (auto measured = measure_open(in, out); !measured) return measured.error();
     write_domain(*domain, out.planes);
     out.volume = domain->volume;

@@ -16,7 +16,7 @@ struct Footprint {
     double angle = 0, aspect = 1;
     int storeys = 4, storeys_min = 1;
     double height_limit = 1e6, setback = 0, depth = 1000, ground = kAsLowAsPossible;
-    double courtyard_setback = 0, wing_depth = 1000, border_distance = 0, street_distance = 0;
+    double courtyard_setback = 0, wing_depth = 1000, border_distance = 0, street_distance = 0, exclusion_distance = 0;
     int full_storeys = 0, order = 0, cellar_storeys = 0;
     double cellar_height = 3;
     bool has_party_walls = true, has_border_walls = false;
@@ -123,8 +123,8 @@ struct Footprint {
         .soft(0, 10)
         .combine(CombineRule::max)
         .doc(
-            "How far all storeys keep from the border of the boundary, but for its sides along streets. Links of the kind "
-            "`plot_rules` propose the set-back of the plot.");
+            "How far all storeys keep from the border of the boundary, but for its sides along streets. Ground that the boundary "
+            "leaves out has `exclusion_distance`. Links of the kind `plot_rules` propose the set-back of the plot.");
     t.in(&In::street_distance, "street_distance")
         .unit(Unit::metre)
         .range(0, 1000)
@@ -133,6 +133,14 @@ struct Footprint {
         .doc(
             "How far all storeys keep from the sides of the boundary along streets; the solver finds these sides. Links of the "
             "kind `plot_rules` propose the set-back of the plot.");
+    t.in(&In::exclusion_distance, "exclusion_distance")
+        .unit(Unit::metre)
+        .range(0, 1000)
+        .soft(0, 10)
+        .combine(CombineRule::max)
+        .doc(
+            "How far all storeys keep from the `exclusions` of the boundary: streets, water, trees, gardens, and buildings that "
+            "stay. At 0 they stand at its edge. A set-back of the plot does not hold towards them.");
   }
 
   static void declare_storeys(TypificationBuilder<Footprint>& t) {

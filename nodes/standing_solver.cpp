@@ -35,7 +35,7 @@ struct StandingSolver {
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0;
     std::string form;
     double angle = 0, aspect = 1, height_limit = 0, setback = 0, depth = 0, ground = 0;
-    double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0;
+    double courtyard_setback = 0, wing_depth = 0, border_distance = 0, street_distance = 0, exclusion_distance = 0;
     int storeys = 1, storeys_min = 1, full_storeys = 0, built = 0, order = 0, cellar_storeys = 0;
     double cellar_height = 3, least_room = 0;  // the last one as it came out of the last tick
     bool has_party_walls = true, has_border_walls = false;
@@ -43,8 +43,8 @@ struct StandingSolver {
   };
   struct Plot {
     std::string id;
-    std::shared_ptr<const geometry::Domain> domain;
-    double open_area = 0;  // kept open beside the domain [m²]
+    std::shared_ptr<const geometry::Domain> domain, land;  // land: with what the boundary leaves out
+    double open_area = 0;                                  // kept open beside the domain [m²]
   };
   struct Street {
     Selection start, end;
@@ -142,6 +142,7 @@ struct StandingSolver {
     t.set("boundary", &Sets::plots)
         .reads(&Plot::id, "node.id")
         .reads(&Plot::domain, "boundary.domain")
+        .reads(&Plot::land, "boundary.land")
         .reads(&Plot::open_area, "boundary.open_area");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
@@ -154,6 +155,7 @@ struct StandingSolver {
     set.reads(&Member::courtyard_setback, "footprint.courtyard_setback").reads(&Member::wing_depth, "footprint.wing_depth");
     set.reads(&Member::border_distance, "footprint.border_distance");
     set.reads(&Member::street_distance, "footprint.street_distance");
+    set.reads(&Member::exclusion_distance, "footprint.exclusion_distance");
     set.reads(&Member::has_border_walls, "footprint.border_walls");
     set.reads(&Member::storeys, "footprint.storeys").reads(&Member::storeys_min, "footprint.storeys_min");
     set.reads(&Member::full_storeys, "footprint.full_storeys").reads(&Member::has_party_walls, "footprint.party_walls");
@@ -199,6 +201,7 @@ struct StandingSolver {
                  .has_border_walls = m.has_border_walls,
                  .border_distance = m.border_distance,
                  .street_distance = m.street_distance,
+                 .exclusion_distance = m.exclusion_distance,
                  .wing_depth = m.wing_depth};
     wish.volume = std::max(std::min(m.demand, m.limit), m.least);
     wish.storeys = m.storeys;
@@ -436,8 +439,11 @@ struct StandingSolver {
     }
     std::string words = find_bases(sets.members.all, kept) + find_hosts(sets.members.all, kept);
     const std::vector<geometry::StreetAxis> streets = streets_of(in, sets);
-    const geometry::StandingTick now{
-        .steps = tick.is_recall ? 0 : in.steps, .tolerance = in.tolerance, .streets = streets, .pool = tick.pool};
+    const geometry::StandingTick now{.steps = tick.is_recall ? 0 : in.steps,
+                                     .tolerance = in.tolerance,
+                                     .streets = streets,
+                                     .land = sets.plots.front().land.get(),
+                                     .pool = tick.pool};
     const auto done = now.run(**domain, kept.wishes, kept.cache);
     if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, kept.names)};
     std::vector<std::uint32_t>& answered = out.replies.members;

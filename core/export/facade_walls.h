@@ -1,4 +1,4 @@
-// The walls of a standing storey as simple bodies: one for each straight side and each arc of its outline and its courtyards.
+// The walls of a standing storey as simple bodies: one for each straight side and each curve of its outline and its courtyards.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,9 @@ struct FacadeWall {
 };
 
 /// Walls stand within the plate and meet in mitres where corners are not too sharp for that. Nothing for rounded volumes, which
-/// have no façades. A side that is too short for walls of this thickness [m] has none.
+/// have no façades. A side that is too short for walls of this thickness [m] has none. Short sides that follow each other in
+/// nearly one direction are the chords of a curve, such as a plate has at a distance from a corner, and have one wall together;
+/// its length is the sum of theirs.
 std::vector<FacadeWall> facade_walls(const Storey& storey, const Point3& arc_centre, double thickness);
 
 }  // namespace bl::exporting

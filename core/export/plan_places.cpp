@@ -24,23 +24,6 @@ PlanExtent plan_extent(const Proposal& proposal) {
   return extent;
 }
 
-Point3 middle_of(const std::vector<geometry::PlateFace>& faces) {
-  const auto largest = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-    return std::abs(geometry::signed_area(a.outer)) < std::abs(geometry::signed_area(b.outer));
-  });
-  if (largest == faces.end() || largest->outer.empty()) return {};
-  const geometry::Ring& ring = largest->outer;
-  const Point3 first = ring.front();
-  Vector3 sum;
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
-    const double part = geometry::turn(first, ring[k], ring[k + 1]);
-    sum = sum + part * ((ring[k] - first) + (ring[k + 1] - first));
-    twice += part;
-  }
-  return twice == 0 ? first : first + sum / (3 * twice);
-}
-
 namespace {
 
 struct Box {
@@ -63,7 +46,7 @@ LabelPlace label_place(const std::vector<geometry::PlateFace>& faces) {
   });
   if (largest == faces.end() || largest->outer.size() < 3) return {};
   const Box all = box_of(largest->outer);
-  LabelPlace place{middle_of(faces), all.east - all.west, all.north - all.south};
+  LabelPlace place{geometry::middle_of(faces), all.east - all.west, all.north - all.south};
   const auto hole = std::find_if(largest->holes.begin(), largest->holes.end(), [&](const geometry::Ring& ring) {
     const Box box = box_of(ring);
     // Words reach beyond their middle: a courtyard beside it is struck as well.

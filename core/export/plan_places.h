@@ -19,7 +19,5 @@ struct LabelPlace {
   double width = 0, height = 0;
 };
 LabelPlace label_place(const std::vector<geometry::PlateFace>& faces);
-/// The centroid of the largest face; its first corner where it has no area.
-Point3 middle_of(const std::vector<geometry::PlateFace>& faces);
 
 }  // namespace bl::exporting

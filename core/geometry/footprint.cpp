@@ -31,8 +31,8 @@ Result<void> check(std::span<const StandingSite> sites) {
     if (!(s.storey_height > 0) || !std::isfinite(s.storey_height)) return wrong("its storey height is not above 0");
     if (!(s.depth > 0)) return wrong("its depth is not above 0");
     if (!(s.wing_depth > 0)) return wrong("the depth of its wings is not above 0");
-    if (!is_distance(s.border_distance) || !is_distance(s.street_distance))
-      return wrong("a distance from the border of the plot is below 0 or no number");
+    if (!is_distance(s.border_distance) || !is_distance(s.street_distance) || !is_distance(s.exclusion_distance))
+      return wrong("a distance from the border of the plot, or from ground that it leaves out, is below 0 or no number");
     for (const StoreyRun& run : s.runs) {
       if (run.storeys < 1 || run.storeys > kMostStoreys) return wrong("a run of its storeys is not between 1 and 10 000");
       if (!is_distance(run.setback) || !is_distance(run.courtyard)) return wrong("a set-back is below 0 or no number");
@@ -48,12 +48,15 @@ FootprintDiagram::~FootprintDiagram() = default;
 FootprintDiagram::FootprintDiagram(FootprintDiagram&&) noexcept = default;
 FootprintDiagram& FootprintDiagram::operator=(FootprintDiagram&&) noexcept = default;
 
-Result<void> FootprintDiagram::set_domain(const Domain& domain, std::span<const StreetAxis> streets) {
-  if (workshop_->has_plot && workshop_->domain == domain && std::ranges::equal(workshop_->streets, streets)) return {};
-  auto plot = PlanPlot::section(domain, streets);
+Result<void> FootprintDiagram::set_domain(const Domain& domain, std::span<const StreetAxis> streets, const Domain* land) {
+  const auto is_same_land = [&] { return land == nullptr ? workshop_->land.pieces.empty() : workshop_->land == *land; };
+  if (workshop_->has_plot && workshop_->domain == domain && std::ranges::equal(workshop_->streets, streets) && is_same_land())
+    return {};
+  auto plot = PlanPlot::section(domain, streets, land);
   if (!plot) return plot.error();
   *workshop_ = Workshop();
   workshop_->domain = domain;
+  if (land != nullptr) workshop_->land = *land;
   workshop_->streets.assign(streets.begin(), streets.end());
   workshop_->plot = std::move(*plot);
   workshop_->has_plot = true;

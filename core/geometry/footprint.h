@@ -45,6 +45,7 @@ struct StandingSite {
   bool has_border_walls = false;  ///< nor towards the border of the plot where that is no street
   double border_distance = 0;     ///< of all plates from the border of the plot, but for sides along streets [m]
   double street_distance = 0;     ///< of all plates from sides of the plot along streets [m]
+  double exclusion_distance = 0;  ///< of all plates from ground inside the border that the plot leaves out [m]
   double wing_depth = kAnyDepth;  ///< the greatest depth along walls that touch neighbours or the border, if below `depth` [m]
   bool operator==(const StandingSite&) const = default;
 
@@ -86,8 +87,10 @@ class FootprintDiagram {
   FootprintDiagram(FootprintDiagram&&) noexcept;
   FootprintDiagram& operator=(FootprintDiagram&&) noexcept;
 
-  /// The plot is the horizontal section of the domain a little above its bottom. Fails where nothing is left of it.
-  Result<void> set_domain(const Domain& domain, std::span<const StreetAxis> streets = {});
+  /// The plot is the horizontal section of the domain a little above its bottom. Fails where nothing is left of it. `land`: the
+  /// same with the ground that the plot leaves out, such as streets and water; its border is the border of the plot, from which
+  /// plates have other distances than from that ground. nullptr: the plot leaves out nothing.
+  Result<void> set_domain(const Domain& domain, std::span<const StreetAxis> streets = {}, const Domain* land = nullptr);
   double plot_area() const;  ///< [m²]
   /// Is the plot the ground of this domain?
   bool is_of(const Domain& domain) const;

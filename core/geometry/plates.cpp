@@ -61,7 +61,7 @@ void add_curves(const PlanPolygon& part, double radius, std::vector<Curve>& curv
     const Curve& side = sides[k];
     const Curve& next = sides[(k + 1) % sides.size()];
     if (side.beyond != PlanSide::kInner) curves.push_back(side);
-    if (side.beyond == PlanSide::kStreet) curves.back().beyond = PlanSide::kPlot;
+    if (side.beyond == PlanSide::kStreet || side.beyond == PlanSide::kLeftOut) curves.back().beyond = PlanSide::kPlot;
     if (!is_same(side.to, next.from)) curves.push_back({side.to, next.from, PlateRing::kFree, true});
   }
 }
@@ -241,6 +241,23 @@ std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, d
     if (around != nullptr) around->holes.push_back(std::move(hole));
   }
   return faces;
+}
+
+Point3 middle_of(std::span<const PlateFace> faces) {
+  const auto largest = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    return std::abs(signed_area(a.outer)) < std::abs(signed_area(b.outer));
+  });
+  if (largest == faces.end() || largest->outer.empty()) return {};
+  const Ring& ring = largest->outer;
+  const Point3 first = ring.front();
+  Vector3 sum;
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const double part = turn(first, ring[k], ring[k + 1]);
+    sum = sum + part * ((ring[k] - first) + (ring[k + 1] - first));
+    twice += part;
+  }
+  return twice == 0 ? first : first + sum / (3 * twice);
 }
 
 double clearance_of(const StandingBody& body, std::span<const Point3> border, double tolerance) {

@@ -58,6 +58,8 @@ struct PlateFace {
 double area_of(std::span<const PlateFace> faces);
 /// The parts of a plate, with arcs as chords that stay within `tolerance` of them [m].
 std::vector<PlateFace> faces_of(const PlateStack& stack, const Point3& centre, double tolerance);
+/// The centroid of the largest part; its first corner where it has no area.
+Point3 middle_of(std::span<const PlateFace> faces);
 /// The ring with its arcs as chords that stay within `tolerance` of them [m].
 Ring chords_of(const PlateRing& ring, const Point3& centre, double tolerance);
 /// One closed prism for each part of a plate of each stack.

@@ -131,7 +131,7 @@ std::vector<StandingSite> sites_of(std::span<const StandingWish> wishes, const S
     StandingSite& site = sites.emplace_back(wishes[i].site);
     // The edge of a roof is no border of the plot.
     if (level.base >= 0) {
-      site.border_distance = site.street_distance = 0;
+      site.border_distance = site.street_distance = site.exclusion_distance = 0;
       site.has_border_walls = false;
     }
     site.site.position.z = level.base < 0 ? floor_of(wishes[i], bottom, highest) : bottom;
@@ -268,7 +268,7 @@ void free_edges(StandingResult& result) {
 Result<void> StandingTick::run_level(const Domain& ground, double bottom, std::span<const StandingWish> wishes, Level& level,
                                      Cache& kept, Outcome& outcome) const {
   const bool is_roof = level.base >= 0;
-  const auto set = is_roof ? level.diagram.set_domain(level.domain) : level.diagram.set_domain(ground, streets);
+  const auto set = is_roof ? level.diagram.set_domain(level.domain) : level.diagram.set_domain(ground, streets, land);
   if (!set) return set.error();
   std::vector<Storeys> storeys;
   std::vector<StandingSite> sites = sites_of(wishes, level, kept, bottom, ground.maximum.z, storeys);

@@ -85,6 +85,7 @@ struct StandingTick {
   int steps = 4;  ///< at most so many steps; 0: the plates of the present weights
   double tolerance = 0.005;
   std::span<const StreetAxis> streets = {};  ///< sides of the ground along them have distances of their own
+  const Domain* land = nullptr;              ///< the domain with the ground that it leaves out; nullptr: it leaves out nothing
   ThreadPool* pool = nullptr;
 
   /// Those who stand on the ground, or on one roof.

@@ -71,6 +71,14 @@ struct ContextStreet {
   std::size_t row = kNoRow;  ///< of the report
 };
 
+/// A line of rails on the ground.
+struct ContextRail {
+  std::string id, name;
+  std::string rail_class;    ///< "rail", "tram", as OpenStreetMap has it
+  std::vector<Point3> line;  ///< of one track
+  std::size_t row = kNoRow;  ///< of the report
+};
+
 /// A turn that is forbidden, or the only one allowed, at a junction.
 struct ContextRestriction {
   std::string id, rule;                   ///< "no_left_turn", "only_straight_on"
@@ -93,6 +101,7 @@ struct Context {
   std::vector<ContextBuilding> buildings;
   std::vector<ContextJunction> junctions;
   std::vector<ContextStreet> streets;
+  std::vector<ContextRail> rails;
   std::vector<ContextRestriction> restrictions;
   std::vector<ContextArea> areas;
   std::set<std::string> properties;  ///< names that features of the file have, where it has features

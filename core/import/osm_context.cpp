@@ -170,6 +170,7 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
     import.relations.push_back({ImportOutcome::taken, "relation", "r" + std::to_string(relation.id), "", "", 1, {}, {}});
   read_osm_areas(import);
   read_osm_streets(import);
+  read_osm_rails(import);
   if (options.watch != nullptr && options.watch->is_stopped) return stopped_error();
   decide_rest(import);
   locate(import);

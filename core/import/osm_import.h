@@ -41,5 +41,7 @@ inline void decide(ImportRow& row, ImportOutcome outcome, std::string reason, st
 void read_osm_areas(OsmImport& import);
 /// Streets between junctions, and turn restrictions.
 void read_osm_streets(OsmImport& import);
+/// Tracks of railways and trams that no street runs along.
+void read_osm_rails(OsmImport& import);
 
 }  // namespace bl::importing

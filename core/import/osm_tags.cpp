@@ -1,6 +1,7 @@
 // The tags as the OpenStreetMap wiki describes them; defaults of streets by class are ours and marked as assumed.
 #include "core/import/osm_tags.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -202,6 +203,13 @@ OsmRoad osm_road(const OsmTags& tags) {
       road.fault += (road.fault.empty() ? "" : ", ") + std::string("maxspeed=") + speed.substr(0, 40);
   }
   return road;
+}
+
+std::string osm_rail(const OsmTags& tags) {
+  constexpr std::array kTracks{"rail", "light_rail", "narrow_gauge", "tram", "subway", "funicular", "preserved"};
+  const std::string &value = tag_of(tags, "railway"), &tunnel = tag_of(tags, "tunnel");
+  if (std::find(kTracks.begin(), kTracks.end(), value) == kTracks.end()) return {};
+  return tunnel.empty() || tunnel == "no" ? value : std::string();
 }
 
 std::string osm_ground(const OsmTags& tags) {

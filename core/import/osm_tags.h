@@ -39,6 +39,9 @@ struct OsmRoad {
 };
 OsmRoad osm_road(const OsmTags& tags);
 
+/// "rail", "tram" and the like for tracks that are in use and on the ground; empty for all else, such as tunnels.
+std::string osm_rail(const OsmTags& tags);
+
 /// "landuse=grass" for what covers ground; empty for all else.
 std::string osm_ground(const OsmTags& tags);
 /// Is the element a building, or a part of one?

@@ -109,6 +109,7 @@ class Import {
     if (result_.errors.empty()) check_properties();
     for (const auto& [site, rows] : sites_.exclusions()) nodes_.set_port(site, "boundary.exclusions", Shared<Table>(rows));
     for (const std::string& note : sites_.notes()) result_.notes.push_back(note);
+    result_.warnings = sites_.warnings();
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
     tell_of_ground();
@@ -145,6 +146,8 @@ class Import {
     for (const auto& [name, value] :
          {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
       if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
+    if (!(o_.least_green >= 0) || o_.least_green > 1e6)
+      refuse("--least-green", "must be between 0 and 1000000 m², found " + shortest(o_.least_green));
     if (!(context_.height_unit >= 0) || context_.height_unit > 1000)
       refuse("--height-unit", "must be more than 0 and at most 1000 m, found " + shortest(context_.height_unit));
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
@@ -296,7 +299,7 @@ class Import {
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
-    sites_.clear_grounds(*context, {o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets,
+    sites_.clear_grounds(*context, {{o_.keep_clear.begin(), o_.keep_clear.end()}, o_.takes_all_streets, o_.least_green},
                          {making_.source, making_.has_lasting_ids});
     take(file, context->report, context->notes, context->reference);
     nodes_.begin(making_, elements_of(*context));

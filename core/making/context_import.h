@@ -13,6 +13,7 @@
 #include "core/graph/scene.h"
 #include "core/import/context.h"
 #include "core/making/site_buildings.h"
+#include "core/making/site_grounds.h"
 
 namespace bl::making {
 
@@ -40,6 +41,7 @@ struct ImportOptions {
   InsideChoice inside = InsideChoice::unsaid;  ///< of buildings that stand inside a site of the scene
   AskToClear ask_to_clear;                     ///< who is asked where that is unsaid; empty: they are kept, and a note says so
   std::vector<std::string> keep_clear;         ///< of `kClearGrounds`: what sites leave out
+  double least_green = kLeastGreen;            ///< [m²] of an area of green that is kept clear
   bool keeps = false, clears = false;          ///< as the command line has it; `inside` is what counts
   bool is_forced = false, is_extruded = false, takes_all_streets = false;
 };
@@ -51,7 +53,7 @@ struct ImportedScene {
   std::pair<Point3, Point3> bounds;          ///< around all that was added [m]; the first is above the second where nothing was
   importing::ImportReports reports;          ///< of a file that could not be read: one row that says so
   std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;  ///< warnings: what was asked for and did not come of it
   std::vector<std::pair<std::string, Error>> errors;
 };
 

@@ -136,7 +136,7 @@ void ContextNodes::add(const importing::Context& context, const NodeMaking& maki
   add_buildings(context, making, sites, report, unused);
   std::size_t ground = 0;
   for (const importing::ContextArea& area : context.areas) {
-    if (const std::string site = sites.site_without(area); !site.empty() && area.row != importing::kNoRow) {
+    if (const std::string site = sites.site_without(area.row, area.id); !site.empty() && area.row != importing::kNoRow) {
       report.made(area.row, site);
       report.remark(area.row, "the site `" + site + "` leaves its ground out");
       continue;
@@ -148,6 +148,14 @@ void ContextNodes::add(const importing::Context& context, const NodeMaking& maki
     }
     const std::string id = add_plot(area);
     if (area.row != importing::kNoRow) report.made(area.row, id);
+  }
+  std::set<std::size_t> tracks;  // rows of rails that are told; the pieces of a line have one row
+  for (const importing::ContextRail& rail : context.rails) {
+    const std::string site = sites.site_without(rail.row, rail.id);
+    if (site.empty()) unused[rail.row] = "there is no typification for it, and no site leaves its ground out";
+    if (site.empty() || !tracks.insert(rail.row).second) continue;
+    report.made(rail.row, site);
+    report.remark(rail.row, "the site `" + site + "` leaves its ground out");
   }
   if (ground > 0)
     notes_.push_back(how_many(ground, "area") + " of ground (land use, green, water) became " +

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/geometry/plan_ring.h"
+#include "core/making/addition_checks.h"
 #include "core/making/site.h"
 #include "core/making/use_rates.h"
 #include "core/session/commands.h"
@@ -328,10 +329,13 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
   take("gsi_max", rules.gsi, "GSI", "");
   take("height_max", rules.height, "height", " m");
   take("setback", rules.setback, "setback", " m");
+  std::vector<Point3> plan;
   if (node->second.types.contains("plot")) {
+    const TypificationDefinition& plot = *registry.typification("plot");
+    plan = *std::get<Shared<std::vector<Point3>>>(set_value(scene, node->second, plot, *plot.find_port("polygon")));
     for (const auto& [port, value] : ports.items()) adding.set(id, "plot." + port, value);
   } else {
-    const std::vector<Point3> plan = plan_of(scene, registry, node->second);
+    plan = plan_of(scene, registry, node->second);
     if (plan.empty())
       return Error{ErrorCode::wrong_kind, "--plot",
                    "`" + id + "` is neither a plot nor a boundary with a plan, which would become one"};
@@ -341,6 +345,7 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
     adding.say("The boundary `" + id + "` is a plot as well now.");
   }
   adding.say("The rules of `" + id + "`: " + list + ".");
+  for (const std::string& warning : rule_warnings(scene, registry, rules, id, plan)) adding.say(warning);
   if (rules.setback)
     adding.say("Volumes that stand keep the setback from the border in all storeys; of balls it is measured only.");
   if (!adding.has_link("plot_rules", id)) {
@@ -415,6 +420,7 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
                          {"required_share", share}}}}}});
     adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
                shortest(hours) + " h of sun a day on " + shortest(100 * share) + " % of its area.");
+    for (const std::string& warning : garden_warnings(scene, registry, corners)) adding.say(warning);
     if (garden.is_open)
       if (auto open = adding.leave_out(id, garden.use, corners); !open) return open.error();
     if (box.beyond > kRectangle)

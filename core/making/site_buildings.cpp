@@ -17,6 +17,7 @@ namespace {
 
 // Lines of maps and of plots differ by some decimetres: what reaches in by no more than this stands beside the site.
 constexpr double kInexactArea = 1;      // [m²]
+constexpr double kSliver = 1e-3;        // [m²] of one piece of an area that reaches in by more than that in all
 constexpr double kInexactShare = 0.01;  // [ratio] of the footprint
 // Of a building of which less lies inside, the site is not the place.
 constexpr double kOwnShare = 0.5;  // [ratio]
@@ -115,23 +116,20 @@ bool SiteBuildings::is_cleared(std::size_t building) const {
          std::any_of(stays->second.begin(), stays->second.end(), [](const Stay& stay) { return stay.is_cleared; });
 }
 
-// What of the rings lies in the site; nothing where that is nearly all of it.
-std::vector<Exclusion> SiteBuildings::left_out(const Site& site, const std::string& name, const std::string& use,
-                                               const std::vector<geometry::Ring>& rings) {
+// What of the ground lies in the site; nothing where that is nearly all of it.
+std::vector<Exclusion> SiteBuildings::left_out(const Site& site, const Ground& ground) {
   std::vector<Exclusion> inside;
   double area = 0, whole = 0;
-  for (const std::vector<geometry::Ring>& ground : site.grounds) whole += std::abs(geometry::signed_area(ground.front()));
-  for (const geometry::Ring& ring : rings) {
-    bool is_inside = false;
-    for (const std::vector<geometry::Ring>& ground : site.grounds) {
-      const double common = area_on(ground, {&ring});
-      area += common;
-      is_inside = is_inside || common > kInexactArea;
-    }
-    if (is_inside) inside.push_back({name, use, ring, site.bottom, site.top});
+  for (const std::vector<geometry::Ring>& outline : site.grounds) whole += std::abs(geometry::signed_area(outline.front()));
+  for (const geometry::Ring& ring : ground.rings()) {
+    double common = 0;
+    for (const std::vector<geometry::Ring>& outline : site.grounds) common += area_on(outline, {&ring});
+    area += common;
+    if (common > kSliver) inside.push_back({ground.name, ground.use, ring, site.bottom, site.top});
   }
-  if (inside.empty() || area <= kMostLeftOut * whole) return inside;
-  ground_notes_.push_back("`" + name + "` covers " + share_text(area / whole) + " of the site `" + site.id +
+  if (area <= kInexactArea) return {};
+  if (area <= kMostLeftOut * whole) return inside;
+  ground_notes_.push_back("`" + ground.name + "` covers " + share_text(area / whole) + " of the site `" + site.id +
                           "`, and the site keeps that ground: nothing would be left to build on.");
   return {};
 }
@@ -153,54 +151,93 @@ void SiteBuildings::put(Judged& site, const Ground& ground, std::vector<Exclusio
   if (site.replace(is_old, exclusions) && exclusions.empty()) ++site.grounds_given_back[ground.kind];
 }
 
-void SiteBuildings::clear_grounds(const importing::Context& context, const std::set<std::string>& kinds, bool takes_all_streets,
-                                  const GroundSource& from) {
+// What of a file can be kept clear.
+std::vector<SiteBuildings::Ground> SiteBuildings::grounds_of(const importing::Context& context, const ClearWish& wish) {
+  std::vector<Ground> grounds;
+  for (const importing::ContextStreet& street : context.streets)
+    if (street.for_cars || wish.takes_all_streets)
+      grounds.push_back({"streets", "street " + street.id, "", importing::kNoRow, street.id, false,
+                         [&street] { return street_ground(street); }});
+  for (const importing::ContextRail& rail : context.rails)
+    grounds.push_back({"rails", "rail " + rail.id, "", rail.row, rail.id, false, [&rail] { return rail_ground(rail); }});
+  for (const importing::ContextArea& area : context.areas) {
+    const std::string kind(ground_kind(area.use));
+    if (area.is_plot || kind.empty()) continue;
+    const std::string word = kind == "streets" ? "street" : kind == "rails" ? "rail" : kind;
+    const bool is_small = kind == "green" && std::abs(geometry::signed_area(area.outer)) < wish.least_green;
+    grounds.push_back({kind, word + " " + area.id, kind == "green" ? open_use_of(area.use) : "", area.row, area.id, is_small,
+                       [&area] { return area_ground(area); }});
+  }
+  return grounds;
+}
+
+void SiteBuildings::clear_grounds(const importing::Context& context, const ClearWish& wish, const GroundSource& from) {
   left_out_.clear();
   if (sites_.empty()) {
-    if (!kinds.empty())
+    if (!wish.kinds.empty())
       ground_notes_.push_back("The scene has no site, so that nothing is kept clear: add one, and import again.");
     return;
   }
   sources_.insert(from.name);
-  for (Judged& site : sites_) {
-    std::set<std::string> had;
-    for (std::size_t row = 0; row < site.rows.rows.size(); ++row) {
-      const std::string& name = site.rows.text(row, "name");
-      had.insert(name);
-      is_again_ = is_again_ || name.find(kOf + from.name) != std::string::npos;
+  least_green_ = wish.least_green;
+  const std::vector<Ground> grounds = grounds_of(context, wish);
+  for (const std::string& kind : wish.kinds)
+    asked_[kind].found += static_cast<std::size_t>(
+        std::count_if(grounds.begin(), grounds.end(), [&kind](const Ground& ground) { return ground.kind == kind; }));
+  for (Judged& site : sites_) clear_site(site, grounds, wish, from);
+}
+
+// What is wanted now, and what is known: that may have moved.
+void SiteBuildings::clear_site(Judged& site, const std::vector<Ground>& grounds, const ClearWish& wish,
+                               const GroundSource& from) {
+  std::set<std::string> had;
+  for (std::size_t row = 0; row < site.rows.rows.size(); ++row) {
+    const std::string& name = site.rows.text(row, "name");
+    had.insert(name);
+    is_again_ = is_again_ || name.find(kOf + from.name) != std::string::npos;
+  }
+  // An import before has left it out, or an import of another source the same element.
+  const auto is_known = [&](const std::string& ground) {
+    const std::string name = ground + kOf + from.name, prefix = from.has_lasting_ids ? ground + kOf : name;
+    for (auto other = had.lower_bound(prefix); other != had.end() && other->starts_with(prefix); ++other)
+      if (from.has_lasting_ids || is_named(*other, name)) return true;
+    return false;
+  };
+  for (const Ground& ground : grounds) {
+    site.brought.try_emplace(ground.name + kOf + from.name, 0);
+    const bool was_left_out = is_known(ground.name);
+    if (!was_left_out && !wish.kinds.contains(ground.kind)) continue;
+    std::vector<Exclusion> exclusions = left_out(site, ground);
+    if (ground.is_small && !exclusions.empty()) {
+      site.small.insert(ground.name + kOf + from.name);
+      exclusions.clear();
     }
-    // An import before has left it out, or an import of another source the same element.
-    const auto is_known = [&](const std::string& ground) {
-      const std::string name = ground + kOf + from.name, prefix = from.has_lasting_ids ? ground + kOf : name;
-      for (auto other = had.lower_bound(prefix); other != had.end() && other->starts_with(prefix); ++other)
-        if (from.has_lasting_ids || is_named(*other, name)) return true;
-      return false;
-    };
-    // What is wanted now, and what is known: that may have moved.
-    const auto take = [&](const Ground& ground, const std::string& use, const auto& rings) {
-      site.brought.try_emplace(ground.name + kOf + from.name, 0);
-      const bool was_left_out = is_known(ground.name);
-      if (!was_left_out && !kinds.contains(ground.kind)) return false;
-      std::vector<Exclusion> exclusions = left_out(site, ground.name, use, rings());
-      const bool is_left_out = !exclusions.empty();
-      if (is_left_out || was_left_out) put(site, ground, std::move(exclusions), from);
-      return is_left_out;
-    };
-    for (const importing::ContextStreet& street : context.streets)
-      if (street.for_cars || takes_all_streets)
-        (void)take({"streets", "street " + street.id}, "", [&] { return street_ground(street); });
-    for (const importing::ContextArea& area : context.areas) {
-      const std::string kind(ground_kind(area.use));
-      if (area.is_plot || kind.empty()) continue;
-      if (take({kind, kind + " " + area.id}, open_use_of(area.use), [&] { return std::vector<geometry::Ring>{area.outer}; }))
-        left_out_[{area.row, area.id}] = site.id;
-    }
+    const bool is_left_out = !exclusions.empty();
+    if (is_left_out || was_left_out) put(site, ground, std::move(exclusions), from);
+    if (!is_left_out) continue;
+    if (const auto asked = asked_.find(ground.kind); asked != asked_.end()) asked->second.is_used = true;
+    if (ground.row != importing::kNoRow) left_out_[{ground.row, ground.id}] = site.id;
   }
 }
 
-std::string SiteBuildings::site_without(const importing::ContextArea& area) const {
-  const auto site = left_out_.find({area.row, area.id});
+std::string SiteBuildings::site_without(std::size_t row, const std::string& id) const {
+  const auto site = left_out_.find({row, id});
   return site == left_out_.end() ? "" : site->second;
+}
+
+std::vector<std::string> SiteBuildings::warnings() const {
+  std::vector<std::string> warnings;
+  for (const auto& [kind, asked] : asked_) {
+    if (asked.is_used) continue;
+    const bool has_small = kind == "green" && std::ranges::any_of(sites_, [](const Judged& site) { return !site.small.empty(); });
+    warnings.push_back(
+        "No ground of `" + kind + "` is kept clear, although that was asked for: " +
+        (asked.found == 0 ? "the files hold none"
+         : has_small      ? "what reaches into a site is smaller than " + shortest(least_green_) + " m²"
+                     : "of " + std::to_string(asked.found) + " in the files none reaches into a site, or it covers all of it") +
+        ".");
+  }
+  return warnings;
 }
 
 bool SiteBuildings::has_cleared() const {
@@ -253,8 +290,9 @@ std::vector<std::pair<std::string, Table>> SiteBuildings::exclusions() const {
 std::string SiteBuildings::grounds_text(const std::map<std::string, std::size_t>& grounds) {
   std::string text;
   for (const auto& [kind, number] : grounds)
-    text += (text.empty() ? "" : ", ") +
-            (kind == "streets" ? how_many(number, "piece") + " of street" : how_many(number, "area") + " of " + kind);
+    text += (text.empty() ? "" : ", ") + (kind == "streets" ? how_many(number, "piece") + " of street"
+                                          : kind == "rails" ? how_many(number, "piece") + " of railway"
+                                                            : how_many(number, "area") + " of " + kind);
   return text;
 }
 
@@ -264,7 +302,11 @@ void SiteBuildings::note_grounds(const Judged& site, std::vector<std::string>& n
                     " (streets: in the width that the file gives, else by their lanes with a path on each side).");
   if (!site.grounds_given_back.empty())
     notes.push_back("The site `" + site.id + "` leaves out the ground of " + grounds_text(site.grounds_given_back) +
-                    " no longer: it does not reach into the site any more.");
+                    " no longer: it does not reach into the site any more" + (site.small.empty() ? "" : ", or is too small") +
+                    ".");
+  if (const std::size_t small = site.small.size(); small > 0)
+    notes.push_back("The site `" + site.id + "` does not leave out " + how_many(small, "area") + " of green with less than " +
+                    shortest(least_green_) + " m² of ground" + by_number(small, "", " each") + " (--least-green).");
   std::vector<std::string> gone;
   for (const geometry::NamedRing& ring : geometry::read_rings(site.rows)) {
     std::string name = ring.name;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "core/geometry/domain_makers.h"
 #include "core/making/use_rates.h"
 
 namespace bl::making {
@@ -12,9 +13,14 @@ namespace {
 
 // A lane of a street in a town, and the path beside it, where no width is known.
 constexpr double kLane = 3.25, kPath = 1.75, kFootway = 2.5;  // [m]
+// The clearance of a track: 2.5 m on each side of its axis (EBO, annex 1: standard clearance); of a tram 2.65 m for the vehicle
+// (BOStrab) with 0.4 m on each side.
+constexpr double kTrack = 5, kTramTrack = 3.5;  // [m]
 // No corner reaches farther than so many half widths: pointed bends are cut into pieces instead.
 constexpr double kMostMiter = 3;
 
+constexpr std::array kStreets{"road", "street"};
+constexpr std::array kRails{"railway", "rail"};
 constexpr std::array kWater{"water", "riverbank", "dock", "reservoir", "basin", "wetland", "bay"};
 constexpr std::array kGreen{
     "grass",     "forest",    "meadow",     "recreation_ground", "village_green", "allotments",  "orchard",
@@ -58,14 +64,34 @@ geometry::Ring strip(const std::vector<Point3>& line, double half, bool& is_soun
   return right;
 }
 
+// One ring where the bends of a line allow it, else one for each straight piece.
+std::vector<geometry::Ring> line_ground(const std::vector<Point3>& points, double width) {
+  const std::vector<Point3> line = flat(points);
+  if (line.size() < 2) return {};
+  const double half = width / 2;
+  bool is_sound = false;
+  if (geometry::Ring whole = strip(line, half, is_sound); is_sound) return {std::move(whole)};
+  std::vector<geometry::Ring> pieces;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    geometry::Ring piece = strip({line[i - 1], line[i]}, half, is_sound);
+    if (is_sound) pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
 }  // namespace
 
 std::string_view ground_kind(std::string_view use) {
   const std::string word = lower_case(std::string(use.substr(use.find('=') == std::string_view::npos ? 0 : use.find('=') + 1)));
   const auto is_one = [&word](const auto& words) { return std::find(words.begin(), words.end(), word) != words.end(); };
-  return is_one(kWater) || use.starts_with("water") || use.starts_with("WaterBody") ? "water"
-         : is_one(kGreen) || use.starts_with("PlantCover")                          ? "green"
-                                                                                    : "";
+  // Types of CityJSON come first: what a road is for says nothing of what it is.
+  if (use.starts_with("Road") || use.starts_with("TransportSquare")) return "streets";
+  if (use.starts_with("Railway")) return "rails";
+  return is_one(kWater) || use.starts_with("water") || use.starts_with("WaterBody") || use.starts_with("Waterway") ? "water"
+         : is_one(kGreen) || use.starts_with("PlantCover")                                                         ? "green"
+         : is_one(kStreets)                                                                                        ? "streets"
+         : is_one(kRails)                                                                                          ? "rails"
+                                                                                                                   : "";
 }
 
 std::string open_use_of(std::string_view use) {
@@ -80,16 +106,26 @@ double street_width(const importing::ContextStreet& street) {
 }
 
 std::vector<geometry::Ring> street_ground(const importing::ContextStreet& street) {
-  const std::vector<Point3> line = flat(street.line);
-  if (line.size() < 2) return {};
-  const double half = street_width(street) / 2;
-  bool is_sound = false;
-  if (geometry::Ring whole = strip(line, half, is_sound); is_sound) return {std::move(whole)};
+  return line_ground(street.line, street_width(street));
+}
+
+std::vector<geometry::Ring> rail_ground(const importing::ContextRail& rail) {
+  return line_ground(rail.line, rail.rail_class == "tram" ? kTramTrack : kTrack);
+}
+
+std::vector<geometry::Ring> area_ground(const importing::ContextArea& area) {
+  const std::string_view kind = ground_kind(area.use);
+  if (area.holes.empty() || (kind != "streets" && kind != "rails")) return {area.outer};
+  const auto body = geometry::extrude_plan(area.outer, area.holes, 0, 1);
+  if (!body) return {area.outer};
   std::vector<geometry::Ring> pieces;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    geometry::Ring piece = strip({line[i - 1], line[i]}, half, is_sound);
-    if (is_sound) pieces.push_back(std::move(piece));
-  }
+  for (const geometry::Domain::Piece& piece : body->pieces)
+    for (std::size_t k = 0; k < piece.shape.planes.size(); ++k) {
+      if (!(piece.shape.planes[k].normal.z > 0.5)) continue;  // its top
+      geometry::Ring& ring = pieces.emplace_back();
+      for (const std::uint32_t corner : piece.shape.faces[k])
+        ring.push_back({piece.shape.vertices[corner].x, piece.shape.vertices[corner].y, 0});
+    }
   return pieces;
 }
 

@@ -25,19 +25,35 @@ std::size_t group_of(const Plan& plan, std::uint32_t node) {
   return 0;
 }
 
+constexpr double kPlaceChords = 0.02;  // [m] between arcs and their chords
+constexpr double kSamePlace = 1e-6;    // [m]
+
+// A volume whose cell lies to one side of its position stands there, and would be named at its edge.
+Point3 place_of(const VolumeRow& row, const Point3& stands_at) {
+  const Point3& position = row.figures.position;
+  if (distance({position.x, position.y, 0}, {stands_at.x, stands_at.y, 0}) <= kSamePlace) return position;
+  Point3 place = stands_at;
+  if (!row.body.stacks.empty()) {
+    const auto parts = geometry::faces_of(row.body.stacks.front(), row.body.centre, kPlaceChords);
+    place = geometry::nearest_place(row.body, geometry::middle_of(parts), kPlaceChords);
+  }
+  return {place.x, place.y, position.z};
+}
+
 VolumeRow read_volume(const State& state, const VolumeAccount& account, bool with_shape) {
   VolumeRow row;
   static_cast<VolumeAccount&>(row) = account;
   row.id = state.plan->nodes[account.node].id;
   row.name = state.plan->nodes[account.node].name;
+  if (const auto footprint = with_shape ? row_of<FootprintFigures>(state, account.node) : std::nullopt)
+    row.body = geometry::read_body(footprint->plates);
   row.place = account.figures.position;
   if (const auto standing = row_of<PlotStanding>(state, account.node); standing && account.figures.footprint > 0)
-    row.place = {standing->stands_at.x, standing->stands_at.y, row.place.z};
+    row.place = place_of(row, standing->stands_at);
   if (!with_shape) return row;
   row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
   if (row.mesh) row.exact = exact_shape(state, account.node, account.figures);
-  if (const auto footprint = row_of<FootprintFigures>(state, account.node)) row.body = geometry::read_body(footprint->plates);
   row.group = group_of(*state.plan, account.node);
   return row;
 }

@@ -21,7 +21,9 @@ struct VolumeRow : VolumeAccount {
   MeshPointer mesh;             ///< none where there is no shape
   ExactShape exact;             ///< radius 0 where only the mesh is known
   geometry::StandingBody body;  ///< its plates where it stands, else without stacks
-  Point3 place;           ///< its position; of one that stands and has none of its ground there, the nearest place that it has
+  /// Its position; of one that stands elsewhere, the middle of the largest part of its lowest plate, or the place of it that is
+  /// nearest to that.
+  Point3 place;
   std::size_t group = 0;  ///< volumes of one solver stand together
 
   /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.

@@ -263,6 +263,27 @@ TEST(PlotRules, NobodyLeavesAPlotByKeepingItsSetback) {
   }
 }
 
+// The set-back of a plot holds from its border. Ground that the boundary leaves out inside has a distance that people set.
+TEST(PlotRules, TheSetbackDoesNotHoldFromTreesInsideThePlot) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40, "exclusions": [
+      {"name": "pit", "x": 29, "y": 19, "bottom": 0, "top": 40}, {"name": "pit", "x": 31, "y": 19},
+      {"name": "pit", "x": 31, "y": 21}, {"name": "pit", "x": 29, "y": 21}]},
+                             "plot": {"polygon": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "setback": 4}}},
+    {"id": "solver", "types": {"standing_solver": {"tolerance": 1e-6}}},
+    {"id": "a", "position": [10, 10, 0], "types": {"smart_volume": {"demand": 9960, "storey_height": 3},
+                                                   "footprint": {"storeys": 2, "form": "cell"}}}],
+    "links": [{"id": "rules", "kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}}]})");
+  world.tick(5);
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_NEAR(world.number("a", "smart_volume.footprint"), 52 * 32 - 4, 1e-4) << "4 m from the border, none from the pit";
+  EXPECT_EQ(world.number("site", "plot.setback_overshoot"), 0);
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "a", .port = {"footprint.exclusion_distance"}, .value = {"3"}})), "");
+  world.tick(20);
+  EXPECT_NEAR(world.number("a", "smart_volume.footprint"), 52 * 32 - 4 - 8 * 3 - 9 * 3.14159265358979, 1e-4)
+      << "3 m about the pit, round at its corners";
+}
+
 // One volume near the border on each side of the plot; the street along the south has a distance of its own only by hand.
 TEST(PlotRules, VolumesThatStandKeepTheSetback) {
   World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [

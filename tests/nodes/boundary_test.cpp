@@ -142,6 +142,26 @@ TEST(Boundary, GroundThatIsKeptOpenIsMeasuredByUse) {
   EXPECT_NEAR(world.number("it", "boundary.ground_area"), 5000 - 680 - 120, 1e-9) << "the building is neither";
 }
 
+// The border of a plot is that of its land, whatever the boundary leaves out inside.
+TEST(Boundary, TheLandHasTheGroundThatIsLeftOut) {
+  const std::string plan = R"("form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 20)";
+  const auto world_of = [](const std::string& ports) {
+    return World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {}, "nodes": [
+      {"id": "it", "types": {"boundary": {)" +
+                            ports + "}}}]}");
+  };
+  World whole = world_of(plan);
+  whole.tick();
+  EXPECT_TRUE(whole.table("it", "boundary.land_planes").rows.empty()) << "it is the boundary itself";
+  World pit = world_of(plan + R"(, "exclusions": [{"name": "pit", "x": 29, "y": 19, "bottom": 0, "top": 20},
+    {"name": "pit", "x": 31, "y": 19}, {"name": "pit", "x": 31, "y": 21}, {"name": "pit", "x": 29, "y": 21}])");
+  pit.tick();
+  EXPECT_EQ(pit.node_error("it", "boundary"), "");
+  EXPECT_EQ(pit.table("it", "boundary.land_planes").rows.size(), 6u);
+  EXPECT_EQ(pit.table("it", "boundary.land_planes").rows, whole.table("it", "boundary.planes").rows);
+  EXPECT_NEAR(pit.number("it", "boundary.volume"), 20 * (2400 - 4), 1e-6);
+}
+
 TEST(Boundary, OnlyGroundUnderTheSkyIsOpen) {
   const std::string plan = R"("form": "plan", "plan": [[0,0,0],[10,0,0],[10,10,0],[0,10,0]], "height": 20, "exclusions": [)";
   World world = World::from_text(one_node("boundary", plan + kept_open("passage", "square", 2, 2, 6, 6, 8) + "]"));

@@ -143,6 +143,7 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
       ->type_name("KINDS")
       ->delimiter(',')
       ->check(CLI::IsMember(grounds));
+  c.add_option("--least-green", o.least_green, std::string(making::kLeastGreenDoc) + " Default: 10.")->type_name("M2");
   c.add_option("--report", o.report, "Writes the result for every element as CSV.")->type_name("FILE");
   files_of(c).reads({"files", "--into"}).writes("--out", FileKind::scene, "--into").writes("--report", FileKind::table);
   c.footer(

@@ -219,6 +219,7 @@ int import_command(const making::ImportOptions& given) {
   display.reset();
   print_counts(imported);
   for (const std::string& note : imported.notes) print_line("note: " + note);
+  for (const std::string& warning : imported.warnings) print_line("warning: " + warning, Colour::yellow);
   for (const auto& [file, error] : imported.errors) print_error(file, error);
   if (!write_import_report(options, imported.reports)) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();

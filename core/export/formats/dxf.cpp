@@ -144,7 +144,7 @@ struct DxfFormat {
       if (s.rings.empty()) faces(layer, s.faces, s.bottom, by);
       arcs(layer, s.rings, false, b, s, by);
       arcs(layer, s.courtyards, true, b, s, by);
-      Point3 middle = middle_of(s.faces) + by;
+      Point3 middle = geometry::middle_of(s.faces) + by;
       middle.z = s.bottom;
       drawing.text(words, middle, options.text_height, b.label + "  " + fixed(s.floor_area, 1) + " m²", true);
     }

@@ -213,7 +213,7 @@ struct HtmlFormat {
         return storeys;
       };
       const auto add = [&](const Building& b, const char* form, const std::string& reason) {
-        const Point3 at = b.storeys.empty() ? b.place : middle_of(b.storeys.front().faces);
+        const Point3 at = b.storeys.empty() ? b.place : geometry::middle_of(b.storeys.front().faces);
         all.push_back({{"id", b.id},
                        {"name", b.label},
                        {"use", b.use},

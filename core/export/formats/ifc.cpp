@@ -37,8 +37,11 @@ struct IfcFormat {
         "the "
         "plate, extruded by the height of the storey, with floor area, volume, height and perimeter as base quantities. The use "
         "of "
-        "a space is a classification. Each straight side and each arc of a standing "
-        "storey has a wall, with what it borders on; towards neighbours it is no external one. A rounded volume is given as the "
+        "a space is a classification. Each straight side and each curve of a standing "
+        "storey has a wall, with what it borders on; towards neighbours it is no external one. A curve is an arc, or sides of "
+        "less "
+        "than 0.5 m that follow each other in nearly one direction; its wall has the length of all of them. A rounded volume is "
+        "given as the "
         "plates that it is measured by, without walls, also as slabs or standing: what its sides border on is not known. "
         "Identifiers follow from "
         "those of the scene, so that they are the same in every export.");

@@ -32,7 +32,8 @@ HalfSides half_sides(const StandingSite& site) {
 PlateOffset outer_offset(const StandingSite& site, const StoreyRun& run) {
   return {run.setback,
           site.has_party_walls ? 0 : run.setback,
-          {site.border_distance + (site.has_border_walls ? 0 : run.setback), site.street_distance + run.setback}};
+          {site.border_distance + (site.has_border_walls ? 0 : run.setback), site.street_distance + run.setback,
+           site.exclusion_distance + run.setback}};
 }
 
 PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run) {
@@ -41,7 +42,7 @@ PlateOffset courtyard_offset(const StandingSite& site, const StoreyRun& run) {
   const double own = depth(site.depth), wing = depth(std::min(site.depth, site.wing_depth));
   return {outer.own + own,
           outer.neighbour + (site.has_party_walls ? wing : own),
-          {outer.plot.border + (site.has_border_walls ? wing : own), outer.plot.street + own}};
+          {outer.plot.border + (site.has_border_walls ? wing : own), outer.plot.street + own, outer.plot.left_out + own}};
 }
 
 bool leaves_form(const StandingSite& site, const PlateOffset& offset) {

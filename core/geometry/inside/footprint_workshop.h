@@ -15,7 +15,7 @@ namespace bl::geometry {
 struct FootprintDiagram::Workshop {
   static constexpr std::size_t kMostUnused = 64;  // distances that plots are kept eroded by
 
-  Domain domain;
+  Domain domain, land;  // without land: the domain leaves out nothing
   std::vector<StreetAxis> streets;
   bool has_plot = false;
   PlanPlot plot;

@@ -10,10 +10,11 @@ namespace bl::geometry {
 
 /// What lies beyond a side. Numbers from 0 on are sites.
 struct PlanSide {
-  static constexpr std::int32_t kPlot = -1;    ///< the border of the plot
-  static constexpr std::int32_t kForm = -2;    ///< a side of the site's own form
-  static constexpr std::int32_t kInner = -3;   ///< another convex piece of the same plot: no wall
-  static constexpr std::int32_t kStreet = -4;  ///< the border of the plot along a street
+  static constexpr std::int32_t kPlot = -1;     ///< the border of the plot
+  static constexpr std::int32_t kForm = -2;     ///< a side of the site's own form
+  static constexpr std::int32_t kInner = -3;    ///< another convex piece of the same plot: no wall
+  static constexpr std::int32_t kStreet = -4;   ///< the border of the plot along a street
+  static constexpr std::int32_t kLeftOut = -5;  ///< ground inside the border of the plot that the plot leaves out
 };
 
 struct PlanPoint {

@@ -2,33 +2,26 @@
 #include "core/geometry/inside/plan_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <numbers>
-#include <optional>
 #include <utility>
 
 #include <clipper.hpp>
 
 #include "core/base/mathematics.h"
 #include "core/geometry/inside/plan_pieces.h"
+#include "core/geometry/inside/plot_border.h"
 #include "core/geometry/polygon_triangles.h"
 
 namespace bl::geometry {
 
 namespace {
 
-constexpr double kGrid = 1e8;  // steps of the Clipper library's integers in a metre
-// About the largest distance of a chord from its arc [m]: of arcs that are seen whole, so that the area is right all the same,
-// and of others.
-constexpr double kArcTolerance = 1e-4, kPartTolerance = 4e-6;
-constexpr ClipperLib::cInt kSameStep = 4;
-constexpr double kStripMargin = 1e-6;  // [m]
 // The section is taken at this share of the height: at the bottom itself planes of several pieces meet.
 constexpr double kSectionShare = 1e-3;
+// Sides of the plot this near to the border of the land lie on it: both come from the same corners, but for rounding [m].
+constexpr double kOnBorder = 1e-5;
 
 // The section of a convex body, which all of its planes cut from a box around it.
 PlanPolygon section_of(const Domain::Piece& piece, double z) {
@@ -61,118 +54,29 @@ PlanPlot::Piece piece_of(PlanPolygon polygon) {
   return piece;
 }
 
-// Places on the grid. Corners of several pieces at one place get the same numbers, whichever way each was rounded: those of the
-// first one that is near enough.
-class PlotGrid {
- public:
-  explicit PlotGrid(const PlanPoint& origin) : origin_(origin) {}
-
-  std::size_t number_of(const PlanPoint& p) {
-    const ClipperLib::IntPoint at = exactly(p);
-    const Square square = square_of(at);
-    std::size_t first = known_.size();
-    for (ClipperLib::cInt x = square.first - 1; x <= square.first + 1; ++x)
-      for (ClipperLib::cInt y = square.second - 1; y <= square.second + 1; ++y)
-        if (const auto found = squares_.find({x, y}); found != squares_.end())
-          for (const std::size_t k : found->second)
-            if (std::abs(known_[k].X - at.X) <= kSameStep && std::abs(known_[k].Y - at.Y) <= kSameStep)
-              first = std::min(first, k);
-    if (first < known_.size()) return first;
-    squares_[square].push_back(first);
-    known_.push_back(at);
-    return first;
+// The sections of a domain that have an area.
+PlanPlot::Pieces pieces_at(const Domain& domain, double z) {
+  PlanPlot::Pieces pieces;
+  for (const Domain::Piece& piece : domain.pieces) {
+    PlanPolygon polygon = section_of(piece, z);
+    if (!polygon.is_empty() && area_of(polygon) > 0) pieces.push_back(piece_of(std::move(polygon)));
   }
-  std::size_t count() const { return known_.size(); }
-  ClipperLib::IntPoint of(const PlanPoint& p) { return known_[number_of(p)]; }
-  ClipperLib::IntPoint exactly(const PlanPoint& p) const { return {step(p.x - origin_.x), step(p.y - origin_.y)}; }
-  PlanCorner back(const ClipperLib::IntPoint& p, std::size_t number) const {
-    return {origin_.x + static_cast<double>(p.X) / kGrid, origin_.y + static_cast<double>(p.Y) / kGrid, number};
-  }
+  return pieces;
+}
 
- private:
-  using Square = std::pair<ClipperLib::cInt, ClipperLib::cInt>;
-
-  static ClipperLib::cInt step(double metres) { return static_cast<ClipperLib::cInt>(std::llround(metres * kGrid)); }
-  // Places that are the same lie in one square or in squares side by side.
-  static Square square_of(const ClipperLib::IntPoint& p) {
-    const auto of = [](ClipperLib::cInt at) { return at / kSameStep - (at % kSameStep < 0 ? 1 : 0); };
-    return {of(p.X), of(p.Y)};
-  }
-
-  PlanPoint origin_;
-  std::vector<ClipperLib::IntPoint> known_;
-  std::map<Square, std::vector<std::size_t>> squares_;
-};
-
-// A side of the border, with the inside on its left; `normal` points inwards. Nothing is built nearer than `by` to it [m].
-struct BorderSide {
-  PlanPoint from, to, normal;
-  double by = 0;
-};
-
-std::vector<BorderSide> border_of(const PlanPlot::Pieces& pieces, const PlotOffset& by) {
+// The sides of the border, or those of ground that is left out.
+std::vector<BorderSide> sides_of(const PlanPlot::Pieces& pieces, const PlotOffset& by, bool is_left_out) {
   std::vector<BorderSide> sides;
   for (const PlanPlot::Piece& piece : pieces)
     for (std::size_t k = 0; k < piece.polygon.corners.size(); ++k) {
       const PlanPolygon::Corner& a = piece.polygon.corners[k];
       const PlanPoint& b = piece.polygon.corners[(k + 1) % piece.polygon.corners.size()].at;
       const double x = b.x - a.at.x, y = b.y - a.at.y, length = std::sqrt(x * x + y * y);
-      if (a.beyond != PlanSide::kInner && length > 0)
-        sides.push_back({a.at, b, {-y / length, x / length}, a.beyond == PlanSide::kStreet ? by.street : by.border});
+      if (a.beyond == PlanSide::kInner || (a.beyond == PlanSide::kLeftOut) != is_left_out || !(length > 0)) continue;
+      const double away = is_left_out ? by.left_out : a.beyond == PlanSide::kStreet ? by.street : by.border;
+      sides.push_back({a.at, b, {-y / length, x / length}, away});
     }
   return sides;
-}
-
-// The sector of a disc about a corner, from one direction clockwise to another one.
-struct Fan {
-  PlanPoint at, from, to;
-  double by = 0;                     // [m]
-  double tolerance = kArcTolerance;  // [m]
-};
-
-// Where all sides have one distance: what is too near to an inner corner lies between the feet of its two sides, or in front of
-// one of them.
-std::optional<Fan> fan_between(const BorderSide& before, const BorderSide& after) {
-  const PlanPoint &n = before.normal, &m = after.normal;
-  // To the right of the way, by more than rounding does.
-  const bool is_inner = n.x * m.y - n.y * m.x < -1e-9;
-  return is_inner ? std::optional<Fan>({after.from, n, m, before.by, kArcTolerance}) : std::nullopt;
-}
-
-// Both ends of a side. Where distances differ, what is too near to one may lie behind another side.
-std::array<Fan, 2> ends_of(const BorderSide& side) {
-  const PlanPoint &n = side.normal, opposite{-n.x, -n.y};
-  return {Fan{side.from, opposite, n, side.by, kPartTolerance}, Fan{side.to, n, opposite, side.by, kPartTolerance}};
-}
-
-// With chords in place of its arc that cut as much away as they add, so that the area is that of the sector.
-ClipperLib::Path path_of(const Fan& fan, PlotGrid& grid) {
-  const PlanPoint &n = fan.from, &m = fan.to, &at = fan.at;
-  const double by = fan.by;
-  double angle = mathematics::arc_tangent(n.y * m.x - n.x * m.y, n.x * m.x + n.y * m.y);
-  if (angle < 0) angle += 2 * std::numbers::pi;
-  const double widest = 2 * std::sqrt(2 * fan.tolerance / by);
-  const int count = std::clamp(static_cast<int>(std::ceil(angle / widest)), 3, 4096);
-  const double step = angle / count, inner = count - 2.0;
-  const double radius = by * (std::sqrt(1 + inner * angle / mathematics::sine(step)) - 1) / inner;
-  ClipperLib::Path path{grid.of(at), grid.exactly({at.x + by * n.x, at.y + by * n.y})};
-  for (int k = 1; k < count; ++k) {
-    const double x = mathematics::cosine(k * step), y = -mathematics::sine(k * step);
-    path.push_back(grid.exactly({at.x + radius * (n.x * x - n.y * y), at.y + radius * (n.x * y + n.y * x)}));
-  }
-  path.push_back(grid.exactly({at.x + by * m.x, at.y + by * m.y}));
-  return path;
-}
-
-// What is in front of a side, and where distances differ as far behind it. Longer and wider by next to nothing, so that strips,
-// sectors and the border have no sides in common.
-ClipperLib::Path strip_of(const BorderSide& side, bool is_behind, const PlotGrid& grid) {
-  const PlanPoint& n = side.normal;
-  const double by = side.by, behind = is_behind ? by : kStripMargin;
-  const PlanPoint a{side.from.x - kStripMargin * n.y, side.from.y + kStripMargin * n.x},
-      b{side.to.x + kStripMargin * n.y, side.to.y - kStripMargin * n.x};
-  return {grid.exactly({a.x - behind * n.x, a.y - behind * n.y}), grid.exactly({b.x - behind * n.x, b.y - behind * n.y}),
-          grid.exactly({b.x + by * n.x, b.y + by * n.y}), grid.exactly({a.x + by * n.x, a.y + by * n.y})};
 }
 
 // Does a side of the border run along one of the streets?
@@ -261,53 +165,87 @@ std::vector<PlanPolygon> sections_at(const Domain& domain, double z, const PlanP
   return sections;
 }
 
-Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetAxis> streets) {
+Result<PlanPlot> PlanPlot::section(const Domain& domain, std::span<const StreetAxis> streets, const Domain* land) {
   PlanPlot plot;
   const double z = domain.minimum.z + kSectionShare * (domain.maximum.z - domain.minimum.z);
-  for (const Domain::Piece& piece : domain.pieces) {
-    PlanPolygon polygon = section_of(piece, z);
-    const double area = polygon.is_empty() ? 0 : area_of(polygon);
-    if (!(area > 0)) continue;
-    plot.area_ += area;
-    plot.mark_sides(polygon, streets);
-    plot.pieces_.push_back(piece_of(std::move(polygon)));
-  }
+  plot.pieces_ = pieces_at(domain, z);
   if (plot.pieces_.empty())
     return Error{ErrorCode::infeasible, "boundary", "the boundary has no area on its ground, so nothing can stand there"};
-  plot.low_ = plot.pieces_.front().low;
-  plot.high_ = plot.pieces_.front().high;
-  for (const Piece& piece : plot.pieces_) {
-    plot.low_ = {std::min(plot.low_.x, piece.low.x), std::min(plot.low_.y, piece.low.y)};
-    plot.high_ = {std::max(plot.high_.x, piece.high.x), std::max(plot.high_.y, piece.high.y)};
-  }
-  constexpr double kRounding = 1 + 1e-9;
-  const double width = plot.high_.x - plot.low_.x, depth = plot.high_.y - plot.low_.y;
-  plot.widest_ = 0.5 * kRounding * std::min(width, depth);
-  plot.farthest_ = kRounding * mathematics::hypotenuse(width, depth);
+  for (const Piece& piece : plot.pieces_) plot.area_ += area_of(piece.polygon);
+  if (land != nullptr)
+    if (Pieces whole = pieces_at(*land, z); plot.mark_left_out(whole)) plot.land_ = std::move(whole);
+  mark_streets(plot.pieces_, streets);
+  mark_streets(plot.land_, streets);
+  for (const Piece& piece : plot.bordered())
+    for (const PlanPolygon::Corner& corner : piece.polygon.corners) {
+      plot.has_streets_ = plot.has_streets_ || corner.beyond == PlanSide::kStreet;
+      plot.has_borders_ = plot.has_borders_ || corner.beyond == PlanSide::kPlot;
+    }
+  plot.measure_box();
   return plot;
 }
 
-void PlanPlot::mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets) {
-  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
-    PlanPolygon::Corner& corner = polygon.corners[k];
-    if (corner.beyond != PlanSide::kPlot) continue;
-    const bool is_street = is_along(corner.at, polygon.corners[(k + 1) % polygon.corners.size()].at, streets);
-    if (is_street) corner.beyond = PlanSide::kStreet;
-    (is_street ? has_streets_ : has_borders_) = true;
-  }
+void PlanPlot::measure_box() {
+  low_ = pieces_.front().low;
+  high_ = pieces_.front().high;
+  const auto widen = [](const Pieces& pieces, PlanPoint& low, PlanPoint& high) {
+    for (const Piece& piece : pieces) {
+      low = {std::min(low.x, piece.low.x), std::min(low.y, piece.low.y)};
+      high = {std::max(high.x, piece.high.x), std::max(high.y, piece.high.y)};
+    }
+  };
+  widen(pieces_, low_, high_);
+  PlanPoint low = low_, high = high_;
+  widen(land_, low, high);
+  constexpr double kRounding = 1 + 1e-9;
+  const double width = high.x - low.x, depth = high.y - low.y;
+  widest_ = 0.5 * kRounding * std::min(width, depth);
+  farthest_ = kRounding * mathematics::hypotenuse(width, depth);
+}
+
+bool PlanPlot::mark_left_out(const Pieces& land) {
+  const std::vector<BorderSide> border = sides_of(land, {}, false);
+  const auto is_on_border = [&border](const PlanPoint& p) {
+    return std::ranges::any_of(border, [&p](const BorderSide& side) {
+      const double x = side.to.x - side.from.x, y = side.to.y - side.from.y;
+      const double t = std::clamp(((p.x - side.from.x) * x + (p.y - side.from.y) * y) / (x * x + y * y), 0.0, 1.0);
+      return mathematics::hypotenuse(p.x - side.from.x - t * x, p.y - side.from.y - t * y) <= kOnBorder;
+    });
+  };
+  bool has_any = false;
+  for (Piece& piece : pieces_)
+    for (std::size_t k = 0; k < piece.polygon.corners.size(); ++k) {
+      PlanPolygon::Corner& corner = piece.polygon.corners[k];
+      const PlanPoint& next = piece.polygon.corners[(k + 1) % piece.polygon.corners.size()].at;
+      if (corner.beyond != PlanSide::kPlot) continue;
+      if (is_on_border({0.5 * (corner.at.x + next.x), 0.5 * (corner.at.y + next.y)})) continue;
+      corner.beyond = PlanSide::kLeftOut;
+      has_any = true;
+    }
+  return has_any;
+}
+
+void PlanPlot::mark_streets(Pieces& pieces, std::span<const StreetAxis> streets) {
+  for (Piece& piece : pieces)
+    for (std::size_t k = 0; k < piece.polygon.corners.size(); ++k) {
+      PlanPolygon::Corner& corner = piece.polygon.corners[k];
+      const PlanPoint& next = piece.polygon.corners[(k + 1) % piece.polygon.corners.size()].at;
+      if (corner.beyond == PlanSide::kPlot && is_along(corner.at, next, streets)) corner.beyond = PlanSide::kStreet;
+    }
 }
 
 PlotOffset PlanPlot::effective(const PlotOffset& by) const {
-  return {has_borders_ ? by.border : by.street, has_streets_ ? by.street : by.border};
+  return {has_borders_ ? by.border : by.street, has_streets_ ? by.street : by.border, land_.empty() ? 0 : by.left_out};
 }
 
 const PlanPlot::Pieces& PlanPlot::eroded(const PlotOffset& asked) {
   const PlotOffset by = effective(asked);
-  if (!(by.border > 0 || by.street > 0)) return pieces_;
+  if (!(by.border > 0 || by.street > 0 || by.left_out > 0)) return pieces_;
   // A depth that is meant as none would cost discs of its radius about all corners.
   if (is_too_far(by)) return none_;
   const auto [entry, is_new] = eroded_.try_emplace(by);
-  if (is_new) entry->second = pieces_.size() == 1 && by.border == by.street ? erode_convex(by.border) : erode_rings(by);
+  const bool is_plain = pieces_.size() == 1 && land_.empty() && by.border == by.street;
+  if (is_new) entry->second = is_plain ? erode_convex(by.border) : erode_rings(by);
   return entry->second;
 }
 
@@ -319,7 +257,7 @@ void PlanPlot::keep_only(std::vector<PlotOffset> used) {
 
 const PlanPlot::Pieces* PlanPlot::made(const PlotOffset& asked) const {
   const PlotOffset by = effective(asked);
-  if (!(by.border > 0 || by.street > 0)) return &pieces_;
+  if (!(by.border > 0 || by.street > 0 || by.left_out > 0)) return &pieces_;
   if (is_too_far(by)) return &none_;
   const auto entry = eroded_.find(by);
   return entry == eroded_.end() ? nullptr : &entry->second;
@@ -354,29 +292,8 @@ PlanPlot::Pieces PlanPlot::erode_rings(const PlotOffset& by) const {
   ClipperLib::Clipper clipper;
   clipper.StrictlySimple(true);
   clipper.AddPaths(whole, ClipperLib::ptSubject, true);
-  const std::vector<BorderSide> border = border_of(pieces_, by);
-  const bool is_mixed = by.border != by.street;
-  const auto take_away = [&clipper, &grid](const Fan& fan) {
-    ClipperLib::Path path = path_of(fan, grid);
-    if (!ClipperLib::Orientation(path)) ClipperLib::ReversePath(path);
-    clipper.AddPath(path, ClipperLib::ptClip, true);
-  };
-  std::vector<std::vector<std::size_t>> leaving;  // per corner: the sides that begin there
-  for (std::size_t k = 0; !is_mixed && k < border.size(); ++k) {
-    const std::size_t corner = grid.number_of(border[k].from);
-    leaving.resize(grid.count());
-    leaving[corner].push_back(k);
-  }
-  // A strip along each side, and about corners what the strips of both sides leave out.
-  for (const BorderSide& side : border) {
-    if (!(side.by > 0)) continue;
-    clipper.AddPath(strip_of(side, is_mixed, grid), ClipperLib::ptClip, true);
-    if (is_mixed)
-      for (const Fan& end : ends_of(side)) take_away(end);
-    const std::size_t corner = is_mixed ? leaving.size() : grid.number_of(side.to);
-    for (std::size_t k = 0; corner < leaving.size() && k < leaving[corner].size(); ++k)
-      if (const std::optional<Fan> fan = fan_between(side, border[leaving[corner][k]])) take_away(*fan);
-  }
+  take_away(sides_of(bordered(), by, false), by.border != by.street ? SideEnds::both : SideEnds::between, grid, clipper);
+  take_away(sides_of(pieces_, by, true), SideEnds::of_lines, grid, clipper);
   ClipperLib::PolyTree tree;
   clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   Pieces pieces;

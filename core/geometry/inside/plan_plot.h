@@ -17,8 +17,9 @@ namespace bl::geometry {
 
 /// How far inside each kind of side [m].
 struct PlotOffset {
-  double border = 0;  ///< of the border where that is no street
-  double street = 0;  ///< of sides along streets
+  double border = 0;    ///< of the border where that is no street
+  double street = 0;    ///< of sides along streets
+  double left_out = 0;  ///< of ground inside the border that the plot leaves out
   auto operator<=>(const PlotOffset&) const = default;
 };
 
@@ -35,8 +36,9 @@ class PlanPlot {
   };
   using Pieces = std::vector<Piece>;
 
-  /// The horizontal section of the domain a little above its bottom.
-  static Result<PlanPlot> section(const Domain& domain, std::span<const StreetAxis> streets = {});
+  /// The horizontal section of the domain a little above its bottom. `land`: the same with the ground that it leaves out, whose
+  /// border then is the border of the plot; nullptr: the domain leaves out nothing.
+  static Result<PlanPlot> section(const Domain& domain, std::span<const StreetAxis> streets = {}, const Domain* land = nullptr);
 
   /// All points of the plot that lie at least so far [m] from each side of its border. Exact for a convex plot with one distance.
   /// Else arcs about corners are chords with the area of their sectors, on a grid of ten nanometres. Kept until `keep_only`:
@@ -54,16 +56,23 @@ class PlanPlot {
  private:
   Pieces erode_convex(double by) const;
   Pieces erode_rings(const PlotOffset& by) const;
-  void mark_sides(PlanPolygon& polygon, std::span<const StreetAxis> streets);
+  // Tells the sides of ground that is left out from those of the border of the land. Are there any?
+  bool mark_left_out(const Pieces& land);
+  static void mark_streets(Pieces& pieces, std::span<const StreetAxis> streets);
+  // The pieces whose sides are the border.
+  const Pieces& bordered() const { return land_.empty() ? pieces_ : land_; }
+  // The box around both, by which distances are too far.
+  void measure_box();
   // Without sides of one kind their distance makes no difference.
   PlotOffset effective(const PlotOffset& by) const;
   // Is no point so far from the sides, whatever the plot is like inside its box? A disc in it is no wider than the box, and no
   // two points are farther apart than the corners of the box.
   bool is_too_far(const PlotOffset& by) const {
-    return std::min(by.border, by.street) > widest_ || std::max(by.border, by.street) > farthest_;
+    return std::min(by.border, by.street) > widest_ || std::max({by.border, by.street, by.left_out}) > farthest_;
   }
 
   Pieces pieces_;  // as they are
+  Pieces land_;    // with the ground that is left out; none where nothing is
   double area_ = 0;
   PlanPoint low_, high_;
   double widest_ = 0, farthest_ = 0;                // half of its smaller side, and its diagonal [m], with room for rounding

@@ -228,5 +228,67 @@ TEST(FacadeWalls, GoRoundTheStoreyAndItsCourtyard) {
   EXPECT_NEAR(covered, 3.14159265358979 * (100 - (10 - kThick) * (10 - kThick)), 0.02);
 }
 
+// What lies within 3 m of a square of 4 m, as distances from corners are cut: arcs in chords between the sides.
+geometry::PlateRing ring_with_chords(int chords) {
+  geometry::PlateRing ring;
+  const double quarter = std::acos(0.0);
+  for (int corner = 0; corner < 4; ++corner)
+    for (int k = 0; k <= chords; ++k) {
+      const double angle = quarter * (corner + static_cast<double>(k) / chords);
+      const double x = corner == 0 || corner == 3 ? 2 : -2, y = corner < 2 ? 2 : -2;
+      ring.corners.push_back({{x + 3 * std::cos(angle), y + 3 * std::sin(angle), 0}, geometry::PlateRing::kPlot, false});
+    }
+  return ring;
+}
+
+TEST(FacadeWalls, ChordsOfACurveHaveOneWallTogether) {
+  constexpr double kThick = 0.3;
+  for (const bool is_courtyard : {false, true}) {
+    Storey storey;
+    const geometry::PlateRing ring = ring_with_chords(96);
+    (is_courtyard ? storey.courtyards : storey.rings).push_back(ring);
+    const std::vector<FacadeWall> walls = facade_walls(storey, {}, kThick);
+    EXPECT_EQ(walls.size(), 8u) << "four sides and four curves: there were 388";
+    // In mitres, walls together are the perimeter times the thickness, less the square of it and the tangent of half of each
+    // turn.
+    double around = 0, mitres = 0, along = 0, covered = 0;
+    const std::size_t count = ring.corners.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Point3 &a = ring.corners[k].at, &b = ring.corners[(k + 1) % count].at, &c = ring.corners[(k + 2) % count].at;
+      around += distance(a, b);
+      const Vector3 u = (b - a) / distance(a, b), v = (c - b) / distance(b, c);
+      mitres += std::tan(std::atan2(u.x * v.y - u.y * v.x, dot(u, v)) / 2);
+    }
+    for (const FacadeWall& wall : walls) {
+      EXPECT_GT(geometry::signed_area(wall.outline), 0);
+      EXPECT_FALSE(geometry::find_self_crossing(wall.outline));
+      along += wall.length;
+      covered += geometry::signed_area(wall.outline);
+    }
+    EXPECT_NEAR(along, around, 1e-9);
+    EXPECT_NEAR(covered, around * kThick - (is_courtyard ? -1 : 1) * kThick * kThick * mitres, 1e-9);
+  }
+}
+
+// A tree in the middle of a house: its wall is a circle of chords, and does not touch itself.
+TEST(FacadeWalls, AWholeCircleOfChordsHasSeveralWalls) {
+  Storey storey;
+  geometry::PlateRing& hole = storey.rings.emplace_back();
+  double around = 0;
+  for (int k = 0; k < 64; ++k) {
+    const double angle = -k * std::acos(0.0) / 16;
+    hole.corners.push_back({{2 * std::cos(angle), 2 * std::sin(angle), 0}, geometry::PlateRing::kPlot, false});
+  }
+  for (std::size_t k = 0; k < 64; ++k) around += distance(hole.corners[k].at, hole.corners[(k + 1) % 64].at);
+  const std::vector<FacadeWall> walls = facade_walls(storey, {}, 0.3);
+  EXPECT_EQ(walls.size(), 3u);
+  double along = 0;
+  for (const FacadeWall& wall : walls) {
+    EXPECT_FALSE(geometry::find_self_crossing(wall.outline));
+    along += wall.length;
+  }
+  EXPECT_NEAR(along, around, 1e-9);
+}
+
 }  // namespace
 }  // namespace bl::exporting

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/parallel.h"
+#include "core/geometry/site_domain.h"
 #include "tests/core/geometry/standing_zoo.h"
 
 namespace bl::test {
@@ -331,6 +332,44 @@ TEST(Footprint, EachKindOfSideHasItsDistance) {
   // and shares with the east what lies between the bisector and both: 25 tan(22.5 deg); the east 100 shares 25 with the north.
   const double slope = 5 * 20 * std::sqrt(2.0), sector = 25 * kUnitDisc / 8, wedge = 25 * std::tan(kUnitDisc / 8);
   EXPECT_NEAR(wide->front().plates[0], 2200 - (200 + 300 - 25) - (slope + sector) - (100 - 25) + wedge, 1e-4);
+}
+
+// What is left of 40 m by 40 m for one volume, where the plot leaves out one polygon.
+double left_beside(const std::vector<Point3>& gone, double border, double exclusion, double setback = 0) {
+  const std::vector<Point3> plan{{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 0}};
+  const auto domain = geometry::site_domain({plan, {}, 0, 60, {}, {{gone, 0, 60}}});
+  EXPECT_TRUE(domain) << domain.error().text();
+  const geometry::Domain land = square_of_40();
+  FootprintDiagram diagram;
+  EXPECT_TRUE(diagram.set_domain(*domain, {}, &land));
+  StandingSite alone = round_one(10, 10, 0);
+  alone.form = FootprintForm::cell;
+  alone.runs = {{1, setback}};
+  alone.border_distance = alone.street_distance = border;
+  alone.exclusion_distance = exclusion;
+  const auto found = diagram.update(std::vector<StandingSite>{alone});
+  EXPECT_TRUE(found) << found.error().text();
+  return found->front().plates[0];
+}
+
+// The border of the plot is one thing, a tree or a street inside it another one.
+TEST(Footprint, GroundThatIsLeftOutHasADistanceOfItsOwn) {
+  const std::vector<Point3> pit{{18, 18, 0}, {22, 18, 0}, {22, 22, 0}, {18, 22, 0}};
+  EXPECT_NEAR(left_beside(pit, 0, 0), 1600 - 16, 1e-9);
+  EXPECT_NEAR(left_beside(pit, 3, 0), 34 * 34 - 16, 1e-4) << "the border alone has 3 m";
+  EXPECT_NEAR(left_beside(pit, 3, 1), 34 * 34 - 16 - 16 - kUnitDisc, 1e-4) << "1 m about the pit, round at its corners";
+  EXPECT_NEAR(left_beside(pit, 0, 1), 1600 - 16 - 16 - kUnitDisc, 1e-4);
+  EXPECT_NEAR(left_beside(pit, 3, 1, 1), 32 * 32 - 16 - 4 * 4 * 2 - 4 * kUnitDisc, 1e-4) << "upper storeys step back from both";
+  EXPECT_EQ(left_beside(pit, 0, 57), 0) << "no place is so far from it";
+  // A street that takes a strip of the border: the border behind it still counts.
+  const std::vector<Point3> street{{39, -5, 0}, {45, -5, 0}, {45, 45, 0}, {39, 45, 0}};
+  EXPECT_NEAR(left_beside(street, 3, 0), 34 * 34, 1e-4);
+  EXPECT_NEAR(left_beside(street, 0, 0), 39 * 40, 1e-9);
+  EXPECT_NEAR(left_beside(street, 3, 5), 31 * 34, 1e-4);
+  // A pond at the border, wider there than inside: about its ends there are parts of a disc.
+  const std::vector<Point3> pond{{16, -4, 0}, {28, -4, 0}, {24, 4, 0}, {20, 4, 0}};
+  const double around = 24 + 10 * std::sqrt(20.0) + 20 + 12.5 * kUnitDisc;
+  EXPECT_NEAR(left_beside(pond, 0, 5), 1600 - around, 1e-4);
 }
 
 // A block of 20 m by 16 m whose eastern side comes to lie behind the wall that it shares with a neighbour. Its floor follows the

@@ -397,6 +397,15 @@ TEST(OsmContext, AWayThatIsListedTwiceIsOneOutline) {
   EXPECT_EQ(reason_of(context->report, "r3"), "repaired: building");
 }
 
+TEST(OsmTags, TracksTakeGroundWhereTheyAreInUseAndNotBelowIt) {
+  EXPECT_EQ(osm_rail({{"railway", "rail"}}), "rail");
+  EXPECT_EQ(osm_rail({{"railway", "tram"}, {"tunnel", "no"}}), "tram");
+  EXPECT_EQ(osm_rail({{"railway", "subway"}, {"tunnel", "yes"}}), "");
+  EXPECT_EQ(osm_rail({{"railway", "abandoned"}}), "");
+  EXPECT_EQ(osm_rail({{"railway", "platform"}}), "");
+  EXPECT_EQ(osm_rail({}), "");
+}
+
 TEST(OsmTags, RoadsForFewAreNotDrivenThrough) {
   for (const char* value : {"agricultural", "forestry", "delivery", "customers"}) {
     const OsmRoad road = osm_road({{"highway", "track"}, {"motor_vehicle", value}});

@@ -56,6 +56,37 @@ TEST_F(Add, RulesHoldThePlotThatTheBoundaryBecomes) {
   EXPECT_EQ(added_node(scene, "site")["types"]["plot"]["gsi_max"], 0.4);
 }
 
+// They are added all the same: who wants other storeys next may want the rule first.
+TEST_F(Add, RulesThatNothingCanKeepAreTold) {
+  const Outcome low = add({"rules", "--height", "2", "--setback", "23"});
+  ASSERT_EQ(low.code, 0) << low.err;
+  EXPECT_NE(low.out.find("Warning: no volume can be as low as 2 m: the lowest has 3.00 m with its least number of storeys."),
+            std::string::npos)
+      << low.out;
+  EXPECT_NE(low.out.find("Warning: a setback of 23 m leaves nothing of `site` to build on"), std::string::npos) << low.out;
+  const Outcome some = add({"rules", "--height", "3.1", "--setback", "21"});
+  EXPECT_NE(some.out.find("Warning: 1 of 2 volumes cannot be as low as 3.1 m: `offices` is higher"), std::string::npos)
+      << some.out;
+  EXPECT_EQ(some.out.find("leaves nothing"), std::string::npos) << "2 m by 38 m are left; " << some.out;
+  const Outcome sound = add({"rules", "--height", "12", "--setback", "3"});
+  EXPECT_EQ(sound.out.find("Warning"), std::string::npos) << sound.out;
+}
+
+TEST_F(Add, AGardenFarFromTheSiteIsTold) {
+  const std::string before = place.text("s.json");
+  const Outcome near = add({"garden", "--corners", "-12,40", "12,40", "12,52", "-12,52"});
+  ASSERT_EQ(near.code, 0) << near.err;
+  EXPECT_NE(near.out.find("The garden lies outside of the site, 18.0 m from the boundary `site`"), std::string::npos) << near.out;
+  EXPECT_EQ(near.out.find("Warning"), std::string::npos) << near.out;
+  place.write("s.json", before);
+  const Outcome far = add({"garden", "--corners", "1000,1000", "1020,1000", "1020,1020", "1000,1020"});
+  ASSERT_EQ(far.code, 0) << far.err;
+  EXPECT_NE(far.out.find("Warning: the garden lies 1370 m from the boundary `site`, which is 40 m high"), std::string::npos)
+      << far.out;
+  place.write("s.json", before);
+  EXPECT_EQ(add({"garden", "--corners", "0,0", "10,0", "10,10", "0,10"}).out.find("outside of the site"), std::string::npos);
+}
+
 TEST_F(Add, AGardenBringsItsSunAndHoldsIt) {
   const Outcome done = add({"garden", "--corners", "-12,40", "12,40", "12,52", "-12,52", "--hours", "9", "--date", "2026-06-21"});
   ASSERT_EQ(done.code, 0) << done.err;

@@ -1,4 +1,4 @@
-// `import --keep-clear`: streets, water and green of a file as ground that a site leaves out.
+// `import --keep-clear`: streets, rails, water and green of a file as ground that a site leaves out.
 #include <gtest/gtest.h>
 
 #include "core/making/site_grounds.h"
@@ -75,6 +75,104 @@ std::string square_ring(int west, int south, int width, int depth) {
   const std::string w = std::to_string(85000 + west), e = std::to_string(85000 + west + width);
   const std::string s = std::to_string(447000 + south), n = std::to_string(447000 + south + depth);
   return "[" + w + "," + s + "],[" + e + "," + s + "],[" + e + "," + n + "],[" + w + "," + n + "],[" + w + "," + s + "]";
+}
+
+// City models draw streets as surfaces; a road round a block is not the block.
+TEST_F(KeepClear, StreetsAndRailsOfCityModelsAreKeptClear) {
+  place.write("roads.city.json", R"({"type": "CityJSON", "version": "2.0",
+    "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/28992"},
+    "transform": {"scale": [1, 1, 1], "translate": [85000, 447000, 0]},
+    "vertices": [[10,10,0],[50,10,0],[50,50,0],[10,50,0], [20,20,0],[40,20,0],[40,40,0],[20,40,0],
+                 [60,0,0],[70,0,0],[70,80,0],[60,80,0], [80,0,0],[84,0,0],[84,10,0],[80,10,0]],
+    "CityObjects": {
+      "ring": {"type": "Road", "attributes": {"function": "grass verge"}, "geometry": [{"type": "MultiSurface", "lod": "1",
+        "boundaries": [[[0,1,2,3],[4,7,6,5]]]}]},
+      "line": {"type": "Railway", "geometry": [{"type": "MultiSurface", "lod": "1", "boundaries": [[[8,9,10,11]]]}]},
+      "ditch": {"type": "Waterway", "geometry": [{"type": "MultiSurface", "lod": "1", "boundaries": [[[12,13,14,15]]]}]}}})");
+  const Outcome streets =
+      place.run({"import", "roads.city.json", "--into", "scene.json", "--keep-clear", "streets", "--out", "a.json"});
+  ASSERT_EQ(streets.code, 0) << streets.err;
+  EXPECT_NE(streets.out.find("leaves out the ground of 1 piece of street"), std::string::npos) << streets.out;
+  EXPECT_EQ(streets.out.find("No ground of"), std::string::npos) << streets.out;
+  EXPECT_NEAR(ground_area("a.json"), 8000 - (40 * 40 - 20 * 20), 1e-6) << "the block inside stays";
+  const Outcome all =
+      place.run({"import", "roads.city.json", "--into", "scene.json", "--keep-clear", "streets,rails,water", "--out", "b.json"});
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NEAR(ground_area("b.json"), 8000 - 1200 - 800 - 40, 1e-6);
+}
+
+// Tracks of OpenStreetMap are lines: 5 m of ground, unless they are below it.
+TEST_F(KeepClear, RailwaysOfMapsAreKeptClear) {
+  // Around the middle of the site, by its place on Earth: 50 m east and west of it.
+  const nlohmann::json settings = place.json("scene.json")["settings"];
+  const double latitude = settings.value("latitude", 0.0), longitude = settings.value("longitude", 0.0);
+  const auto at = [](double degrees) { return std::to_string(degrees); };
+  const auto way = [](const char* id, const std::string& tags) {
+    return std::string("<way id='") + id + "'><nd ref='1'/><nd ref='2'/>" + tags + "</way>";
+  };
+  const std::string nodes = "<node id='1' lat='" + at(latitude) + "' lon='" + at(longitude - 0.01) + "'/><node id='2' lat='" +
+                            at(latitude) + "' lon='" + at(longitude + 0.01) + "'/>";
+  const auto write = [&](const std::string& tags) {
+    place.write("rails.osm", "<?xml version='1.0'?><osm version='0.6'>" + nodes + way("7", tags) + "</osm>");
+  };
+  const auto import = [&](const std::string& out) {
+    return place.run({"import", "rails.osm", "--into", "scene.json", "--keep-clear", "rails", "--force", "--out", out});
+  };
+  write("<tag k='railway' v='rail'/>");
+  const Outcome rail = import("a.json");
+  ASSERT_EQ(rail.code, 0) << rail.err;
+  EXPECT_NE(rail.out.find("leaves out the ground of 1 piece of railway"), std::string::npos) << rail.out;
+  EXPECT_NEAR(8000 - ground_area("a.json"), 100 * 5, 2) << "across the whole site, which lies a little askew";
+  write("<tag k='railway' v='rail'/><tag k='tunnel' v='yes'/>");
+  const Outcome below = import("b.json");
+  EXPECT_EQ(below.out.find("piece of railway"), std::string::npos) << below.out;
+}
+
+TEST_F(KeepClear, WhatWasAskedForAndIsNotThereIsAWarning) {
+  const Outcome none =
+      place.run({"import", "streets.geojson", "--into", "scene.json", "--keep-clear", "streets,rails", "--out", "a.json"});
+  ASSERT_EQ(none.code, 0) << none.err;
+  EXPECT_NE(none.out.find("warning: No ground of `rails` is kept clear, although that was asked for: the files hold none."),
+            std::string::npos)
+      << none.out;
+  EXPECT_EQ(none.out.find("No ground of `streets`"), std::string::npos) << none.out;
+  place.write("away.geojson",
+              ground_file(ground_feature("[86000,447000],[86100,447000],[86100,447080],[86000,447080],[86000,447000]",
+                                         R"("gid": "lake", "natural": "water")")));
+  const Outcome away = place.run(
+      {"import", "away.geojson", "--as", "area", "--into", "scene.json", "--keep-clear", "water", "--force", "--out", "b.json"});
+  EXPECT_NE(away.out.find("No ground of `water` is kept clear, although that was asked for: of 1 in the files none reaches"),
+            std::string::npos)
+      << away.out;
+}
+
+// The pit of a tree is no reason for a hole in a house.
+TEST_F(KeepClear, SmallGreenIsBuiltOver) {
+  const auto lawn = [](const char* id, int x, int size) {
+    const auto corner = [&](int dx, int dy) {
+      return "[" + std::to_string(85000 + x + dx) + "," + std::to_string(447000 + dy) + "]";
+    };
+    return ground_feature(
+        corner(0, 0) + "," + corner(size, 0) + "," + corner(size, size) + "," + corner(0, size) + "," + corner(0, 0),
+        std::string(R"("landuse": "grass", "gid": ")") + id + "\"");
+  };
+  place.write("green.geojson", ground_file(lawn("pit", 10, 2) + "," + lawn("tree", 20, 3) + "," + lawn("lawn", 30, 10)));
+  const auto import = [&](std::vector<std::string> more, const std::string& out) {
+    more.insert(more.begin(),
+                {"import", "green.geojson", "--as", "area", "--into", "scene.json", "--keep-clear", "green", "--out", out});
+    return place.run(more);
+  };
+  const Outcome plain = import({}, "a.json");
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_NE(plain.out.find("does not leave out 2 areas of green with less than 10 m² of ground each (--least-green)"),
+            std::string::npos)
+      << plain.out;
+  EXPECT_NEAR(ground_area("a.json"), 8000 - 100, 1e-6);
+  ASSERT_EQ(import({"--least-green", "0"}, "b.json").code, 0);
+  EXPECT_NEAR(ground_area("b.json"), 8000 - 100 - 4 - 9, 1e-6);
+  const Outcome none = import({"--least-green", "200"}, "c.json");
+  EXPECT_NE(none.out.find("what reaches into a site is smaller than 200 m²"), std::string::npos) << none.out;
+  EXPECT_EQ(import({"--least-green=-1"}, "d.json").code, 2);
 }
 
 // An element is that of its source: the same id elsewhere is another one.

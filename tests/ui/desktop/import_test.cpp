@@ -88,6 +88,7 @@ TEST(WindowImport, KeepsStreetsClearWhereItsBoxIsChecked) {
   desktop.desktop().drop({street});
   desktop.frames(3);
   for (const char* ground : making::kClearGrounds) EXPECT_TRUE(desktop.has(std::string("import/clear/") + ground)) << ground;
+  EXPECT_TRUE(desktop.has("import/least green"));
   desktop.press_on("import/clear/green");
   desktop.press_on("import/clear/streets");
   desktop.press_on("import/clear/green");

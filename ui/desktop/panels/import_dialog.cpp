@@ -148,7 +148,7 @@ void Dialogs::draw_import_options() {
   ImGui::Checkbox("Buildings from outline and height only", &import_.is_extruded);
 }
 
-// `--keep-clear` of the command line.
+// `--keep-clear` and `--least-green` of the command line.
 void Dialogs::draw_kept_clear() {
   label(editor_->theme, "Keep clear of volumes", making::kKeepClearDoc);
   std::vector<std::string> kept;
@@ -159,7 +159,10 @@ void Dialogs::draw_kept_clear() {
     ImGui::SameLine();
     if (is_kept) kept.emplace_back(ground);
   }
-  ImGui::NewLine();
+  ImGui::SetNextItemWidth(editor_->theme.px(110));
+  ImGui::InputDouble("##least green", &import_.least_green, 0, 0, "from %.4g m\xc2\xb2");
+  note_place(*editor_, "import/least green");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", making::kLeastGreenDoc);
   import_.keep_clear = std::move(kept);
 }
 
@@ -270,8 +273,9 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
   }
   document.add_imports(imported.reports);
   std::vector<Problem> problems = editor_->problems;
-  for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
-  if (!imported.notes.empty())
+  for (const std::vector<std::string>* notes : {&imported.notes, &imported.warnings})
+    for (const std::string& note : *notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
+  if (!imported.notes.empty() || !imported.warnings.empty())
     editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
   std::size_t skipped = 0, repaired = 0;
   for (const auto& [file, report] : imported.reports) {
