@@ -1,6 +1,5 @@
 // Plans of all storeys as DXF R2000: metres, layers by storey and use, plots, surroundings, dimensions, title.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -8,6 +7,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
+#include "core/drawing/use_colours.h"
 #include "core/export/drawn_levels.h"
 #include "core/export/dxf_drawing.h"
 #include "core/export/format.h"
@@ -52,12 +52,6 @@ struct DxfFormat {
             "`none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
     declare_form_option(f);
-  }
-
-  // Of AutoCAD's list of colours, one for each use in turn.
-  static int colour_of(std::size_t use) {
-    constexpr std::array<int, 9> kColours = {30, 150, 10, 94, 50, 200, 62, 130, 252};
-    return kColours[use % kColours.size()];
   }
 
   struct DxfPlans {
@@ -225,10 +219,8 @@ struct DxfFormat {
         drawing.layer(name, colour);
       for (const Land& land : proposal.lands) faces(land.is_boundary ? "BOUNDARY" : "PLOT", land.faces, land.ground, {});
       if (options.surroundings) surroundings();
-      for (const Building& b : proposal.buildings) {
-        const std::size_t use = proposal.use_number(b.use);
-        for (const Storey* s : drawn_storeys(b)) storey(b, *s, colour_of(use));
-      }
+      for (const Building& b : proposal.buildings)
+        for (const Storey* s : drawn_storeys(b)) storey(b, *s, drawing::use_colour(b.use).cad);
       if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},
                    c = {extent.high.x, extent.high.y, 0};
