@@ -34,7 +34,8 @@ class PlanMaker : SheetFrame {
   }
 
   Result<PlanSheet> make() {
-    const PlanExtent extent = plan_extent(proposal_);
+    const bool is_all = options_.extent == DrawnExtent::all && options_.surroundings;
+    const PlanExtent extent = is_all ? whole_extent(proposal_) : plan_extent(proposal_);
     if (auto fit = choose_scale(extent.high.x - extent.low.x, extent.high.y - extent.low.y, options_.scale, "plan"); !fit)
       return fit.error();
     const double metres = sheet_.scale / 1000;

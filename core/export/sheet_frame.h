@@ -34,6 +34,10 @@ class SheetFrame {
   /// `what` the sheet shows, and its `figures` in the last line.
   void add_title(const std::string& what, const std::string& figures);
   void add_legend();
+  /// A text in its size, else in a smaller one, else cut off where its room ends [mm].
+  static SheetText fitted(SheetPoint place, double size, bool is_bold, std::string text, double room);
+  /// How many letters of a size are about as wide as the room.
+  static std::size_t letters_within(double room, double size);
   void add_scale_bar();
   void add_north();
 
