@@ -300,3 +300,4 @@ Result<PlanSheet> plan_sheet(const Proposal& proposal, const DrawnLevel& level, 
 }
 
 }  // namespace bl::exporting
+  if (auto met = check_level_cut(proposal, height); !met) return met.error();

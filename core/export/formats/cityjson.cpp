@@ -350,7 +350,8 @@ struct CityJsonFormat {
     document["transform"] = {{"scale", {kStep, kStep, kStep}}, {"translate", {place.origin_x, place.origin_y, 0}}};
     ExportFiles files;
     if (!place.crs.starts_with("EPSG:"))
-      files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene");
+      files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene" +
+                            way_to_system(proposal));
     if (made.uncut > 0)
       files.notes.push_back(reading::counted(made.uncut, "part") + (made.uncut == 1 ? " counts" : " count") +
                             " as roof or ceiling also where another one lies on it: no closed body has these cut out");

@@ -164,7 +164,8 @@ struct DxfFormat {
     }
 
     // At its true place and height, so that it lies in the model where it was cut.
-    void level_section(double height) {
+    Result<void> level_section(double height) {
+      if (auto met = check_level_cut(proposal, height); !met) return met;
       drawing.layer("SECTION-CUT", 5);
       drawing.layer("SECTION-TEXT", 7);
       for (const Building& b : proposal.buildings) faces("SECTION-CUT", level_part(b, height).faces, height, {});
@@ -175,7 +176,7 @@ struct DxfFormat {
     // Above the plans, where the height is the way up; the line in the plan has the letter of the section at its ends.
     Result<void> section() {
       if (options.section == "none") return {};
-      if (const auto height = level_cut(options.section)) return level_section(*height), Result<void>{};
+      if (const auto height = level_cut(options.section)) return level_section(*height);
       const auto cut = section_line(proposal, options.section == "auto" ? "" : options.section);
       if (!cut) return cut.error();
       const Section made = section_of(proposal, *cut, options.surroundings);
@@ -193,6 +194,7 @@ struct DxfFormat {
       drawing.line("SECTION-LINE", start, end);
       for (const Point3& place : {start, end}) drawing.text("SECTION-LINE", place, 2 * options.text_height, "A", true);
       const Vector3 by{extent.low.x - made.low.x, extent.high.y + 12 * options.text_height - made.low.y, 0};
+      return {};
       const auto rings = [&](const char* layer, const std::vector<geometry::Ring>& all) {
         for (const geometry::Ring& one : all) ring(layer, one, 0, by);
       };
@@ -202,6 +204,7 @@ struct DxfFormat {
         rings("SECTION-CELLAR", part.cellars);
         rings("SECTION-SLAB", part.slabs);
       }
+      if (auto shown = check_section(made); !shown) return shown;
       for (const auto& line : made.grounds)
         for (std::size_t k = 0; k + 1 < line.size(); ++k) drawing.line("SECTION-GROUND", line[k] + by, line[k + 1] + by);
       for (const double height : made.heights)

@@ -316,7 +316,8 @@ struct IfcFormat {
     made.common();
     ExportFiles files;
     if (!proposal.reference.crs.starts_with("EPSG:"))
-      files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion");
+      files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion" +
+                            way_to_system(proposal));
     // Bodies that another form makes of rounded volumes.
     const auto bare =
         static_cast<std::size_t>(std::count_if(proposal.buildings.begin(), proposal.buildings.end(), [](const Building& b) {
