@@ -35,7 +35,7 @@ class SectionMaker : SheetFrame {
     const SectionLine& line = section_.line;
     add_title("Section A, from " + place(line.from) + " towards " + place(line.to),
               "Buildings cut: " + std::to_string(cut) + "; floors and roofs drawn " + shortest(kSectionSlab) + " m thick");
-    add_legend();
+    add_legend(false);
     add_scale_bar();
     return std::move(sheet_);
   }

@@ -131,28 +131,33 @@ void SheetFrame::add_title(const std::string& what, const std::string& figures) 
   sheet_.groups.push_back(std::move(group));
 }
 
-void SheetFrame::add_legend() {
+void SheetFrame::add_legend(bool with_ground) {
+  std::vector<std::pair<drawing::Colour, std::string>> rows;
+  for (const UseRow& use : proposal_.uses) rows.emplace_back(use.colour, use_name(use.use));
+  if (with_ground) {
+    for (const OpenSpace& open : proposal_.open_spaces)
+      if (!open.faces.empty()) rows.emplace_back(open_fill(open.colour), open.use + ", open");
+    for (const KeptGround& kept : proposal_.kept) rows.emplace_back(kPale, kept.kind + ", kept clear");
+  }
   SheetGroup group{"legend", "Uses", false, {}, {}};
   // Two columns of six as long as they do; then three of nine in smaller writing, the last of which says what is left over.
-  const std::size_t uses = proposal_.uses.size();
-  const bool is_dense = uses > 12;
-  const std::size_t columns = is_dense ? 3 : 2, rows = is_dense ? 9 : 6, most = columns * rows;
-  const double pitch = 30.0 / static_cast<double>(rows), size = is_dense ? 2 : 2.5;
+  const bool is_dense = rows.size() > 12;
+  const std::size_t columns = is_dense ? 3 : 2, lines = is_dense ? 9 : 6, most = columns * lines;
+  const double pitch = 30.0 / static_cast<double>(lines), size = is_dense ? 2 : 2.5;
   const double width = 0.26 * (sheet_.width - 2 * kMargin) / static_cast<double>(columns);
-  for (std::size_t k = 0; k < std::min(uses, most); ++k) {
-    const double x = legend_left() + width * static_cast<double>(k / rows),
-                 y = sheet_.window_high.y + 2.5 + pitch * static_cast<double>(k % rows);
-    if (uses > most && k + 1 == most) {
-      group.texts.push_back({{x, y + size}, size, SheetAnchor::start, false, "and " + std::to_string(uses - k) + " more uses"});
+  for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
+    const double x = legend_left() + width * static_cast<double>(k / lines),
+                 y = sheet_.window_high.y + 2.5 + pitch * static_cast<double>(k % lines);
+    if (rows.size() > most && k + 1 == most) {
+      group.texts.push_back({{x, y + size}, size, SheetAnchor::start, false, "and " + std::to_string(rows.size() - k) + " more"});
       break;
     }
     SheetShape patch;
     patch.lines = {rectangle({x, y}, {x + 2 * size, y + 1.2 * size})};
     patch.is_filled = true;
-    patch.fill = proposal_.uses[k].colour;
+    patch.fill = rows[k].first;
     group.shapes.push_back(std::move(patch));
-    group.texts.push_back(
-        fitted({x + 2.6 * size, y + size}, size, false, use_name(proposal_.uses[k].use), width - 2.6 * size - 1));
+    group.texts.push_back(fitted({x + 2.6 * size, y + size}, size, false, rows[k].second, width - 2.6 * size - 1));
   }
   sheet_.groups.push_back(std::move(group));
 }

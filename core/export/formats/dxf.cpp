@@ -36,7 +36,8 @@ struct DxfFormat {
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
         "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Uses whose names are "
-        "equal in such letters get a number. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
+        "equal in such letters get a number. Arcs are arcs. Ground that is kept open is on "
+        "OPEN-GARDEN and the like, that of streets on KEPT-STREET. Plots, the boundary, existing buildings, streets, texts, "
         "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
         "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
@@ -143,6 +144,28 @@ struct DxfFormat {
       drawing.text(words, middle, options.text_height, b.label + "  " + fixed(s.floor_area, 1) + " m²", true);
     }
 
+    // Ground that is kept open, with its name and area, on a layer for each use; and that of streets, on one for each kind.
+    void open_ground() {
+      std::set<std::string> taken;
+      const auto layer_of = [&](const std::string& prefix, const std::string& name, int colour) {
+        const std::string plain = prefix + DxfDrawing::layer_name(name);
+        std::string layer = plain;
+        for (int k = 2; !taken.insert(layer).second; ++k) layer = plain + "_" + std::to_string(k);
+        drawing.layer(layer, colour);
+        return layer;
+      };
+      for (const OpenSpace& open : proposal.open_spaces) {
+        if (open.faces.empty()) continue;
+        const std::string layer = layer_of("OPEN-", open.use, drawing::use_colour(open.use).cad);
+        faces(layer, open.faces, proposal.ground, {});
+        Point3 middle = label_place(open.faces).middle;
+        middle.z = proposal.ground;
+        drawing.text(layer, middle, options.text_height, open.use + "  " + fixed(open.area, 1) + " m²", true);
+      }
+      for (const KeptGround& kept : proposal.kept)
+        faces(layer_of("KEPT-", kept.kind, drawing::use_colour(kept.kind).cad), kept.faces, proposal.ground, {});
+    }
+
     void surroundings() {
       for (const Neighbour& n : proposal.neighbours) faces("EXISTING", {n.face}, n.bottom, {});
       for (const Street& street : proposal.streets) {
@@ -171,6 +194,7 @@ struct DxfFormat {
       for (const Building& b : proposal.buildings) faces("SECTION-CUT", level_part(b, height).faces, height, {});
       drawing.text("SECTION-TEXT", {extent.low.x, extent.high.y + 4 * options.text_height, height}, 2 * options.text_height,
                    "Level cut at " + std::string(height >= 0 ? "+" : "") + fixed(height, 2) + " m");
+      return {};
     }
 
     // Above the plans, where the height is the way up; the line in the plan has the letter of the section at its ends.
@@ -180,6 +204,7 @@ struct DxfFormat {
       const auto cut = section_line(proposal, options.section == "auto" ? "" : options.section);
       if (!cut) return cut.error();
       const Section made = section_of(proposal, *cut, options.surroundings);
+      if (auto shown = check_section(made); !shown) return shown;
       const Vector3 way = (cut->to - cut->from) / distance(cut->from, cut->to);
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{{"SECTION-LINE", 6},
                                                                                            {"SECTION-CUT", 5},
@@ -194,7 +219,6 @@ struct DxfFormat {
       drawing.line("SECTION-LINE", start, end);
       for (const Point3& place : {start, end}) drawing.text("SECTION-LINE", place, 2 * options.text_height, "A", true);
       const Vector3 by{extent.low.x - made.low.x, extent.high.y + 12 * options.text_height - made.low.y, 0};
-      return {};
       const auto rings = [&](const char* layer, const std::vector<geometry::Ring>& all) {
         for (const geometry::Ring& one : all) ring(layer, one, 0, by);
       };
@@ -204,7 +228,6 @@ struct DxfFormat {
         rings("SECTION-CELLAR", part.cellars);
         rings("SECTION-SLAB", part.slabs);
       }
-      if (auto shown = check_section(made); !shown) return shown;
       for (const auto& line : made.grounds)
         for (std::size_t k = 0; k + 1 < line.size(); ++k) drawing.line("SECTION-GROUND", line[k] + by, line[k + 1] + by);
       for (const double height : made.heights)
@@ -221,6 +244,7 @@ struct DxfFormat {
                {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
         drawing.layer(name, colour);
       for (const Land& land : proposal.lands) faces(land.is_boundary ? "BOUNDARY" : "PLOT", land.faces, land.ground, {});
+      open_ground();
       if (options.surroundings) surroundings();
       for (const Building& b : proposal.buildings)
         for (const Storey* s : drawn_storeys(b)) storey(b, *s, drawing::use_colour(b.use).cad);

@@ -40,6 +40,7 @@ struct IfcFormat {
         "a space is a classification. Each straight side and each arc of a standing "
         "storey has a wall, with what it borders on; towards neighbours it is no external one. A rounded volume is given as the "
         "plates that it is measured by, without walls, also as slabs or standing: what its sides border on is not known. "
+        "Ground that is kept open or clear is a geographic element of the site. "
         "Identifiers follow from "
         "those of the scene, so that they are the same in every export.");
     f.ending(".ifc").begins(
@@ -298,6 +299,34 @@ struct IfcFormat {
         file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/existing"), "$", "$", "$", step_list(all), site});
     }
 
+    // A thin body below the ground of each use, and of streets that are kept clear.
+    void open_ground() {
+      constexpr double kThickness = 0.1;  // [m]
+      Names all;
+      const auto add = [&](const std::string& id, const std::string& name, const char* kind, const drawing::Colour& colour,
+                           const std::vector<geometry::PlateFace>& faces) {
+        const std::string one =
+            file.add("IFCGEOGRAPHICELEMENT",
+                     {guid(id), "$", step_text(name), step_text(kind), step_text(name), placement(site_place, 0),
+                      shape(faces, proposal.ground - kThickness, kThickness, style_of("ground of " + name, colour)), "$",
+                      ".USERDEFINED."});
+        all.push_back(one);
+        return one;
+      };
+      for (const OpenSpace& open : proposal.open_spaces) {
+        if (open.faces.empty()) continue;
+        const std::string id = "open_space/" + open.use;
+        const std::string one = add(id, open.use, "Open space", drawing::mix(open.colour, drawing::kWhite, 0.3), open.faces);
+        quantities(
+            id, one, "BehaviourLinks_OpenSpace",
+            {quantity("IFCQUANTITYAREA", "OpenArea", open.area), quantity("IFCQUANTITYAREA", "AskedArea", open.asked_area)});
+      }
+      for (const KeptGround& kept : proposal.kept)
+        add("kept_clear/" + kept.kind, kept.kind, "Ground kept clear", {0.85, 0.85, 0.83}, kept.faces);
+      if (!all.empty())
+        file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/ground"), "$", "$", "$", step_list(all), site});
+    }
+
     void classification() {
       const std::string system = file.add("IFCCLASSIFICATION", {"$", "$", "$", "'Uses of the scene'", "$", "$", "$"});
       for (const auto& [use, spaces] : spaces_of_use) {
@@ -311,6 +340,7 @@ struct IfcFormat {
     IfcBuilder made{proposal, options};
     made.start();
     made.buildings();
+    made.open_ground();
     if (options.surroundings) made.surroundings();
     made.classification();
     made.common();

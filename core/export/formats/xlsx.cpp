@@ -1,5 +1,7 @@
 // The area schedule as a workbook: storeys, buildings, programme against result, indices of the plots; formulas with their
 // values.
+#include <algorithm>
+
 #include "core/base/text.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
@@ -218,6 +220,14 @@ struct XlsxFormat {
     }
 
     XlsxSheet about() const {
+      }
+      // The share of a garden's area that has the sun it requires.
+      for (const SunPlace& sun : proposal.suns) {
+        const std::string row = std::to_string(sheet.rows.size() + 1);
+        sheet.rows.push_back({w(sun.name + ": share of the area with " + fixed(sun.required_hours, 1) + " h of sun"),
+                              n(sun.share), w("at_least"), n(sun.required_share), w(""),
+                              f("B" + row + "-D" + row, sun.share - sun.required_share), w(sun.is_met() ? "met" : "far"),
+                              n(sun.required_share > 0 ? std::min(1.0, sun.share / sun.required_share) : 1)});
       XlsxSheet sheet{"About", {24, 60}, {}};
       sheet.rows.push_back(header({"what", "value"}));
       for (const auto& [name, value] : identity_of(proposal)) sheet.rows.push_back({w(name), w(value)});
