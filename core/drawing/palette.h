@@ -22,7 +22,7 @@ inline constexpr Colour kWhite = {1, 1, 1};
 /// Deep shade of a drawing: a blue-grey, as daylight shadows are.
 inline constexpr Colour kShade = {0.17, 0.20, 0.29};
 
-/// A colour and a letter for each use, in the order given.
+/// A letter for each use, in the order given, beside the colour that it has everywhere (use_colours).
 class Palette {
  public:
   explicit Palette(const std::vector<std::string>& uses);

@@ -1,6 +1,9 @@
 // The words of headers, and the way from a scene's frame to the Earth.
 #include "core/export/identity.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/text.h"
 
 namespace bl::exporting {
@@ -35,6 +38,15 @@ std::string place_text(const Proposal& proposal) {
   if (place.is_on_earth())
     text += (text.empty() ? "" : "; ") + fixed(place.latitude, 6) + "°, " + fixed(place.longitude, 6) + "°";
   return text;
+}
+
+std::string way_to_system(const Proposal& proposal) {
+  const importing::GeoReference& place = proposal.reference;
+  if (!place.is_on_earth()) return "";
+  // Zones of UTM are six degrees wide, the first from 180 degrees west on.
+  const int zone = std::clamp(static_cast<int>(std::floor((place.longitude + 180) / 6)) + 1, 1, 60);
+  const int code = (place.latitude < 0 ? 32700 : 32600) + zone;
+  return "; make the scene with `new --crs EPSG:" + std::to_string(code) + "` (UTM), or with that of your country";
 }
 
 bool is_placed(const Proposal& proposal) { return proposal.reference.has_system() || proposal.reference.is_on_earth(); }

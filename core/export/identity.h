@@ -18,6 +18,10 @@ std::string identity_line(const Proposal& proposal);
 /// The place of the local origin in its coordinate system, as people read it; empty where the scene has none.
 std::string place_text(const Proposal& proposal);
 
+/// Of a place on Earth without a coordinate system that programs know by a number: how a scene gets one, as the end of a sentence
+/// that names UTM; empty for a scene without a place.
+std::string way_to_system(const Proposal& proposal);
+
 /// Does the scene say where it lies on Earth?
 bool is_placed(const Proposal& proposal);
 /// The way from local metres to longitude and latitude.

@@ -9,18 +9,32 @@
 
 namespace bl::exporting {
 
+namespace {
+
+void widen_extent(PlanExtent& extent, const std::vector<Point3>& points) {
+  for (const Point3& p : points) {
+    extent.low = {std::min(extent.low.x, p.x), std::min(extent.low.y, p.y), 0};
+    extent.high = {std::max(extent.high.x, p.x), std::max(extent.high.y, p.y), 0};
+  }
+}
+
+}  // namespace
+
 PlanExtent plan_extent(const Proposal& proposal) {
   PlanExtent extent{{1e20, 1e20, 0}, {-1e20, -1e20, 0}};
   const auto take = [&](const std::vector<geometry::PlateFace>& faces) {
-    for (const geometry::PlateFace& face : faces)
-      for (const Point3& p : face.outer) {
-        extent.low = {std::min(extent.low.x, p.x), std::min(extent.low.y, p.y), 0};
-        extent.high = {std::max(extent.high.x, p.x), std::max(extent.high.y, p.y), 0};
-      }
+    for (const geometry::PlateFace& face : faces) widen_extent(extent, face.outer);
   };
   for (const Land& land : proposal.lands) take(land.faces);
   for (const Building& building : proposal.buildings)
     for (const Storey& storey : building.storeys) take(storey.faces);
+  return extent;
+}
+
+PlanExtent whole_extent(const Proposal& proposal) {
+  PlanExtent extent = plan_extent(proposal);
+  for (const Neighbour& neighbour : proposal.neighbours) widen_extent(extent, neighbour.face.outer);
+  for (const Street& street : proposal.streets) widen_extent(extent, street.line);
   return extent;
 }
 

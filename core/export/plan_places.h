@@ -11,8 +11,10 @@ struct PlanExtent {
   Point3 low, high;  ///< [m]; z is 0
 };
 
-/// Around all buildings, plots and boundaries; existing buildings and streets may lie outside.
+/// Around the site: all buildings, plots and boundaries; existing buildings and streets may lie outside.
 PlanExtent plan_extent(const Proposal& proposal);
+/// The same with existing buildings and streets.
+PlanExtent whole_extent(const Proposal& proposal);
 /// Where words stand on the largest face: a strip of it without holes, as wide and high as that is [m].
 struct LabelPlace {
   Point3 middle;

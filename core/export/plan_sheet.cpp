@@ -18,8 +18,6 @@ namespace bl::exporting {
 
 namespace {
 
-constexpr drawing::Colour kOpenFill{0.86, 0.92, 0.82}, kOpenLine{0.44, 0.58, 0.36};
-
 class PlanMaker : SheetFrame {
  public:
   PlanMaker(const Proposal& proposal, const DrawnLevel& level, const SheetOptions& options)
@@ -34,12 +32,14 @@ class PlanMaker : SheetFrame {
   }
 
   Result<PlanSheet> make() {
-    const PlanExtent extent = plan_extent(proposal_);
+    const bool is_all = options_.extent == DrawnExtent::all && options_.surroundings;
+    const PlanExtent extent = is_all ? whole_extent(proposal_) : plan_extent(proposal_);
     if (auto fit = choose_scale(extent.high.x - extent.low.x, extent.high.y - extent.low.y, options_.scale, "plan"); !fit)
       return fit.error();
     const double metres = sheet_.scale / 1000;
     const Point3 middle = 0.5 * (extent.low + extent.high);
     sheet_.origin = {middle.x - metres * window_width() / 2, middle.y + metres * window_height() / 2, 0};
+    add_kept();
     add_surroundings();
     add_lands();
     add_open_spaces();
@@ -51,7 +51,7 @@ class PlanMaker : SheetFrame {
       if (auto marked = mark_section(); !marked) return marked.error();
       add_level_title();
     }
-    add_legend();
+    add_legend(true);
     add_scale_bar();
     add_north();
     return std::move(sheet_);
@@ -101,6 +101,21 @@ class PlanMaker : SheetFrame {
     return shape;
   }
 
+  // Below all else: streets are drawn upon their ground.
+  void add_kept() {
+    if (proposal_.kept.empty()) return;
+    SheetGroup group{"kept_clear", "Ground kept clear", true, {}, {}};
+    for (const KeptGround& kept : proposal_.kept)
+      for (const geometry::PlateFace& face : kept.faces) {
+        SheetShape shape = shape_of({face}, kept.kind);
+        shape.is_filled = true;
+        shape.fill = kPale;
+        shape.is_stroked = false;
+        group.shapes.push_back(std::move(shape));
+      }
+    sheet_.groups.push_back(std::move(group));
+  }
+
   void add_surroundings() {
     if (!options_.surroundings || (proposal_.neighbours.empty() && proposal_.streets.empty())) return;
     SheetGroup group{"surroundings", "Surroundings", true, {}, {}};
@@ -143,8 +158,8 @@ class PlanMaker : SheetFrame {
       for (const geometry::PlateFace& face : open.faces) {
         SheetShape shape = shape_of({face}, open.use);
         shape.is_filled = true;
-        shape.fill = kOpenFill;
-        shape.stroke = kOpenLine;
+        shape.fill = open_fill(open.colour);
+        shape.stroke = drawing::mix(open.colour, drawing::kInk, 0.4);
         group.shapes.push_back(std::move(shape));
         if (options_.labels) add_open_label(open.use, face, group);
       }
@@ -291,6 +306,7 @@ class PlanMaker : SheetFrame {
 }  // namespace
 
 Result<PlanSheet> level_cut_sheet(const Proposal& proposal, double height, const SheetOptions& options) {
+  if (auto met = check_level_cut(proposal, height); !met) return met.error();
   return PlanMaker(proposal, height, options).make();
 }
 

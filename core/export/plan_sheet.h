@@ -57,8 +57,12 @@ enum class Paper { a4, a3, a2, a1, a0 };
 /// The sizes for a declaration of options.
 std::vector<Choice<Paper>> paper_choices();
 
+/// What a plan shows: the site, with as much of the surroundings as the sheet has room for, or all of them.
+enum class DrawnExtent { site, all };
+
 struct SheetOptions : FormOptions {
   Paper paper = Paper::a3;
+  DrawnExtent extent = DrawnExtent::site;
   double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
   bool surroundings = true, labels = true;
   /// A line as `section_line` reads it, or one height; `auto`: along the longest side; `none`: no section.

@@ -61,6 +61,31 @@ struct Land {
   double fsi = 0, gsi = 0;                 ///< of a plot
   std::optional<double> fsi_max, gsi_max;  ///< none where there is no rule
   std::optional<double> height_max;        ///< [m]
+  double osr = 0, storeys = 0;             ///< open space ratio, and mean number of storeys, of a plot
+  double top = 0;                          ///< of the highest volume above its ground [m]
+};
+
+/// The ground that a solver of standing volumes divides, with its indices: net of what nobody may build on, but with open space.
+struct NetGround {
+  std::string id, name;
+  double area = 0, open_area = 0;  ///< [m²]
+  double fsi = 0, gsi = 0, osr = 0, storeys = 0;
+};
+
+/// Sun on open ground, such as a garden, per day of the period studied.
+struct SunPlace {
+  std::string id, name;
+  double required_hours = 0;  ///< [h]
+  double share = 0;           ///< of its area that has as much
+  double required_share = 1;  ///< that should have it
+  double mean = 0;            ///< of all of its area [h]
+  bool is_met() const { return share >= required_share - 1e-9; }
+};
+
+/// Ground on which nothing is built, for no use of the programme.
+struct KeptGround {
+  std::string kind;  ///< such as "street"
+  std::vector<geometry::PlateFace> faces;
 };
 
 /// A building of the surroundings, which stands already.
@@ -91,6 +116,7 @@ struct UseRow {
 /// Ground that nobody builds on, for a use such as a garden: it has neither volumes nor floor area.
 struct OpenSpace {
   std::string use;
+  drawing::Colour colour;
   double asked_area = 0, area = 0;         ///< asked for by programmes, and kept open [m²]
   std::string why_short;                   ///< empty where it is enough
   std::vector<geometry::PlateFace> faces;  ///< as they are drawn; parts of them may lie outside of the boundary
@@ -137,6 +163,9 @@ struct Proposal {
   std::vector<Trouble> troubles;
   std::vector<UseRow> uses;
   UseRow all;
+  std::vector<NetGround> grounds;      ///< ascending id
+  std::vector<SunPlace> suns;          ///< ascending id
+  std::vector<KeptGround> kept;        ///< by kind
   std::vector<OpenSpace> open_spaces;  ///< in the order of programmes; no part of `uses` and `all`
   double ground = 0;                   ///< of level 0 [m]
   double level_height = 3;             ///< of one level: the least height of a storey with another one above it [m]

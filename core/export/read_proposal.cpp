@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/hash.h"
+#include "core/drawing/use_colours.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain_table.h"
 #include "core/geometry/mesh_lines.h"
@@ -15,6 +16,7 @@
 #include "core/reading/views/people.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/solver.h"
+#include "core/reading/views/sun.h"
 #include "core/reading/views/surroundings.h"
 
 namespace bl::exporting {
@@ -138,10 +140,28 @@ void add_lands(const State& state, const reading::ReportModel& model, Proposal& 
               plot.gsi,
               rule_of(state, node, "fsi_max", plot.fsi_max),
               rule_of(state, node, "gsi_max", plot.gsi_max),
-              rule_of(state, node, "height_max", plot.height_max)};
+              rule_of(state, node, "height_max", plot.height_max),
+              plot.osr,
+              plot.storeys,
+              plot.top};
     land.area = area_of(land.faces);
     if (!land.faces.empty()) all.lands.push_back(std::move(land));
   }
+}
+
+void add_grounds(const State& state, Proposal& all) {
+  for (const auto& [node, ground] : reading::rows<reading::StandingFigures>(state))
+    all.grounds.push_back({state.plan->nodes[node].id, state.plan->nodes[node].name, ground.plot_area, ground.open_area,
+                           ground.fsi, ground.gsi, ground.osr, ground.mean_storeys});
+}
+
+// Receivers that lie flat and have been measured.
+void add_suns(const State& state, Proposal& all) {
+  constexpr double kHour = 3600;  // [s]
+  for (const auto& [node, sun] : reading::rows<reading::ReceiverFigures>(state))
+    if (!sun.upright && !sun.map->rows.empty())
+      all.suns.push_back({state.plan->nodes[node].id, state.plan->nodes[node].name, sun.required_sun / kHour, sun.share_met,
+                          sun.required_share, sun.sun_mean / kHour});
 }
 
 void add_neighbours(const State& state, Proposal& all) {
@@ -196,15 +216,22 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
   all.all.buildings = model.volumes.size();
 }
 
+// Exclusions with a use are open space. Imports name those of streets by their kind; the others are existing buildings and what
+// people have drawn without a use, which the boundary shows as its holes.
 void add_open_spaces(const State& state, const reading::ReportModel& model, Proposal& all) {
   std::map<std::string, std::vector<PlateFace>> faces;
+  std::vector<PlateFace> streets;
   for (const auto& [node, ground] : reading::rows<reading::OpenGround>(state))
-    for (geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions))
-      if (const std::string& use = ground.exclusions->text(ring.first_row, "use"); !use.empty())
-        for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) faces[use].push_back(std::move(face));
+    for (geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions)) {
+      const std::string& use = ground.exclusions->text(ring.first_row, "use");
+      if (use.empty() && !ring.name.starts_with("street ")) continue;
+      std::vector<PlateFace>& list = use.empty() ? streets : faces[use];
+      for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) list.push_back(std::move(face));
+    }
   for (const reading::OpenAccount& open : model.accounts.open)
-    all.open_spaces.push_back(
-        {open.use, open.asked, open.area, why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
+    all.open_spaces.push_back({open.use, drawing::use_colour(open.use).colour, open.asked, open.area,
+                               why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
+  if (!streets.empty()) all.kept.push_back({"street", std::move(streets)});
 }
 
 }  // namespace
@@ -300,6 +327,8 @@ Result<Proposal> read_proposal(const State& state, const std::string& file) {
                                              all.shapeless.front().why_shapeless + ")"};
   number_levels(all);
   add_lands(state, model, all);
+  add_grounds(state, all);
+  add_suns(state, all);
   add_neighbours(state, all);
   for (const reading::StreetLine& street : model.surroundings.streets) all.streets.push_back({street.name, street.line});
   for (const MeshPointer& ground : model.surroundings.grounds)

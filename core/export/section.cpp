@@ -205,6 +205,27 @@ std::optional<double> level_cut(const std::string& text) {
   return height && std::abs(*height) < 1e9 ? std::optional(*height) : std::nullopt;
 }
 
+Result<void> check_level_cut(const Proposal& proposal, double height) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Building& b : proposal.buildings) {
+    low = std::min(low, b.cellars.empty() ? b.bottom : b.cellars.back().bottom);
+    high = std::max(high, b.top);
+  }
+  if (low <= height && height < high) return {};
+  const auto told = [](double at) { return (at >= 0 ? "+" : "") + fixed(at, 2); };
+  return Error{
+      ErrorCode::out_of_range, "section",
+      "a level cut at " + told(height) + " m meets no volume: they lie between " + told(low) + " m and " + told(high) + " m"};
+}
+
+Result<void> check_section(const Section& section) {
+  if (!section.parts.empty() || !section.borders.empty()) return {};
+  const Point3 &a = section.line.from, &b = section.line.to;
+  return Error{ErrorCode::out_of_range, "section",
+               "the line from (" + fixed(a.x, 1) + ", " + fixed(a.y, 1) + ") to (" + fixed(b.x, 1) + ", " + fixed(b.y, 1) +
+                   ") crosses neither a plot nor a volume, and none lies behind it"};
+}
+
 LevelPart level_part(const Building& building, double height) {
   LevelPart part;
   for (const Storey* storey : drawn_storeys(building))

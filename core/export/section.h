@@ -21,6 +21,9 @@ Result<SectionLine> section_line(const Proposal& proposal, const std::string& te
 /// The height of a level cut [m above the origin], where the text is one number; nothing where it is none.
 std::optional<double> level_cut(const std::string& text);
 
+/// Fails where a level cut misses all storeys and cellars, with the heights between which they lie.
+Result<void> check_level_cut(const Proposal& proposal, double height);
+
 /// Of one building, or of one that stands already. Rings have the way along the line as x, from `from` on, and the height as y
 /// [m].
 struct SectionPart {
@@ -43,6 +46,8 @@ struct Section {
 /// Thickness of floors and roofs as they are drawn [m].
 inline constexpr double kSectionSlab = 0.3;
 Section section_of(const Proposal& proposal, const SectionLine& line, bool with_surroundings);
+/// Fails where it shows nothing: neither land nor a building lies on the line or behind it.
+Result<void> check_section(const Section& section);
 
 /// What a level plane cuts of a building.
 struct LevelPart {

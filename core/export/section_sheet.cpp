@@ -18,6 +18,7 @@ class SectionMaker : SheetFrame {
   }
 
   Result<PlanSheet> make() {
+    if (auto shown = check_section(section_); !shown) return shown.error();
     const double width = section_.high.x - section_.low.x, height = section_.high.y - section_.low.y;
     // Beside it, room for heights.
     if (auto fit = choose_scale(width * 1.12, height * 1.1, options_.scale, "section"); !fit) return fit.error();
@@ -34,7 +35,7 @@ class SectionMaker : SheetFrame {
     const SectionLine& line = section_.line;
     add_title("Section A, from " + place(line.from) + " towards " + place(line.to),
               "Buildings cut: " + std::to_string(cut) + "; floors and roofs drawn " + shortest(kSectionSlab) + " m thick");
-    add_legend();
+    add_legend(false);
     add_scale_bar();
     return std::move(sheet_);
   }

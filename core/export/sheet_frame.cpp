@@ -15,7 +15,9 @@ namespace bl::exporting {
 
 namespace {
 
-constexpr std::array<double, 13> kScales = {50, 100, 200, 250, 500, 1000, 2000, 2500, 5000, 10000, 20000, 50000, 100000};
+// Those that architects' rulers have, and ten times as much.
+constexpr std::array<double, 21> kScales = {50,   75,   100,  125,  200,  250,  300,   400,   500,   750,   1000,
+                                            1250, 2000, 2500, 3000, 4000, 5000, 10000, 20000, 50000, 100000};
 
 std::pair<double, double> size_of(Paper paper) {
   constexpr std::array<std::pair<double, double>, 5> kSizes = {{{297, 210}, {420, 297}, {594, 420}, {841, 594}, {1189, 841}}};
@@ -31,8 +33,18 @@ std::size_t letters_in(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-// A text in its size, else in a smaller one, else cut off where its room ends.
-SheetText fitted(SheetPoint place, double size, bool is_bold, std::string text, double room) {
+// A projection that was made for the site says nothing that its middle does not; the files for programs have it in full.
+std::string place_on_paper(const Proposal& proposal) {
+  const std::string place = place_text(proposal);
+  if (place.empty()) return "no place on Earth: metres of the scene";
+  if (!proposal.reference.crs.starts_with("+")) return place;
+  return fixed(proposal.reference.latitude, 6) + "°, " + fixed(proposal.reference.longitude, 6) +
+         "°: metres around that place (transverse Mercator, WGS84)";
+}
+
+}  // namespace
+
+SheetText SheetFrame::fitted(SheetPoint place, double size, bool is_bold, std::string text, double room) {
   const double letter = is_bold ? kBoldLetter : kLetter;
   const double whole = letter * static_cast<double>(letters_in(text));
   double fit = std::min(size, room / std::max(whole, 1e-9));
@@ -48,16 +60,9 @@ SheetText fitted(SheetPoint place, double size, bool is_bold, std::string text, 
   return {place, fit, SheetAnchor::start, is_bold, std::move(text)};
 }
 
-// A projection that was made for the site says nothing that its middle does not; the files for programs have it in full.
-std::string place_on_paper(const Proposal& proposal) {
-  const std::string place = place_text(proposal);
-  if (place.empty()) return "no place on Earth: metres of the scene";
-  if (!proposal.reference.crs.starts_with("+")) return place;
-  return fixed(proposal.reference.latitude, 6) + "°, " + fixed(proposal.reference.longitude, 6) +
-         "°: metres around that place (transverse Mercator, WGS84)";
+std::size_t SheetFrame::letters_within(double room, double size) {
+  return static_cast<std::size_t>(std::max(1.0, room / (kLetter * size)));
 }
-
-}  // namespace
 
 SheetFrame::SheetFrame(const Proposal& proposal, const SheetOptions& options) : proposal_(proposal), options_(options) {
   std::tie(sheet_.width, sheet_.height) = size_of(options.paper);
@@ -77,7 +82,8 @@ std::vector<SheetPoint> SheetFrame::line_of(const std::vector<Point3>& points) c
 }
 
 Result<void> SheetFrame::choose_scale(double width, double height, double wanted, const char* what) {
-  const double needed = std::max(1000 * width / (window_width() - 4 * kGap), 1000 * height / (window_height() - 4 * kGap));
+  // Room for dimensions on either side.
+  const double needed = std::max(1000 * width / (window_width() - 3 * kGap), 1000 * height / (window_height() - 3 * kGap));
   const auto fit = std::find_if(kScales.begin(), kScales.end(), [&](double scale) { return scale >= needed; });
   const double best = fit == kScales.end() ? std::ceil(needed / 1e5) * 1e5 : *fit;
   if (wanted > 0 && wanted < needed)
@@ -125,28 +131,33 @@ void SheetFrame::add_title(const std::string& what, const std::string& figures) 
   sheet_.groups.push_back(std::move(group));
 }
 
-void SheetFrame::add_legend() {
+void SheetFrame::add_legend(bool with_ground) {
+  std::vector<std::pair<drawing::Colour, std::string>> rows;
+  for (const UseRow& use : proposal_.uses) rows.emplace_back(use.colour, use_name(use.use));
+  if (with_ground) {
+    for (const OpenSpace& open : proposal_.open_spaces)
+      if (!open.faces.empty()) rows.emplace_back(open_fill(open.colour), open.use + ", open");
+    for (const KeptGround& kept : proposal_.kept) rows.emplace_back(kPale, kept.kind + ", kept clear");
+  }
   SheetGroup group{"legend", "Uses", false, {}, {}};
   // Two columns of six as long as they do; then three of nine in smaller writing, the last of which says what is left over.
-  const std::size_t uses = proposal_.uses.size();
-  const bool is_dense = uses > 12;
-  const std::size_t columns = is_dense ? 3 : 2, rows = is_dense ? 9 : 6, most = columns * rows;
-  const double pitch = 30.0 / static_cast<double>(rows), size = is_dense ? 2 : 2.5;
+  const bool is_dense = rows.size() > 12;
+  const std::size_t columns = is_dense ? 3 : 2, lines = is_dense ? 9 : 6, most = columns * lines;
+  const double pitch = 30.0 / static_cast<double>(lines), size = is_dense ? 2 : 2.5;
   const double width = 0.26 * (sheet_.width - 2 * kMargin) / static_cast<double>(columns);
-  for (std::size_t k = 0; k < std::min(uses, most); ++k) {
-    const double x = legend_left() + width * static_cast<double>(k / rows),
-                 y = sheet_.window_high.y + 2.5 + pitch * static_cast<double>(k % rows);
-    if (uses > most && k + 1 == most) {
-      group.texts.push_back({{x, y + size}, size, SheetAnchor::start, false, "and " + std::to_string(uses - k) + " more uses"});
+  for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
+    const double x = legend_left() + width * static_cast<double>(k / lines),
+                 y = sheet_.window_high.y + 2.5 + pitch * static_cast<double>(k % lines);
+    if (rows.size() > most && k + 1 == most) {
+      group.texts.push_back({{x, y + size}, size, SheetAnchor::start, false, "and " + std::to_string(rows.size() - k) + " more"});
       break;
     }
     SheetShape patch;
     patch.lines = {rectangle({x, y}, {x + 2 * size, y + 1.2 * size})};
     patch.is_filled = true;
-    patch.fill = proposal_.uses[k].colour;
+    patch.fill = rows[k].first;
     group.shapes.push_back(std::move(patch));
-    group.texts.push_back(
-        fitted({x + 2.6 * size, y + size}, size, false, use_name(proposal_.uses[k].use), width - 2.6 * size - 1));
+    group.texts.push_back(fitted({x + 2.6 * size, y + size}, size, false, rows[k].second, width - 2.6 * size - 1));
   }
   sheet_.groups.push_back(std::move(group));
 }

@@ -11,6 +11,9 @@ namespace bl::exporting {
 /// Colours of what is not the proposal itself.
 inline constexpr drawing::Colour kGrey = {0.45, 0.46, 0.48}, kPale = {0.90, 0.90, 0.88}, kExistingFill = {0.83, 0.83, 0.81};
 
+/// Ground that is kept open, in a pale tone of its use.
+inline drawing::Colour open_fill(const drawing::Colour& use) { return drawing::mix(use, drawing::kWhite, 0.5); }
+
 /// A sheet with an empty window, which makers of drawings fill.
 class SheetFrame {
  protected:
@@ -31,9 +34,14 @@ class SheetFrame {
   /// A line with its ends marked, and its length in metres beside it.
   void dimension(SheetGroup& group, SheetPoint a, SheetPoint b, double length, bool is_upright) const;
   static std::vector<SheetPoint> rectangle(SheetPoint low, SheetPoint high);
+  /// A text in its size, else in a smaller one, else cut off where its room ends [mm].
+  static SheetText fitted(SheetPoint place, double size, bool is_bold, std::string text, double room);
+  /// How many letters of a size are about as wide as the room.
+  static std::size_t letters_within(double room, double size);
   /// `what` the sheet shows, and its `figures` in the last line.
   void add_title(const std::string& what, const std::string& figures);
-  void add_legend();
+  /// Uses, and where the drawing shows the ground as well, what is kept open and clear.
+  void add_legend(bool with_ground);
   void add_scale_bar();
   void add_north();
 

@@ -14,6 +14,10 @@ void declare_sheet_options(FormatBuilder<T>& f) {
       .unit(Unit::ratio)
       .range(0, 1000000)
       .doc("The n of 1:n; 0: the largest usual one that fits.");
+  f.option(&SheetOptions::extent, "extent",
+           {{DrawnExtent::site, "site", "Plots and boundaries with what is proposed; surroundings are cut off at the frame."},
+            {DrawnExtent::all, "all", "All existing buildings and streets as well, as far as `surroundings` shows them."}})
+      .doc("What fits on the sheet of a plan.");
   f.option(&SheetOptions::surroundings, "surroundings").doc("With existing buildings and streets.");
   f.option(&SheetOptions::section, "section")
       .doc(

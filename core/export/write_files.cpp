@@ -51,6 +51,46 @@ Result<void> may_replace(const std::string& path, const FormatDefinition& format
 
 }  // namespace
 
+namespace {
+
+std::string lower_name(const std::string& path) {
+  std::string name = fs::path(path).filename().string();
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return name;
+}
+
+// Programs choose by the ending how they read a file: that of another format would mislead them.
+Result<void> ending_fits(const Order& order) {
+  const std::string name = lower_name(order.out);
+  if (name.ends_with(order.format->ending)) return {};
+  for (const FormatDefinition& other : all_formats())
+    if (name.ends_with(other.ending))
+      return Error{ErrorCode::conflict, order.out,
+                   "ends like files of the format " + other.id + ", and " + order.format->id + " is wanted: call it " +
+                       fs::path(order.out).stem().string() + order.format->ending + ", or choose --format " + other.id};
+  return {};
+}
+
+// An ending that is none of ours is somebody's choice, or a slip. Devices have none.
+std::string note_on_ending(const Order& order) {
+  const std::string& usual = order.format->ending;
+  const std::string ending = fs::path(lower_name(order.out)).extension().string();
+  if (order.is_folder || ending.empty() || usual.find(ending) != std::string::npos || (ending == ".json" && usual == ".geojson"))
+    return "";
+  return order.format->id + ": " + order.out + " does not end with " + usual + ", by which programs know such files";
+}
+
+// The nearest folder above that is there is one, and no file.
+Result<void> may_make_folder(const std::string& out, const fs::path& folder) {
+  std::error_code none;
+  fs::path above = fs::absolute(folder, none).lexically_normal();
+  while (!fs::exists(above, none) && above.has_relative_path()) above = above.parent_path();
+  if (fs::is_directory(above, none)) return {};
+  return Error{ErrorCode::io, out, "cannot be written: " + above.string() + " is a file, not a folder"};
+}
+
+}  // namespace
+
 bool means_folder(const std::string& out) {
   std::error_code none;
   return out.ends_with('/') || fs::is_directory(out, none);
@@ -66,8 +106,8 @@ Result<void> may_write_order(const Order& order) {
       return Error{ErrorCode::io, order.out, "is a file, not a folder; choose another name"};
     return {};
   }
-  if (!folder.empty() && !fs::is_directory(folder, none))
-    return Error{ErrorCode::io, order.out, "cannot be written: there is no folder " + folder.string()};
+  if (auto fits = ending_fits(order); !fits) return fits.error();
+  if (!folder.empty() && !fs::is_directory(folder, none)) return may_make_folder(order.out, folder);
   if (auto may = may_replace(order.out, *order.format); !may) return may.error();
   return may_write_file(order.out);
 }
@@ -118,6 +158,7 @@ Result<Products> make_products(std::span<const Order> orders, Proposal proposal,
     proposal.shell = shell_of(*order.format, page_folder);
     auto made = order.format->write(proposal, order.options, order.is_folder);
     if (!made) return made.error().within(order.format->id);
+    if (std::string note = note_on_ending(order); !note.empty()) products.notes.push_back(std::move(note));
     for (const std::string& note : made->notes) products.notes.push_back(order.format->id + ": " + note);
     const std::vector<std::string> others = order.is_folder ? left_over(order, made->files) : std::vector<std::string>{};
     if (!others.empty())
@@ -144,11 +185,12 @@ std::vector<std::string> replaced_by(const Products& products) {
 
 Result<void> make_folders(std::span<const Order> orders) {
   for (const Order& order : orders) {
-    if (!order.is_folder) continue;
+    const fs::path folder = order.is_folder ? fs::path(order.out) : fs::path(order.out).parent_path();
+    if (folder.empty()) continue;
     std::error_code code;
-    fs::create_directories(order.out, code);
-    if (std::error_code ignored; fs::is_directory(order.out, ignored)) continue;
-    return Error{ErrorCode::io, order.out,
+    fs::create_directories(folder, code);
+    if (std::error_code ignored; fs::is_directory(folder, ignored)) continue;
+    return Error{ErrorCode::io, folder.string(),
                  "the folder cannot be made (" + (code ? code.message() : "a file of that name is there") + ")"};
   }
   return {};

@@ -30,7 +30,8 @@ struct Products {
 /// Is it a folder that is there, or a name that ends like one?
 bool means_folder(const std::string& out);
 
-/// What can be known before the work: is there a folder for the file, can the file be written, and is it no work of somebody?
+/// What can be known before the work: is there a folder for the file, or can one be made, does its name end like files of another
+/// format, can the file be written, and is it no work of somebody?
 Result<void> may_write_order(const Order& order);
 
 /// All files of all orders. Where one is refused, none is made. The places of errors are paths or formats.
@@ -40,7 +41,7 @@ Result<Products> make_products(std::span<const Order> orders, Proposal proposal,
 /// The paths of those that are on the disk already, which writing replaces.
 std::vector<std::string> replaced_by(const Products& products);
 
-/// Makes the folders of orders that name one.
+/// Makes the folders that orders name, and those of their files.
 Result<void> make_folders(std::span<const Order> orders);
 
 /// Writes each file whole or not at all. `written` gets the paths of those that were, also where a later one fails.

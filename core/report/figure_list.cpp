@@ -14,7 +14,8 @@ FigureTable plots_table() {
           "Plots",
           "Built floor and ground against what the rules of each plot allow. FSI: floor area to plot area; GSI: built ground to "
           "plot "
-          "area; OSR: open space to floor area; storeys: floor area to built ground.",
+          "area; OSR: open space to floor area; storeys: floor area to built ground. Plot area is gross land, with streets and "
+          "water in it; buildings that stay count neither as floor nor as built ground.",
           {{"area", "Area"},
            {"count", "Volumes"},
            {"floor_area", "Floor area"},

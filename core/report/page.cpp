@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/solver.h"
 #include "core/report/figure_tables.h"
 
 namespace bl::report {
@@ -21,12 +22,26 @@ void key(drawing::Markup& page, const std::string& label, const std::string& fig
   page.open("div").element("dt", label).open("dd").text(figure).element("small", note).close().close();
 }
 
-void write_keys(drawing::Markup& page, const reading::ReportModel& model) {
+// Of plots all land, of solvers what is left of it to build on: each figure says which it means.
+void write_land(drawing::Markup& page, const reading::ReportModel& model, const State& state) {
+  if (model.plots_area > 0)
+    key(page, "Gross land", reading::quantity(model.plots_area, Unit::square_metre),
+        "of all plots, with streets and water in them; buildings that stay are not counted as built");
+  for (const auto& [node, ground] : reading::rows<reading::StandingFigures>(state))
+    if (ground.plot_area > 0)
+      key(page, "Net land", reading::quantity(ground.plot_area, Unit::square_metre),
+          "that may be built on, with open space: FSI " + reading::grouped(ground.fsi, 2) + ", GSI " +
+              reading::grouped(ground.gsi, 2) + " on it");
+}
+
+void write_keys(drawing::Markup& page, const reading::ReportModel& model, const State& state) {
   const bool has_site = model.plan_area > 0;
   const reading::UseAccount& all = model.accounts.all;
   page.open("dl", {{"class", "keys"}});
   key(page, "Plan area", has_site ? reading::quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
-      has_site ? model.accounts.open.empty() ? "inside the boundary" : "inside the boundary, with open space" : "no boundary");
+      has_site ? std::string("inside the boundary, seen from above") + (model.accounts.open.empty() ? "" : ", with open space")
+               : "no boundary");
+  write_land(page, model, state);
   key(page, "Floor area asked for", reading::quantity(all.asked_area, Unit::square_metre),
       all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
   key(page, "Floor area reached", reading::quantity(all.floor_area, Unit::square_metre),
@@ -38,7 +53,7 @@ void write_keys(drawing::Markup& page, const reading::ReportModel& model) {
   // As in the table of plots, whose rules mean the whole plot, courts and gardens that nobody may build on included.
   const double land = model.plots_area > 0 ? model.plots_area : model.plan_area;
   key(page, "Floor space index", land > 0 ? reading::grouped(all.floor_area / land, 2) : "\xE2\x80\x93",
-      model.plots_area > 0 ? "floor area to plot area" : "floor area to plan area");
+      model.plots_area > 0 ? "floor area to gross land" : "floor area to plan area");
   key(page, "Volume", reading::quantity(all.volume, Unit::cubic_metre),
       reading::share_of(all.volume, all.asked) + " of what is asked for");
   key(page, "Fill", reading::share_of(all.volume, model.site_volume), "of the space inside the boundary");
@@ -62,7 +77,7 @@ void write_header(drawing::Markup& page, const reading::ReportModel& model, cons
   page.element("span", model.is_settled ? "\xE2\x9C\x93 Settled" : "\xE2\x9C\x97 Not settled",
                {{"class", model.is_settled ? "badge good" : "badge bad"}});
   page.element("span", data.outcome).close();
-  write_keys(page, model);
+  write_keys(page, model, *data.state);
   page.close();
 }
 

@@ -218,6 +218,7 @@ Json plots_json(const State& state) {
   Json plots = Json::array();
   for (const auto& [node, figures] : reading::rows<reading::StandingFigures>(state))
     plots.push_back({{"id", state.plan->nodes[node].id},
+                     {"land_is", "net"},
                      {"fsi", figures.fsi},
                      {"gsi", figures.gsi},
                      {"osr", figures.osr},
@@ -317,6 +318,9 @@ Json survey_json(const reading::Survey& survey, const State& state, const std::s
   // Streets, sun, plots, surroundings: whatever the scene has of them.
   const Json figures = report::figure_json(state);
   for (const auto& [name, rows] : figures.items()) json[name] = rows;
+  // Plots with rules are measured on all of their land.
+  if (json.contains("plots"))
+    for (Json& plot : json["plots"]) plot["land_is"] = "gross";
   // Ground that volumes stand on has figures of a plot, whether or not a plot with rules lies there.
   for (Json& plot : plots_json(state)) json["plots"].push_back(std::move(plot));
   json["problems"] = Json::array();

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/drawing/use_colours.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/read_proposal.h"
@@ -100,7 +101,8 @@ struct CityJsonFormat {
     f.doc(
         "Each building with a prism over its outline (LoD 1.2) and its closed shape with ground, wall, roof and overhanging "
         "surfaces (LoD 2.2), and closure surfaces where a part of a proposed building stands on another; its use, storeys and "
-        "areas as attributes; plots as land use. Coordinates are those of the scene's "
+        "areas as attributes; plots as land use, and ground that is kept open as plant cover, water body or land use. "
+        "Coordinates are those of the scene's "
         "coordinate system, which is named where it has an EPSG code; else a note says that they are metres of the scene.");
     f.ending(".city.json").begins("{\"type\":\"CityJSON\",\"version\":\"2.0\",\"metadata\":{\"identifier\":\"BehaviourLinks");
     f.option(&Options::surroundings, "surroundings").doc("With the buildings that stand already.");
@@ -324,16 +326,39 @@ struct CityJsonFormat {
           add_building("existing/" + n.id,
                        {{"name", n.name}, {"function", n.use}, {"measuredHeight", n.top - n.bottom}, {"is_proposed", false}},
                        {n.face}, n.bottom, n.top, bodies_of(n.mesh.get(), n.bottom));
-      for (const Land& land : proposal.lands) {
-        if (land.is_boundary) continue;
-        CityText surfaces = CityText::array();
-        for (const geometry::PlateFace& face : land.faces)
-          if (CityText made = plate(face, land.ground, false); !made.is_null()) surfaces.push_back(std::move(made));
-        objects["plot/" + land.id] = {
-            {"type", "LandUse"},
-            {"attributes", {{"name", land.name}, {"area_m2", land.area}, {"fsi", land.fsi}, {"gsi", land.gsi}}},
-            {"geometry", CityText::array({{{"type", "MultiSurface"}, {"lod", "1"}, {"boundaries", std::move(surfaces)}}})}};
+      for (const Land& land : proposal.lands)
+        if (!land.is_boundary)
+          add_surface("plot/" + land.id, "LandUse",
+                      {{"name", land.name}, {"area_m2", land.area}, {"fsi", land.fsi}, {"gsi", land.gsi}}, land.faces,
+                      land.ground);
+      add_open_ground();
+    }
+
+    void add_surface(const std::string& id, const char* type, CityText attributes, const std::vector<geometry::PlateFace>& faces,
+                     double height) {
+      CityText surfaces = CityText::array();
+      for (const geometry::PlateFace& face : faces)
+        if (CityText made = plate(face, height, false); !made.is_null()) surfaces.push_back(std::move(made));
+      if (surfaces.empty()) return;
+      objects[id] = {
+          {"type", type},
+          {"attributes", std::move(attributes)},
+          {"geometry", CityText::array({{{"type", "MultiSurface"}, {"lod", "1"}, {"boundaries", std::move(surfaces)}}})}};
+    }
+
+    void add_open_ground() {
+      for (const OpenSpace& open : proposal.open_spaces) {
+        const drawing::GroundCover cover = drawing::cover_of_use(open.use);
+        const char* type = cover == drawing::GroundCover::water    ? "WaterBody"
+                           : cover == drawing::GroundCover::plants ? "PlantCover"
+                                                                   : "LandUse";
+        add_surface("open_space/" + open.use, type,
+                    {{"name", open.use}, {"function", open.use}, {"area_m2", open.area}, {"asked_area_m2", open.asked_area}},
+                    open.faces, proposal.ground);
       }
+      for (const KeptGround& kept : proposal.kept)
+        add_surface("kept_clear/" + kept.kind, "LandUse", {{"name", kept.kind}, {"function", kept.kind + ", kept clear"}},
+                    kept.faces, proposal.ground);
     }
   };
 
@@ -350,7 +375,8 @@ struct CityJsonFormat {
     document["transform"] = {{"scale", {kStep, kStep, kStep}}, {"translate", {place.origin_x, place.origin_y, 0}}};
     ExportFiles files;
     if (!place.crs.starts_with("EPSG:"))
-      files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene");
+      files.notes.push_back("the scene has no coordinate system with an EPSG code: the coordinates are metres of the scene" +
+                            way_to_system(proposal));
     if (made.uncut > 0)
       files.notes.push_back(reading::counted(made.uncut, "part") + (made.uncut == 1 ? " counts" : " count") +
                             " as roof or ceiling also where another one lies on it: no closed body has these cut out");

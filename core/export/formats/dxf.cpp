@@ -1,6 +1,5 @@
 // Plans of all storeys as DXF R2000: metres, layers by storey and use, plots, surroundings, dimensions, title.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -8,6 +7,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
+#include "core/drawing/use_colours.h"
 #include "core/export/drawn_levels.h"
 #include "core/export/dxf_drawing.h"
 #include "core/export/format.h"
@@ -36,7 +36,8 @@ struct DxfFormat {
         "One drawing in metres from the origin of the scene. Each storey of each building is one closed line, at its height, on "
         "a "
         "layer such as L02-HOUSING: level and use; the first storey below the ground is on L-1-HOUSING. Uses whose names are "
-        "equal in such letters get a number. Arcs are arcs. Plots, the boundary, existing buildings, streets, texts, "
+        "equal in such letters get a number. Arcs are arcs. Ground that is kept open is on "
+        "OPEN-GARDEN and the like, that of streets on KEPT-STREET. Plots, the boundary, existing buildings, streets, texts, "
         "dimensions and the title have layers of their own. A section stands above the plans, on layers that begin with "
         "SECTION.");
     f.ending(".dxf").begins("999\nBehaviourLinks");
@@ -52,12 +53,6 @@ struct DxfFormat {
             "`none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
     declare_form_option(f);
-  }
-
-  // Of AutoCAD's list of colours, one for each use in turn.
-  static int colour_of(std::size_t use) {
-    constexpr std::array<int, 9> kColours = {30, 150, 10, 94, 50, 200, 62, 130, 252};
-    return kColours[use % kColours.size()];
   }
 
   struct DxfPlans {
@@ -149,6 +144,28 @@ struct DxfFormat {
       drawing.text(words, middle, options.text_height, b.label + "  " + fixed(s.floor_area, 1) + " m²", true);
     }
 
+    // Ground that is kept open, with its name and area, on a layer for each use; and that of streets, on one for each kind.
+    void open_ground() {
+      std::set<std::string> taken;
+      const auto layer_of = [&](const std::string& prefix, const std::string& name, int colour) {
+        const std::string plain = prefix + DxfDrawing::layer_name(name);
+        std::string layer = plain;
+        for (int k = 2; !taken.insert(layer).second; ++k) layer = plain + "_" + std::to_string(k);
+        drawing.layer(layer, colour);
+        return layer;
+      };
+      for (const OpenSpace& open : proposal.open_spaces) {
+        if (open.faces.empty()) continue;
+        const std::string layer = layer_of("OPEN-", open.use, drawing::use_colour(open.use).cad);
+        faces(layer, open.faces, proposal.ground, {});
+        Point3 middle = label_place(open.faces).middle;
+        middle.z = proposal.ground;
+        drawing.text(layer, middle, options.text_height, open.use + "  " + fixed(open.area, 1) + " m²", true);
+      }
+      for (const KeptGround& kept : proposal.kept)
+        faces(layer_of("KEPT-", kept.kind, drawing::use_colour(kept.kind).cad), kept.faces, proposal.ground, {});
+    }
+
     void surroundings() {
       for (const Neighbour& n : proposal.neighbours) faces("EXISTING", {n.face}, n.bottom, {});
       for (const Street& street : proposal.streets) {
@@ -170,21 +187,24 @@ struct DxfFormat {
     }
 
     // At its true place and height, so that it lies in the model where it was cut.
-    void level_section(double height) {
+    Result<void> level_section(double height) {
+      if (auto met = check_level_cut(proposal, height); !met) return met;
       drawing.layer("SECTION-CUT", 5);
       drawing.layer("SECTION-TEXT", 7);
       for (const Building& b : proposal.buildings) faces("SECTION-CUT", level_part(b, height).faces, height, {});
       drawing.text("SECTION-TEXT", {extent.low.x, extent.high.y + 4 * options.text_height, height}, 2 * options.text_height,
                    "Level cut at " + std::string(height >= 0 ? "+" : "") + fixed(height, 2) + " m");
+      return {};
     }
 
     // Above the plans, where the height is the way up; the line in the plan has the letter of the section at its ends.
     Result<void> section() {
       if (options.section == "none") return {};
-      if (const auto height = level_cut(options.section)) return level_section(*height), Result<void>{};
+      if (const auto height = level_cut(options.section)) return level_section(*height);
       const auto cut = section_line(proposal, options.section == "auto" ? "" : options.section);
       if (!cut) return cut.error();
       const Section made = section_of(proposal, *cut, options.surroundings);
+      if (auto shown = check_section(made); !shown) return shown;
       const Vector3 way = (cut->to - cut->from) / distance(cut->from, cut->to);
       for (const auto& [name, colour] : std::initializer_list<std::pair<const char*, int>>{{"SECTION-LINE", 6},
                                                                                            {"SECTION-CUT", 5},
@@ -224,11 +244,10 @@ struct DxfFormat {
                {"PLOT", 3}, {"BOUNDARY", 1}, {"EXISTING", 8}, {"STREETS", 9}, {"DIMENSIONS", 7}, {"TITLE", 7}})
         drawing.layer(name, colour);
       for (const Land& land : proposal.lands) faces(land.is_boundary ? "BOUNDARY" : "PLOT", land.faces, land.ground, {});
+      open_ground();
       if (options.surroundings) surroundings();
-      for (const Building& b : proposal.buildings) {
-        const std::size_t use = proposal.use_number(b.use);
-        for (const Storey* s : drawn_storeys(b)) storey(b, *s, colour_of(use));
-      }
+      for (const Building& b : proposal.buildings)
+        for (const Storey* s : drawn_storeys(b)) storey(b, *s, drawing::use_colour(b.use).cad);
       if (auto done = section(); !done) return done.error();
       const Point3 a = {extent.low.x, extent.low.y, 0}, b = {extent.high.x, extent.low.y, 0},
                    c = {extent.high.x, extent.high.y, 0};

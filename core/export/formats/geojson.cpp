@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/export/digits.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
 #include "core/export/read_proposal.h"
@@ -51,13 +52,15 @@ struct GeoJsonFormat {
     bool is_all_finite = true;
     double west = 1e300, south = 1e300, east = -1e300, north = -1e300;
 
+    double digits(double value) const { return way ? to_map_digits(value) : to_millionths(value); }
+
     Ordered place(const Point3& p) {
       const Point3 there =
           way ? way->degrees(p) : Point3{p.x + proposal.reference.origin_x, p.y + proposal.reference.origin_y, 0};
       is_all_finite = is_all_finite && std::isfinite(there.x) && std::isfinite(there.y);
       west = std::min(west, there.x), east = std::max(east, there.x);
       south = std::min(south, there.y), north = std::max(north, there.y);
-      return Ordered::array({there.x, there.y});
+      return Ordered::array({digits(there.x), digits(there.y)});
     }
 
     Ordered ring(const geometry::Ring& corners) {
@@ -84,10 +87,11 @@ struct GeoJsonFormat {
     }
 
     void add_land(const Land& land) {
-      Ordered figures = {{"kind", land.is_boundary ? "boundary" : "plot"}, {"name", land.name}, {"area_m2", land.area}};
+      Ordered figures = {
+          {"kind", land.is_boundary ? "boundary" : "plot"}, {"name", land.name}, {"area_m2", to_millionths(land.area)}};
       if (!land.is_boundary) {
-        figures["fsi"] = land.fsi;
-        figures["gsi"] = land.gsi;
+        figures["fsi"] = to_millionths(land.fsi);
+        figures["gsi"] = to_millionths(land.gsi);
         for (const auto& [name, rule] :
              {std::pair("fsi_max", land.fsi_max), std::pair("gsi_max", land.gsi_max), std::pair("height_max_m", land.height_max)})
           figures[name] = rule ? Ordered(*rule) : Ordered();
@@ -98,7 +102,17 @@ struct GeoJsonFormat {
     void add_open_space(const OpenSpace& open) {
       if (open.faces.empty()) return;
       add("open_space/" + open.use, polygons(open.faces),
-          {{"kind", "open_space"}, {"use", open.use}, {"area_m2", open.area}, {"asked_area_m2", open.asked_area}});
+          {{"kind", "open_space"},
+           {"use", open.use},
+           {"area_m2", to_millionths(open.area)},
+           {"asked_area_m2", to_millionths(open.asked_area)},
+           {"colour", drawing::hex(open.colour)}});
+    }
+
+    // Ground of streets on which nothing is built.
+    void add_kept(const KeptGround& kept) {
+      add("kept_clear/" + kept.kind, polygons(kept.faces),
+          {{"kind", "kept_clear"}, {"name", kept.kind}, {"area_m2", to_millionths(area_of(kept.faces))}});
     }
 
     void add_building(const Building& b) {
@@ -109,21 +123,25 @@ struct GeoJsonFormat {
            {"use", b.use},
            {"form", b.is_standing ? "standing" : "rounded"},
            {"storeys", b.storeys.size()},
-           {"floor_area_m2", b.floor_area},
-           {"asked_floor_area_m2", b.asked_area},
-           {"volume_m3", b.volume},
-           {"asked_volume_m3", b.asked_volume},
-           {"footprint_m2", b.footprint},
-           {"drawn_area_m2", area_of(b.outline)},
-           {"bottom_m", b.bottom},
-           {"top_m", b.top},
+           {"floor_area_m2", to_millionths(b.floor_area)},
+           {"asked_floor_area_m2", to_millionths(b.asked_area)},
+           {"volume_m3", to_millionths(b.volume)},
+           {"asked_volume_m3", to_millionths(b.asked_volume)},
+           {"footprint_m2", to_millionths(b.footprint)},
+           {"drawn_area_m2", to_millionths(area_of(b.outline))},
+           {"bottom_m", to_millimetres(b.bottom)},
+           {"top_m", to_millimetres(b.top)},
            {"colour", drawing::hex(b.colour)}});
     }
 
     void add_surroundings() {
       for (const Neighbour& n : proposal.neighbours)
         add("existing/" + n.id, polygons({n.face}),
-            {{"kind", "existing_building"}, {"name", n.name}, {"use", n.use}, {"bottom_m", n.bottom}, {"top_m", n.top}});
+            {{"kind", "existing_building"},
+             {"name", n.name},
+             {"use", n.use},
+             {"bottom_m", to_millimetres(n.bottom)},
+             {"top_m", to_millimetres(n.top)}});
       std::size_t number = 0;
       for (const Street& street : proposal.streets) {
         Ordered line = Ordered::array();
@@ -148,6 +166,7 @@ struct GeoJsonFormat {
       }
       for (const Land& land : proposal.lands) add_land(land);
       for (const OpenSpace& open : proposal.open_spaces) add_open_space(open);
+      for (const KeptGround& kept : proposal.kept) add_kept(kept);
       for (const Building& building : proposal.buildings) add_building(building);
       if (options.surroundings) add_surroundings();
       if (!is_all_finite)
@@ -159,7 +178,7 @@ struct GeoJsonFormat {
                            {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + proposal.reference.crs.substr(5)}}}};
       for (const auto& [name, value] : identity_of(proposal)) document["scene"][name] = value;
       document["scene"]["coordinates"] = way ? "longitude and latitude, WGS84" : "metres";
-      if (west <= east) document["bbox"] = {west, south, east, north};
+      if (west <= east) document["bbox"] = {digits(west), digits(south), digits(east), digits(north)};
       document["features"] = std::move(features);
       made.files.push_back({"proposal.geojson", document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"});
       return made;

@@ -43,6 +43,7 @@ struct IfcFormat {
         "than 0.5 m that follow each other in nearly one direction; its wall has the length of all of them. A rounded volume is "
         "given as the "
         "plates that it is measured by, without walls, also as slabs or standing: what its sides border on is not known. "
+        "Ground that is kept open or clear is a geographic element of the site. "
         "Identifiers follow from "
         "those of the scene, so that they are the same in every export.");
     f.ending(".ifc").begins(
@@ -301,6 +302,34 @@ struct IfcFormat {
         file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/existing"), "$", "$", "$", step_list(all), site});
     }
 
+    // A thin body below the ground of each use, and of streets that are kept clear.
+    void open_ground() {
+      constexpr double kThickness = 0.1;  // [m]
+      Names all;
+      const auto add = [&](const std::string& id, const std::string& name, const char* kind, const drawing::Colour& colour,
+                           const std::vector<geometry::PlateFace>& faces) {
+        const std::string one =
+            file.add("IFCGEOGRAPHICELEMENT",
+                     {guid(id), "$", step_text(name), step_text(kind), step_text(name), placement(site_place, 0),
+                      shape(faces, proposal.ground - kThickness, kThickness, style_of("ground of " + name, colour)), "$",
+                      ".USERDEFINED."});
+        all.push_back(one);
+        return one;
+      };
+      for (const OpenSpace& open : proposal.open_spaces) {
+        if (open.faces.empty()) continue;
+        const std::string id = "open_space/" + open.use;
+        const std::string one = add(id, open.use, "Open space", drawing::mix(open.colour, drawing::kWhite, 0.3), open.faces);
+        quantities(
+            id, one, "BehaviourLinks_OpenSpace",
+            {quantity("IFCQUANTITYAREA", "OpenArea", open.area), quantity("IFCQUANTITYAREA", "AskedArea", open.asked_area)});
+      }
+      for (const KeptGround& kept : proposal.kept)
+        add("kept_clear/" + kept.kind, kept.kind, "Ground kept clear", {0.85, 0.85, 0.83}, kept.faces);
+      if (!all.empty())
+        file.add("IFCRELCONTAINEDINSPATIALSTRUCTURE", {guid("contained/ground"), "$", "$", "$", step_list(all), site});
+    }
+
     void classification() {
       const std::string system = file.add("IFCCLASSIFICATION", {"$", "$", "$", "'Uses of the scene'", "$", "$", "$"});
       for (const auto& [use, spaces] : spaces_of_use) {
@@ -314,12 +343,14 @@ struct IfcFormat {
     IfcBuilder made{proposal, options};
     made.start();
     made.buildings();
+    made.open_ground();
     if (options.surroundings) made.surroundings();
     made.classification();
     made.common();
     ExportFiles files;
     if (!proposal.reference.crs.starts_with("EPSG:"))
-      files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion");
+      files.notes.push_back("the scene has no coordinate system with an EPSG code: the model has no map conversion" +
+                            way_to_system(proposal));
     // Bodies that another form makes of rounded volumes.
     const auto bare =
         static_cast<std::size_t>(std::count_if(proposal.buildings.begin(), proposal.buildings.end(), [](const Building& b) {

@@ -1,5 +1,7 @@
 // The area schedule as a workbook: storeys, buildings, programme against result, indices of the plots; formulas with their
 // values.
+#include <algorithm>
+
 #include "core/base/text.h"
 #include "core/export/format.h"
 #include "core/export/identity.h"
@@ -168,9 +170,9 @@ struct XlsxFormat {
     }
 
     XlsxSheet plots() const {
-      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16, 14}, {}};
-      sheet.rows.push_back(header(
-          {"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]", "kept open [m2]"}));
+      XlsxSheet sheet{"Plots", {24, 12, 14, 10, 10, 14, 14, 16, 14, 10, 10}, {}};
+      sheet.rows.push_back(header({"plot", "kind", "land [m2]", "FSI", "GSI", "largest FSI", "largest GSI", "largest height [m]",
+                                   "kept open [m2]", "OSR", "storeys"}));
       for (const Land& land : proposal.lands) {
         Cells row = {w(land.name), w(land.is_boundary ? "boundary" : "plot"), n(land.area)};
         if (!land.is_boundary)
@@ -178,8 +180,21 @@ struct XlsxFormat {
                {std::optional(land.fsi), std::optional(land.gsi), land.fsi_max, land.gsi_max, land.height_max})
             row.push_back(value ? n(*value) : XlsxCell());
         if (land.is_boundary && land.open_area > 0) row.resize(8), row.push_back(n(land.open_area));
+        if (!land.is_boundary) row.resize(9), row.push_back(n(land.osr)), row.push_back(n(land.storeys));
         sheet.rows.push_back(std::move(row));
       }
+      for (const NetGround& ground : proposal.grounds)
+        sheet.rows.push_back({w(ground.name),
+                              w("net land"),
+                              n(ground.area),
+                              n(ground.fsi),
+                              n(ground.gsi),
+                              {},
+                              {},
+                              {},
+                              n(ground.open_area),
+                              n(ground.osr),
+                              n(ground.storeys)});
       return sheet;
     }
 
@@ -205,6 +220,14 @@ struct XlsxFormat {
         const std::string row = std::to_string(sheet.rows.size() + 1);
         sheet.rows.push_back({w(one.name), n(one.value), w(one.direction), n(one.target), w(one.unit),
                               f("B" + row + "-D" + row, one.value - one.target), w(one.status), n(one.score)});
+      }
+      // The share of a garden's area that has the sun it requires.
+      for (const SunPlace& sun : proposal.suns) {
+        const std::string row = std::to_string(sheet.rows.size() + 1);
+        sheet.rows.push_back({w(sun.name + ": share of the area with " + fixed(sun.required_hours, 1) + " h of sun"),
+                              n(sun.share), w("at_least"), n(sun.required_share), w(""),
+                              f("B" + row + "-D" + row, sun.share - sun.required_share), w(sun.is_met() ? "met" : "far"),
+                              n(sun.required_share > 0 ? std::min(1.0, sun.share / sun.required_share) : 1)});
       }
       return sheet;
     }

@@ -12,6 +12,8 @@ void PlotFigures::declare(ViewBuilder<PlotFigures>& v) {
   v.reads(&PlotFigures::height_max, "plot.height_max", Unit::metre);
   v.reads(&PlotFigures::fsi, "plot.fsi", Unit::ratio);
   v.reads(&PlotFigures::gsi, "plot.gsi", Unit::ratio);
+  v.reads(&PlotFigures::osr, "plot.osr", Unit::ratio);
+  v.reads(&PlotFigures::storeys, "plot.layers", Unit::ratio);
   v.reads(&PlotFigures::top, "plot.top", Unit::metre);
   v.reads(&PlotFigures::overshoot, "plot.overshoot", Unit::ratio);
   v.reads(&PlotFigures::setback, "plot.setback", Unit::metre);

@@ -14,6 +14,8 @@ struct PlotFigures {
   double height_max = 0;         ///< [m]
   double fsi = 0;                ///< floor space index
   double gsi = 0;                ///< ground space index
+  double osr = 0;                ///< open space ratio
+  double storeys = 0;            ///< floor area over built ground
   double top = 0;                ///< of the highest volume above the ground [m]
   double overshoot = 0;          ///< by how much the worst of the rules is broken
   double setback = 0;            ///< [m]

@@ -43,6 +43,7 @@ void ReceiverFigures::declare(ViewBuilder<ReceiverFigures>& v) {
   v.reads(&ReceiverFigures::sun_mean, "shadow_receiver.sun_mean", Unit::second);
   v.reads(&ReceiverFigures::sun_possible, "shadow_receiver.sun_possible", Unit::second);
   v.reads(&ReceiverFigures::required_sun, "shadow_receiver.required_sun", Unit::second);
+  v.reads(&ReceiverFigures::required_share, "shadow_receiver.required_share", Unit::ratio);
   v.reads(&ReceiverFigures::share_met, "shadow_receiver.share_met", Unit::ratio);
   v.reads(&ReceiverFigures::columns, "shadow_receiver.columns", Unit::count);
   v.reads(&ReceiverFigures::map, "shadow_receiver.map");

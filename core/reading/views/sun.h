@@ -46,14 +46,15 @@ struct CasterFigures {
 /// Sun on a rectangle, measured on a grid of points.
 struct ReceiverFigures {
   bool upright = false;
-  Vector3 half_across;       ///< [m]
-  Vector3 half_up;           ///< [m]
-  double sun_mean = 0;       ///< per day [s]
-  double sun_possible = 0;   ///< per day without casters [s]
-  double required_sun = 0;   ///< per day [s]
-  double share_met = 0;      ///< of its area that gets what it requires
-  std::int64_t columns = 0;  ///< of the grid
-  Shared<Table> map;         ///< sun at each of its points
+  Vector3 half_across;        ///< [m]
+  Vector3 half_up;            ///< [m]
+  double sun_mean = 0;        ///< per day [s]
+  double sun_possible = 0;    ///< per day without casters [s]
+  double required_sun = 0;    ///< per day [s]
+  double required_share = 1;  ///< of its area that should get as much
+  double share_met = 0;       ///< of its area that gets what it requires
+  std::int64_t columns = 0;   ///< of the grid
+  Shared<Table> map;          ///< sun at each of its points
 
   static void declare(ViewBuilder<ReceiverFigures>& v);
   static const ViewDefinition& view();

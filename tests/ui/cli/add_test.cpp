@@ -137,6 +137,7 @@ TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   (void)place.run({"run", "s.json", "--json", "r.json"});
   const nlohmann::json plot = place.json("r.json")["plots"][0];
   EXPECT_NEAR(plot["area"].get<double>(), 80 * 44, 1e-6) << "the land stays what it is";
+  EXPECT_EQ(plot["land_is"], "gross");
   EXPECT_NEAR(plot["osr"].get<double>(), (1 - plot["gsi"].get<double>()) / plot["fsi"].get<double>(), 1e-9);
   EXPECT_EQ(add({"garden", "--id", "garden", "--open"}).code, 2);
 }

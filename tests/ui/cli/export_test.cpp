@@ -65,7 +65,10 @@ TEST(Export, MistakesAreNamedAndWriteNothing) {
       {{"--format", "csv", "--out", "mine.csv"}, "was not exported as csv"},
       {{"--format", "csv", "--out", "folder"}, "is a folder, but csv makes one file"},
       {{"--format", "svg", "--out", "mine.csv/"}, "is a file, not a folder"},
-      {{"--format", "csv", "--out", "nowhere/x.csv"}, "there is no folder nowhere"},
+      {{"--format", "csv", "--out", "mine.csv/x.csv"}, "mine.csv is a file, not a folder"},
+      {{"--format", "pdf", "--out", "x.dxf"}, "ends like files of the format dxf, and pdf is wanted"},
+      {{"--format", "pdf", "--out", "x", "--option", "section=5000"}, "a level cut at +5000.00 m meets no volume"},
+      {{"--format", "dxf", "--out", "x", "--option", "section=5000"}, "they lie between "},
       {{"--format", "stl", "--out", "x", "--option", "scael=3"}, "did you mean `scale`?"},
       {{"--format", "stl", "--out", "x", "--option", "scale=0"}, "scale"},
       {{"--format", "csv", "--out", "x", "--format", "geojson", "--out", "y"}, "where it lies on Earth"},
@@ -81,6 +84,19 @@ TEST(Export, MistakesAreNamedAndWriteNothing) {
     EXPECT_FALSE(std::filesystem::exists(place.path("x"))) << words;
   }
   EXPECT_EQ(place.text("mine.csv"), "my,own\n1,2\n");
+}
+
+// As formats of several files do it; what ends in a way that no format has is told.
+TEST(Export, MissingFoldersAreMadeForSingleFiles) {
+  const Workplace place;
+  place.write("a.json", moving_scene());
+  const Outcome outcome = place.run({"export", "a.json", "--settle", "--format", "csv", "--out", "new/deep/a.csv", "--format",
+                                     "svg", "--out", "new/plans/", "--format", "pdf", "--out", "new/a.docx"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(place.text("new/deep/a.csv").starts_with("row,building,"));
+  EXPECT_TRUE(std::filesystem::exists(place.path("new/plans/level_00.svg")));
+  EXPECT_NE(outcome.out.find("pdf: new/a.docx does not end with .pdf"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("csv: "), std::string::npos) << outcome.out;
 }
 
 // A disk that is full is played by the largest size that a file may have.

@@ -52,6 +52,7 @@ TEST_F(OpenSpaceRows, AskForGroundAndGetIt) {
           << "only housing is too far from the offices: " << problem;
     if (form == "rounded") continue;
     const nlohmann::json plot = run["plots"].back();
+    EXPECT_EQ(plot["land_is"], "net");
     EXPECT_NEAR(plot["land"].get<double>(), 6000, 1e-6) << "the garden is land";
     EXPECT_NEAR(plot["open_space"].get<double>(), 600, 1e-3);
     const double floors = run["totals"]["floor_area"].get<double>(), gsi = plot["gsi"].get<double>();

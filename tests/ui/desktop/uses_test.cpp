@@ -1,6 +1,7 @@
 // The colours of uses: one numbering for canvas, 3D view, statistics and pictures; and pictures that show every volume.
 #include <gtest/gtest.h>
 
+#include "core/drawing/use_colours.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
@@ -58,9 +59,9 @@ TEST_F(UsesTest, EveryPanelShowsTheSameColour) {
   std::set<std::size_t> seen;
   for (std::size_t k = 0; k < facts->volumes.size(); ++k) {
     const VolumeFacts& volume = facts->volumes[k];
-    EXPECT_EQ(colouring.colours[k], colour_of_use(theme, numbers.of(volume.figures.use))) << volume.id;
-    EXPECT_EQ(board.model.boxes[board.model.find_box(volume.id)].use, numbers.of(volume.figures.use)) << volume.id;
-    seen.insert(numbers.of(volume.figures.use));
+    EXPECT_EQ(colouring.colours[k], colour_of_use(theme, numbers.tone(volume.figures.use))) << volume.id;
+    EXPECT_EQ(board.model.boxes[board.model.find_box(volume.id)].use, numbers.tone(volume.figures.use)) << volume.id;
+    seen.insert(numbers.tone(volume.figures.use));
   }
   EXPECT_TRUE(seen.contains(kNoUse));
   EXPECT_EQ(colouring.legend.rows.back().label, "No use");
@@ -69,6 +70,15 @@ TEST_F(UsesTest, EveryPanelShowsTheSameColour) {
   for (const PictureTriangle& triangle : picture_of(editor().state()).triangles) drawn.insert(triangle.colour);
   EXPECT_GT(drawn.size(), 2u);
   for (const std::size_t number : drawn) EXPECT_TRUE(seen.contains(number));
+}
+
+// Window, report and files look alike.
+TEST_F(UsesTest, ColoursAreThoseOfReportsAndFiles) {
+  const UseNumbers numbers(editor().scene());
+  for (const std::string use : {"housing", "shops", "something else"}) {
+    const std::size_t tone = numbers.tone(use);
+    EXPECT_EQ(colour_of_use(editor().theme, tone), colour_of_text(drawing::hex(drawing::use_colour(use).colour))) << use;
+  }
 }
 
 TEST(Pictures, StreetsAreDrawnWhereThereIsNothingElse) {

@@ -57,7 +57,7 @@ constexpr Colours kLight = {.window = rgb(0xe9eaed),
                             .sky = rgb(0xe4e9f0),
                             .ground = rgb(0xd3d7de)};
 
-// The same tones as the report's palette of uses, after Paul Tol's qualitative schemes (2021).
+// Of kinds and parts that have no colour of their own, after Paul Tol's qualitative schemes (2021). Uses have theirs: use_tone.
 constexpr std::array<unsigned, 9> kCategories = {0xeeaa66, 0x6d9fd4, 0xda7a85, 0x5fb594, 0xecd77d,
                                                  0xaa93c7, 0xb3be56, 0x92d1e4, 0xc1beb9};
 

@@ -83,8 +83,8 @@ std::vector<Piece> pieces_of(const State& state, const reading::ReportModel& mod
   std::vector<Piece> pieces;
   for (const reading::VolumeRow& row : model.volumes) {
     const double radius = row.figures.radius;
-    if (row.mesh) add_pieces(*row.mesh, numbers.of(row.use), pieces);
-    else if (row.volume > 0 && radius > 0) add_pieces(ball(row.figures.position, radius), numbers.of(row.use), pieces);
+    if (row.mesh) add_pieces(*row.mesh, numbers.tone(row.use), pieces);
+    else if (row.volume > 0 && radius > 0) add_pieces(ball(row.figures.position, radius), numbers.tone(row.use), pieces);
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
   return pieces;

@@ -14,7 +14,7 @@ namespace bl::desktop {
 struct PictureTriangle {
   float x[3], y[3];
   float shade;         ///< 0 dark to 1 light
-  std::size_t colour;  ///< the number of its use, or kNoUse
+  std::size_t colour;  ///< the tone of its use, or kNoUse
 };
 
 struct ScenePicture {

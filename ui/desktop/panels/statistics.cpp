@@ -172,7 +172,7 @@ void draw_volumes(Workbench& editor, RunRecord& record) {
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const reading::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
-      const ImU32 colour = colour_of_use(editor.theme, numbers.of(volume.use));
+      const ImU32 colour = colour_of_use(editor.theme, numbers.tone(volume.use));
       if (!is_in_another_form(editor)) {
         draw_volume(editor, volume, row, height, largest, model.accounts.tolerance, colour);
         continue;
@@ -277,7 +277,7 @@ void draw_open_space(Workbench& editor, const reading::Accounts& accounts, const
         editor,
         {open.use, open.area, open.asked, open.is_short(accounts.tolerance), why_short(open, accounts.tolerance),
          "of ground asked for as open space", open.is_in_programme ? "no volume, and no floor area" : "not in any programme"},
-        colour_of_use(editor.theme, numbers.of(open.use)), largest);
+        colour_of_use(editor.theme, numbers.tone(open.use)), largest);
 }
 
 // Sums over the same volumes, in the form that is drawn.
@@ -311,7 +311,7 @@ void draw_programme(Workbench& editor, RunRecord& record) {
   for (const reading::UseAccount& use : accounts.uses) largest = std::max({largest, use.floor_area, use.asked_area});
   const UseNumbers numbers(editor.state().plan->scene);
   for (const reading::UseAccount& use : accounts.uses)
-    draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest, accounts.tolerance,
+    draw_use(editor, use, colour_of_use(editor.theme, numbers.tone(use.use)), largest, accounts.tolerance,
              why_less(editor, record, use));
   if (!accounts.uses.empty()) {
     reading::UseAccount total = accounts.all;

@@ -52,7 +52,7 @@ std::string told(double value, Unit unit) {
 }
 
 Colour colour_by_use(const VolumeFacts& volume, const Theme& theme, const UseNumbers& numbers) {
-  return colour_of_use(theme, numbers.of(volume.figures.use));
+  return colour_of_use(theme, numbers.tone(volume.figures.use));
 }
 
 // Against what was asked for: short to one side, more than that to the other.
@@ -68,7 +68,7 @@ Colouring by_use(const SceneFacts& facts, const Theme& theme, const UseNumbers& 
   std::vector<std::string> uses = facts.uses;
   std::stable_sort(uses.begin(), uses.end(),
                    [&](const std::string& a, const std::string& b) { return numbers.of(a) < numbers.of(b); });
-  for (const std::string& use : uses) out.legend.rows.push_back({label_of_use(use), colour_of_use(theme, numbers.of(use))});
+  for (const std::string& use : uses) out.legend.rows.push_back({label_of_use(use), colour_of_use(theme, numbers.tone(use))});
   return out;
 }
 
@@ -90,7 +90,7 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
 UseNumbers::UseNumbers(const Scene& scene) {
   const Registry& registry = full_registry();
   const auto add = [&](const std::string& use) {
-    if (!use.empty()) numbers_.emplace(use, numbers_.size());
+    if (!use.empty()) rows_.emplace(use, Row{rows_.size(), tone_of_use(use)});
   };
   std::set<std::string> others;
   for (const auto& [id, node] : scene.nodes) {
@@ -136,13 +136,19 @@ const UseNumbers& UseMemo::of(const std::shared_ptr<const State>& state) {
 
 std::size_t UseNumbers::of(const std::string& use) const {
   if (use.empty()) return kNoUse;
-  const auto found = numbers_.find(use);
-  return found == numbers_.end() ? numbers_.size() : found->second;
+  const auto found = rows_.find(use);
+  return found == rows_.end() ? rows_.size() : found->second.number;
 }
 
-Colour colour_of_use(const Theme& theme, std::size_t number) {
+std::size_t UseNumbers::tone(const std::string& use) const {
+  const auto found = rows_.find(use);
+  return found == rows_.end() ? tone_of_use(use) : found->second.tone;
+}
+
+Colour colour_of_use(const Theme& theme, std::size_t tone) {
   const Colours& c = theme.colours();
-  return number == kNoUse ? mixed(c.text_faint, c.text_soft, 0.6f) : theme.category(number);
+  if (tone == kNoUse) return mixed(c.text_faint, c.text_soft, 0.6f);
+  return IM_COL32((tone >> 16) & 0xff, (tone >> 8) & 0xff, tone & 0xff, 255);
 }
 
 AccountTone tone_of_account(const reading::Account& account, double tolerance) {

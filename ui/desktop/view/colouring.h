@@ -10,6 +10,7 @@
 #include "core/define/registry.h"
 #include "core/graph/scene.h"
 #include "ui/desktop/look/theme.h"
+#include "ui/desktop/look/use_tone.h"
 #include "ui/desktop/view/labels.h"
 #include "ui/desktop/view/scene_facts.h"
 
@@ -33,18 +34,21 @@ struct Legend {
   std::string low, middle, high;  ///< what its ends and its middle stand for, with units
 };
 
-/// A volume without a use stands outside of the series.
-inline constexpr std::size_t kNoUse = static_cast<std::size_t>(-1);
-
-/// The numbers of a scene's uses, and with them their colours, for all panels: in the order of the programme, so that they keep
-/// them while volumes come and go, then by name.
+/// The uses of a scene for all panels: their order, which is that of the programme, then by name; and their colours, which follow
+/// from their names alone and are kept here, because every frame asks for them.
 class UseNumbers {
  public:
   explicit UseNumbers(const Scene& scene);
+  /// Its place in that order, kNoUse for no name.
   std::size_t of(const std::string& use) const;
+  /// As `tone_of_use` has it.
+  std::size_t tone(const std::string& use) const;
 
  private:
-  std::map<std::string, std::size_t> numbers_;
+  struct Row {
+    std::size_t number = 0, tone = 0;
+  };
+  std::map<std::string, Row> rows_;
 };
 
 /// The numbers of the last scene, made anew only where a use has changed.
@@ -59,7 +63,8 @@ class UseMemo {
   std::shared_ptr<const State> state_;
   std::optional<UseNumbers> numbers_;
 };
-Colour colour_of_use(const Theme& theme, std::size_t number);
+/// The colour of a tone of `tone_of_use`.
+Colour colour_of_use(const Theme& theme, std::size_t tone);
 
 /// How a volume stands against what was asked for; bars, list and card share the colours.
 enum class AccountTone { met, off, far };

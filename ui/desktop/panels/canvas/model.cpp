@@ -149,7 +149,7 @@ void Model::make_boxes(const Workbench& editor) {
 void Model::number_uses(const Workbench& editor) {
   const UseNumbers numbers(editor.scene());
   for (NodeBox& box : boxes)
-    if (const auto use = use_of(editor, box.id)) box.use = numbers.of(*use);
+    if (const auto use = use_of(editor, box.id)) box.use = numbers.tone(*use);
 }
 
 std::size_t Model::find_box(const std::string& id) const {

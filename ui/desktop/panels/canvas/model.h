@@ -44,7 +44,7 @@ struct NodeBox {
   bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
   bool is_hidden = false;                        ///< left out of the 3D view
   std::uint32_t in_state = kNoIndex;             ///< none before the first tick that knows it
-  std::size_t use = kNoIndex;                    ///< of a SmartVolume: the number of its use, or kNoUse
+  std::size_t use = kNoIndex;                    ///< of a SmartVolume: the tone of its use, or kNoUse
 
   bool is_ghost() const;
 };
