@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/define/no_value.h"
 
 namespace bl {
 
@@ -38,6 +39,7 @@ std::string default_of(const PortDefinition& port) {
   if (port.of_scene == OfScene::always) return "the scene's setting";
   if (port.is_computed) return "";
   const std::string text = write_json_line(value_to_json(port.default_value, port));
+  if (value_of_none(port)) return std::string(kNoneWord) + ", `" + text + "`";
   return text == "\"\"" || text == "[]"
              ? ""
              : "`" + text + "`" + (port.of_scene == OfScene::unless_set ? ", or the scene's setting" : "");

@@ -70,7 +70,12 @@ std::string storeys_left(const StandingVolume& volume, double limit) {
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share) {
   if (volume.is_locked) return "held by `" + id + "` (its height limit is locked)";
   const double least = least_storeys(volume, share);
-  return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys");
+  // Who asks for so many is no secret of the rule.
+  const bool by_share = least > std::max(1, volume.least);
+  return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys") +
+         (by_share ? " (`least`: " + shortest(std::round(1000 * share) / 10) + " % of " + std::to_string(volume.wished) + ")"
+          : volume.least > 1 ? " (`storeys_min`)"
+                             : "");
 }
 
 std::string way_to_fewer(const StandingVolume& volume, double share) {

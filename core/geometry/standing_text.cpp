@@ -19,6 +19,28 @@ Error error_of_wish(const Error& error, std::span<const std::uint32_t> members) 
   return {error.code, "", "site " + std::to_string(members[static_cast<std::size_t>(*site)]) + " cannot stand: " + error.message};
 }
 
+namespace {
+
+// What to say of who is placed outside of the boundary; empty where it has something, or stands inside.
+std::string why_outside(const StandingWish& wish, const StandingResult& result, const Domain& domain) {
+  constexpr double kNearly = 0.01;  // [m]
+  if (!(wish.volume > 0) || result.floor_area > 0 || wish.base >= 0 || wish.host >= 0 || domain.pieces.empty()) return "";
+  const Point3 at{wish.site.site.position.x, wish.site.site.position.y, domain.minimum.z + kNearly};
+  if (domain.contains(at, kNearly)) return "";
+  return "has nothing, because it is placed " + fixed(distance(at, domain.place_inside(at)), 0) +
+         " m outside of the boundary: move it inside";
+}
+
+}  // namespace
+
+std::string outside_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results, const Domain& domain,
+                         std::span<const std::string> names) {
+  std::string words;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (const std::string why = why_outside(wishes[i], results[i], domain); !why.empty()) words += "; `" + names[i] + "` " + why;
+  return words;
+}
+
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names) {
   if (!(wish.volume > 0)) return "wants nothing: raise its demand to give it a volume";
   if (result.state == SiteState::coincident) return "stands in the place of a heavier volume: move one of them";
@@ -45,6 +67,17 @@ std::string pieces_text(const StandingBody& body, const std::string& name) {
   if (pieces.size() < 2) return "";
   return "; `" + name + "` stands in " + std::to_string(pieces.size()) + " pieces of " + fixed(least, 0) + " to " +
          fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in one";
+}
+
+// A set-back of all storeys makes the footprint larger by as much, but for what it keeps from a border, and from neighbours whose
+// walls do not touch.
+bool has_idle_setback(const StandingWish& wish, const StandingResult& whole) {
+  if (!(wish.setback > 0) || wish.full_storeys > 0 || !wish.site.has_party_walls || whole.storeys.count < 2) return false;
+  if (!whole.body || whole.body->stacks.empty()) return false;
+  for (const PlateRing& outline : whole.body->stacks.front().outlines)
+    for (const PlateRing::Corner& corner : outline.corners)
+      if (corner.beyond == PlateRing::kPlot) return false;
+  return true;
 }
 
 }  // namespace
@@ -74,6 +107,10 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
                fixed(whole.outside.height, 1) + " m high, by up to " + fixed(whole.outside.area, 1) +
                " m² of a plate: lower its `storeys`, or move it";
     if (whole.body) words += pieces_text(*whole.body, names[i]);
+    if (has_idle_setback(wish, whole))
+      words += "; the set-back of `" + names[i] + "` holds for all of its " +
+               how_many(static_cast<std::size_t>(whole.storeys.count), "storey") +
+               " alike, and changes nothing: set `full_storeys`, above which it begins";
     // On their way to what they want, volumes are smaller.
     if (!whole.body || error_of(wish, results[i]) > tolerance) continue;
     int with_area = 0;

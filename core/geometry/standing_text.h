@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "core/geometry/domain.h"
 #include "core/geometry/standing_tick.h"
 
 namespace bl::geometry {
@@ -16,6 +17,10 @@ Error error_of_wish(const Error& error, std::span<const std::uint32_t> members);
 
 /// Why a volume has no footprint; empty where it has one. Lists are in the order of the wishes.
 std::string missing_text(const StandingWish& wish, const StandingResult& result, std::span<const std::string> names);
+
+/// Those that have nothing because their positions lie outside of the boundary, each sentence after "; ".
+std::string outside_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results, const Domain& domain,
+                         std::span<const std::string> names);
 
 /// What is built otherwise than people have set it, each sentence after "; ". `buildings`: the results of whole buildings, where
 /// volumes share a footprint; `top`: of the boundary [m]; `tolerance`: the share by which a volume may miss what it wants.

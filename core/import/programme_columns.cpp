@@ -27,6 +27,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits =
                                                                                    {"cm", "cm"},
                                                                                    {"mm", "mm"}}};
 
+// Every word of two letters is nearly `on`.
+constexpr std::size_t kShortName = 2;
+
 std::string unit_symbol(std::string_view word) {
   for (const auto& [written, symbol] : kUnits)
     if (written == word) return std::string(symbol);
@@ -148,6 +151,7 @@ Result<void> Matcher::take_aliases() {
     for (const ProgrammeColumnInfo& info : programme_columns()) {
       if (chosen[static_cast<std::size_t>(info.column)]) continue;
       if (std::find(info.aliases.begin(), info.aliases.end(), name) == info.aliases.end()) continue;
+      if (info.column == ProgrammeColumn::note && header_.at(info.column)) continue;  // a second one is left out below
       if (auto done = take(info, i); !done) return done;
     }
   }
@@ -182,7 +186,7 @@ Result<ProgrammeHeader> Matcher::finish() {
     return missing("floor_area_m2", {ProgrammeColumn::floor_area});
   std::vector<std::string> ours;
   for (const ProgrammeColumnInfo& info : programme_columns())
-    if (!header_.at(info.column)) ours.emplace_back(info.aliases.front());
+    if (!header_.at(info.column) && info.aliases.front().size() > kShortName) ours.emplace_back(info.aliases.front());
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     if (taken_[i]) continue;
     const std::string hint = did_you_mean(normal_header(record_.fields[i]).name, ours);
@@ -226,6 +230,18 @@ const std::array<ProgrammeColumnInfo, kProgrammeColumns>& programme_columns() {
       {ProgrammeColumn::standing, "standing", Unit::none, {"standing", "stands_on", "support"}},
       {ProgrammeColumn::storeys, "storeys", Unit::count, {"storeys", "stories", "floors", "levels", "number_of_storeys"}},
       {ProgrammeColumn::open, "open", Unit::none, {"open", "is_open", "open_space", "unbuilt"}},
+      {ProgrammeColumn::on, "on", Unit::none, {"on", "on_top_of", "on_roof_of", "upon"}},
+      {ProgrammeColumn::shares, "shares", Unit::none, {"shares", "share", "shares_with", "shared_with", "same_building"}},
+      {ProgrammeColumn::below_ground,
+       "below_ground",
+       Unit::none,
+       {"below_ground", "underground", "cellar", "cellars", "cellar_storeys", "basement", "basements"}},
+      {ProgrammeColumn::depth, "depth_m", Unit::metre, {"depth", "building_depth", "wing_depth"}},
+      {ProgrammeColumn::distance, "distance_m", Unit::metre, {"distance", "building_distance", "separation", "spacing"}},
+      {ProgrammeColumn::note,
+       "note",
+       Unit::none,
+       {"note", "notes", "remark", "remarks", "comment", "comments", "description", "explanation"}},
   }};
   return columns;
 }

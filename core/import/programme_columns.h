@@ -27,9 +27,15 @@ enum class ProgrammeColumn {
   tags,
   standing,
   storeys,
-  open
+  open,
+  on,
+  shares,
+  below_ground,
+  depth,
+  distance,
+  note
 };
-constexpr std::size_t kProgrammeColumns = 12;
+constexpr std::size_t kProgrammeColumns = 18;
 
 /// The name of a column and its aliases. Names are compared in the form of normal_header.
 struct ProgrammeColumnInfo {

@@ -11,17 +11,25 @@
 #include "core/csv/csv_reader.h"
 #include "core/import/number_column.h"
 #include "core/import/programme_columns.h"
+#include "core/import/programme_joins.h"
 
 namespace bl::importing {
 
 namespace {
 
 constexpr std::array kNumbers = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max,
-                                 ProgrammeColumn::count,      ProgrammeColumn::storey_height,  ProgrammeColumn::storeys};
+                                 ProgrammeColumn::count,      ProgrammeColumn::storey_height,  ProgrammeColumn::storeys,
+                                 ProgrammeColumn::depth,      ProgrammeColumn::distance};
+// Only volumes that stand in storeys follow these.
+constexpr std::array kOfStanding = {ProgrammeColumn::shares, ProgrammeColumn::below_ground, ProgrammeColumn::depth,
+                                    ProgrammeColumn::distance};
+constexpr std::size_t kMostErrors = 20;  // that are listed; the others are counted
+constexpr double kMostCellars = 20;      // as many as a footprint may have
 constexpr double kMostStoreys = 200;     // more is a number in the wrong column
 constexpr double kMostItems = 100000;    // of one row: more is a number in the wrong column
 constexpr double kTallestStorey = 1000;  // [m]
 constexpr double kLargestArea = 1e9;     // [m²] of one item
+constexpr double kLeastDepth = 3, kLargestDepth = 1000, kLargestDistance = 200;  // [m]
 
 std::vector<std::string> split_list(std::string_view text, std::string_view separators) {
   std::vector<std::string> parts;
@@ -37,21 +45,30 @@ std::vector<std::string> split_list(std::string_view text, std::string_view sepa
 class ProgrammeImporter {
  public:
   explicit ProgrammeImporter(const ProgrammeOptions& options) : options_(options) {}
-  Result<ProgrammeImport> read(std::string_view text);
+  ProgrammeReading read(std::string_view text);
 
  private:
   std::string field(const csv::CsvRecord& record, ProgrammeColumn column) const;
   std::string place(const csv::CsvRecord& record, ProgrammeColumn column) const;
+  bool read_header(std::string_view text);
   Result<void> decide_decimals();
   Result<std::optional<double>> number(const csv::CsvRecord& record, ProgrammeColumn column) const;
+  std::optional<double> told_number(const csv::CsvRecord& record, ProgrammeColumn column);
+  int whole(const csv::CsvRecord& record, ProgrammeColumn column, int otherwise, double most, const std::string& what);
+  std::optional<double> length(const csv::CsvRecord& record, ProgrammeColumn column, double least, double most,
+                               const std::string& what);
   Result<void> check_width(const csv::CsvRecord& record) const;
-  Result<ProgrammeRow> read_row(const csv::CsvRecord& record);
+  void read_row(const csv::CsvRecord& record);
   Result<void> settle_area(const csv::CsvRecord& record, ProgrammeRow& row);
   Result<void> read_standing(const csv::CsvRecord& record, ProgrammeRow& row) const;
   Result<void> read_open(const csv::CsvRecord& record, ProgrammeRow& row) const;
+  Result<void> read_below_ground(const csv::CsvRecord& record, ProgrammeRow& row) const;
   void make_unique();
   void tell_storey_heights();
-  Result<void> join_neighbours();
+  void take(Error error) { errors_.push_back(std::move(error)); }
+  void take(const Result<void>& done) {
+    if (!done) errors_.push_back(done.error());
+  }
 
   const ProgrammeOptions& options_;
   csv::CsvText csv_;
@@ -59,6 +76,7 @@ class ProgrammeImporter {
   std::array<char, kProgrammeColumns> decimals_{};
   std::vector<std::string> written_uses_;           // per row, before they were made unique
   std::vector<std::string> without_storey_height_;  // uses of rows that give none
+  std::vector<Error> errors_;                       // in the order in which they were found
   ProgrammeImport import_;
 };
 
@@ -88,7 +106,10 @@ Result<void> ProgrammeImporter::decide_decimals() {
     auto decimal = options_.decimal
                        ? Result<char>(*options_.decimal)
                        : column_decimal(fields, "column " + std::to_string(found->index + 1) + " `" + found->header + "`");
-    if (!decimal) return decimal.error();
+    if (!decimal) {
+      take(decimal.error());
+      continue;
+    }
     decimals_[static_cast<std::size_t>(column)] = *decimal;
     if (*decimal == 0) continue;
     mixed = mixed || (of_file != 0 && of_file != *decimal);
@@ -116,6 +137,35 @@ Result<std::optional<double>> ProgrammeImporter::number(const csv::CsvRecord& re
                             : info.unit == Unit::metre ? "a length such as 3.2 or 3.2 m"
                                                        : "an area such as 120, 120 m2 or 0.4 ha";
   return Error{ErrorCode::parse, place(record, column), "`" + text + "` is not understood. Write " + units + "."};
+}
+
+std::optional<double> ProgrammeImporter::told_number(const csv::CsvRecord& record, ProgrammeColumn column) {
+  auto value = number(record, column);
+  if (value) return *value;
+  take(value.error());
+  return std::nullopt;
+}
+
+int ProgrammeImporter::whole(const csv::CsvRecord& record, ProgrammeColumn column, int otherwise, double most,
+                             const std::string& what) {
+  const auto value = told_number(record, column);
+  if (!value) return otherwise;
+  if (*value >= 1 && *value <= most && *value == std::floor(*value)) return static_cast<int>(*value);
+  take(Error{ErrorCode::out_of_range, place(record, column),
+             what.substr(0, what.find('|')) + written_out(*value) + what.substr(what.find('|') + 1)});
+  return otherwise;
+}
+
+std::optional<double> ProgrammeImporter::length(const csv::CsvRecord& record, ProgrammeColumn column, double least, double most,
+                                                const std::string& what) {
+  const auto value = told_number(record, column);
+  if (value && !(*value >= least && *value <= most)) {
+    take(Error{ErrorCode::out_of_range, place(record, column),
+               "The " + what + " is " + written_out(*value) + " m. It must be from " + written_out(least) + " to " +
+                   written_out(most) + " m, or empty."});
+    return std::nullopt;
+  }
+  return value;
 }
 
 Result<void> ProgrammeImporter::check_width(const csv::CsvRecord& record) const {
@@ -174,6 +224,7 @@ Result<void> ProgrammeImporter::read_standing(const csv::CsvRecord& record, Prog
                      " Write `ground` for what must stand on the ground, `stack` for what may stand on others, or `bridge` for "
                      "what may also hang between others."};
   row.standing = word;
+  row.is_standing_said = true;
   return {};
 }
 
@@ -191,41 +242,70 @@ Result<void> ProgrammeImporter::read_open(const csv::CsvRecord& record, Programm
   return {};
 }
 
-Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
-  if (auto fits = check_width(record); !fits) return fits.error();
+// `yes`: the whole row lies in cellars; a number: its volumes have so many cellar storeys.
+Result<void> ProgrammeImporter::read_below_ground(const csv::CsvRecord& record, ProgrammeRow& row) const {
+  const std::string written = field(record, ProgrammeColumn::below_ground), word = lower_case(written);
+  if (word.empty()) {
+    row.is_below_ground = options_.is_standing && !row.is_open && options_.is_below_ground && options_.is_below_ground(row.use);
+    return {};
+  }
+  if (word == "no" || word == "false" || word == "0" || word == "-") return {};
+  if (word == "yes" || word == "true" || word == "x") row.is_below_ground = true;
+  else {
+    const auto storeys = parse_table_number(written, '.', Unit::count, "");
+    if (!storeys || !(*storeys >= 1 && *storeys <= kMostCellars && *storeys == std::floor(*storeys)))
+      return Error{ErrorCode::parse, place(record, ProgrammeColumn::below_ground),
+                   "`" + written +
+                       "` is not understood. Write `yes` for a row that lies in cellars as a whole, such as underground "
+                       "parking, the number of cellar storeys below its volumes from 1 to 20, `no`, or nothing."};
+    row.cellar_storeys = static_cast<int>(*storeys);
+  }
+  if (row.is_open)
+    return Error{
+        ErrorCode::conflict, place(record, ProgrammeColumn::below_ground),
+        "`" + row.use + "` is open space, which has no cellar: leave this field empty, or write `no` in a column `open`."};
+  return {};
+}
+
+// What is wrong with one part of a row does not hide what is wrong with the others.
+void ProgrammeImporter::read_row(const csv::CsvRecord& record) {
   ProgrammeRow row;
   row.line = record.line;
   row.use = field(record, ProgrammeColumn::use);
+  if (auto fits = check_width(record); !fits) {
+    take(fits.error());
+    import_.rows.push_back(std::move(row));
+    return;
+  }
   if (row.use.empty())
-    return Error{ErrorCode::missing, place(record, ProgrammeColumn::use), "The use is empty. Name it, or remove the row."};
+    take(Error{ErrorCode::missing, place(record, ProgrammeColumn::use), "The use is empty. Name it, or remove the row."});
   row.name = field(record, ProgrammeColumn::name);
-  if (auto open = read_open(record, row); !open) return open.error();
-  if (auto area = settle_area(record, row); !area) return area.error();
-  auto count = number(record, ProgrammeColumn::count);
-  if (!count) return count.error();
-  const double items = count->value_or(1);
-  if (!(items >= 1 && items <= kMostItems && items == std::floor(items)))
-    return Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::count),
-                 "The count is " + written_out(items) + ". It must be a whole number from 1 to 100000."};
-  row.count = static_cast<int>(items);
-  auto height = number(record, ProgrammeColumn::storey_height);
-  if (!height) return height.error();
-  row.storey_height = height->value_or(options_.storey_height);
+  row.note = field(record, ProgrammeColumn::note);
+  take(read_open(record, row));
+  take(settle_area(record, row));
+  row.count = whole(record, ProgrammeColumn::count, 1, kMostItems, "The count is |. It must be a whole number from 1 to 100000.");
+  const auto height = told_number(record, ProgrammeColumn::storey_height);
+  row.storey_height = height.value_or(options_.storey_height);
   if (!(row.storey_height > 0 && row.storey_height <= kTallestStorey))
-    return Error{
-        ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
-        "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
-  if (!*height && !row.is_open) without_storey_height_.push_back(row.use);
-  auto storeys = number(record, ProgrammeColumn::storeys);
-  if (!storeys) return storeys.error();
-  if (const double wished = storeys->value_or(1); !(wished >= 1 && wished <= kMostStoreys && wished == std::floor(wished)))
-    return Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::storeys),
-                 "The number of storeys is " + written_out(wished) + ". It must be a whole number from 1 to 200, or empty."};
-  row.storeys = static_cast<int>(storeys->value_or(0));
+    take(
+        Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
+              "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."});
+  row.storeys = whole(record, ProgrammeColumn::storeys, 0, kMostStoreys,
+                      "The number of storeys is |. It must be a whole number from 1 to 200, or empty.");
+  row.depth = length(record, ProgrammeColumn::depth, kLeastDepth, kLargestDepth, "greatest depth of a building");
+  row.distance = length(record, ProgrammeColumn::distance, 0, kLargestDistance, "distance between buildings");
+  take(read_below_ground(record, row));
+  if (!height && row.has_volumes()) without_storey_height_.push_back(row.use);
   row.adjacent_to = split_list(field(record, ProgrammeColumn::adjacent_to), "|;");
   row.tags = split_list(field(record, ProgrammeColumn::tags), "|;,");
-  if (auto standing = read_standing(record, row); !standing) return standing.error();
-  return row;
+  row.on = field(record, ProgrammeColumn::on);
+  row.shares = field(record, ProgrammeColumn::shares);
+  take(read_standing(record, row));
+  if (row.has_volumes()) {
+    import_.items += static_cast<std::size_t>(row.count);
+    import_.floor_area += row.count * row.floor_area;
+  }
+  import_.rows.push_back(std::move(row));
 }
 
 // Later rows of a use get a number: shop, shop 2, shop 3; capitals make no difference.
@@ -258,81 +338,71 @@ void ProgrammeImporter::tell_storey_heights() {
                           "). They have " + written_out(options_.storey_height) + " m.");
 }
 
-// A name of several rows means all of them.
-Result<void> ProgrammeImporter::join_neighbours() {
-  std::vector<std::string> uses;
-  std::map<std::string, std::vector<std::size_t>> rows_of;
-  for (std::size_t i = 0; i < import_.rows.size(); ++i) {
-    rows_of[lower_case(written_uses_[i])].push_back(i);
-    if (written_uses_[i] != import_.rows[i].use) rows_of[lower_case(import_.rows[i].use)].push_back(i);
-    uses.push_back(import_.rows[i].use);
-  }
-  for (std::size_t i = 0; i < import_.rows.size(); ++i) {
-    ProgrammeRow& row = import_.rows[i];
-    std::vector<std::string> joined;
-    for (const std::string& name : row.adjacent_to) {
-      const auto found = rows_of.find(lower_case(name));
-      if (found == rows_of.end())
-        return Error{ErrorCode::not_found, place(csv_.records[i + 1], ProgrammeColumn::adjacent_to),
-                     "`" + name + "` is no use of this table" +
-                         (did_you_mean(name, uses).empty() ? ". Write the name of another row." : did_you_mean(name, uses))};
-      for (const std::size_t other : found->second) {
-        if (other == i && row.count == 1 && found->second.size() == 1)
-          import_.notes.push_back("Line " + std::to_string(row.line) + ": `" + row.use +
-                                  "` cannot be adjacent to itself alone; this was left out.");
-        const ProgrammeRow& partner = import_.rows[other];
-        if (row.is_open || partner.is_open) {
-          import_.notes.push_back("Line " + std::to_string(row.line) + ": `" + (row.is_open ? row.use : partner.use) +
-                                  "` is open space and no body that `" + (row.is_open ? partner.use : row.use) +
-                                  "` could touch; this was left out.");
-          continue;
-        }
-        const bool wanted = other != i || row.count > 1;
-        if (wanted && std::find(joined.begin(), joined.end(), import_.rows[other].use) == joined.end())
-          joined.push_back(import_.rows[other].use);
-      }
-    }
-    row.adjacent_to = std::move(joined);
-  }
-  return {};
-}
-
-Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
+bool ProgrammeImporter::read_header(std::string_view text) {
   auto csv = csv::read_csv(text, options_.separator);
-  if (!csv) return csv.error();
+  if (!csv) {
+    take(csv.error());
+    return false;
+  }
   csv_ = *std::move(csv);
   import_.separator = csv_.separator;
   import_.notes = csv_.notes;
-  if (csv_.records.empty())
-    return Error{ErrorCode::missing, "line 1", "The table is empty. It needs a header with `use` and `floor_area_m2`, and rows."};
+  if (csv_.records.empty()) {
+    take(Error{ErrorCode::missing, "line 1", "The table is empty. It needs a header with `use` and `floor_area_m2`, and rows."});
+    return false;
+  }
   auto header = match_programme_header(csv_.records.front(), options_.columns);
-  if (!header) return header.error();
+  if (!header) {
+    take(header.error());
+    return false;
+  }
   header_ = *std::move(header);
   import_.notes.insert(import_.notes.end(), header_.notes.begin(), header_.notes.end());
   import_.warnings = header_.warnings;
-  if (csv_.records.size() == 1)
-    return Error{ErrorCode::missing, "line " + std::to_string(csv_.records.front().line),
-                 "The table has a header but no rows. Add one row per use."};
-  if (auto decided = decide_decimals(); !decided) return decided.error();
-  for (std::size_t i = 1; i < csv_.records.size(); ++i) {
-    auto row = read_row(csv_.records[i]);
-    if (!row) return row.error();
-    if (!row->is_open) {
-      import_.items += static_cast<std::size_t>(row->count);
-      import_.floor_area += row->count * row->floor_area;
-    }
-    import_.rows.push_back(*std::move(row));
+  if (!options_.is_standing)
+    for (const ProgrammeColumn column : kOfStanding)
+      if (auto& found = header_.columns[static_cast<std::size_t>(column)]) {
+        import_.warnings.push_back("Column " + std::to_string(found->index + 1) + " `" + found->header +
+                                   "` was left out: only volumes that stand in storeys follow it.");
+        found.reset();
+      }
+  if (csv_.records.size() > 1) return true;
+  take(Error{ErrorCode::missing, "line " + std::to_string(csv_.records.front().line),
+             "The table has a header but no rows. Add one row per use."});
+  return false;
+}
+
+ProgrammeReading ProgrammeImporter::read(std::string_view text) {
+  if (read_header(text)) {
+    take(decide_decimals());
+    for (std::size_t i = 1; i < csv_.records.size(); ++i) read_row(csv_.records[i]);
+    tell_storey_heights();
+    make_unique();
+    const auto place_of = [this](std::size_t row, ProgrammeColumn column) { return place(csv_.records[row + 1], column); };
+    join_rows(import_, written_uses_, place_of, errors_);
   }
-  tell_storey_heights();
-  make_unique();
-  if (auto joined = join_neighbours(); !joined) return joined.error();
-  return std::move(import_);
+  ProgrammeReading reading;
+  if (errors_.empty()) {
+    reading.programme = std::move(import_);
+  } else if (errors_.size() > kMostErrors + 1) {
+    const std::size_t more = errors_.size() - kMostErrors;
+    errors_.resize(kMostErrors, Error{});
+    take(Error{ErrorCode::parse, "", "There are " + std::to_string(more) + " more mistakes of the same table."});
+  }
+  for (Error& error : errors_) reading.errors.push_back(bounded(std::move(error)));
+  return reading;
 }
 
 }  // namespace
 
-Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options) {
+ProgrammeReading read_programme_table(std::string_view text, const ProgrammeOptions& options) {
   return ProgrammeImporter(options).read(text);
+}
+
+Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options) {
+  ProgrammeReading reading = read_programme_table(text, options);
+  if (reading.programme) return *std::move(reading.programme);
+  return reading.errors.front();
 }
 
 }  // namespace bl::importing

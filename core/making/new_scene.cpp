@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/geometry/plan_ring.h"
+#include "core/making/building_plan.h"
 #include "core/making/spread_points.h"
 #include "core/making/use_rates.h"
 
@@ -29,6 +30,8 @@ constexpr const char* kTotal = "total_floor_area";
 // can be had. The surface of a ball of volume V is 4.84 V^(2/3).
 constexpr double kFacetShare = 0.15, kSurfaceShare = 0.3 * 4.84;
 
+constexpr double kLongestBar = 4;  // length / depth
+
 std::string numbered(std::size_t number, std::size_t count) {
   const std::string text = std::to_string(number), last = std::to_string(count);
   return std::string(last.size() - std::min(last.size(), text.size()), '0') + text;
@@ -40,21 +43,11 @@ std::string fresh_id(const std::string& wanted, std::set<std::string>& taken) {
   return id;
 }
 
-// Storeys with which all footprints together cover so much of the plan, as many as fit under the height.
-constexpr double kCoverage = 0.45;
-
 // Of the ground that can be built on.
 double plan_area(const SceneParts& parts) {
   double area = geometry::signed_area(parts.plan);
   for (const geometry::Ring& hole : parts.holes) area += geometry::signed_area(hole);
   return area - parts.open_area();
-}
-
-int storeys_for(const SceneParts& parts, const importing::ProgrammeRow& row) {
-  if (row.storeys > 0) return row.storeys;
-  const double storey_height = row.storey_height;
-  const double needed = std::ceil(parts.programme.floor_area / (kCoverage * plan_area(parts)));
-  return static_cast<int>(std::clamp(needed, 1.0, std::max(1.0, std::floor(parts.height / storey_height + 1e-9))));
 }
 
 // The direction of the longest side of the plan, which blocks stand along [degree], from -45 to 45: a block has sides across it
@@ -75,7 +68,8 @@ const UseRates* rates_of(const importing::ProgrammeRow& row) {
 
 class Builder {
  public:
-  explicit Builder(const SceneParts& parts) : parts_(parts), angle_(block_angle(parts.plan)) {}
+  Builder(const SceneParts& parts, const std::vector<BuildingPart>& buildings)
+      : parts_(parts), buildings_(buildings), angle_(block_angle(parts.plan)) {}
 
   void setting(const std::string& id, const Json& value) { add(command<SetSetting>({id, JsonValue::of(value)})); }
   void node(const std::string& id, const Json& content) { add(command<AddNode>({id, JsonValue::of(content)})); }
@@ -112,7 +106,9 @@ class Builder {
                                           {"use", parts_.programme.rows[place.row].use}});
     node(kSite, {{"name", "Site"}, {"types", {{"boundary", boundary}}}});
     Json rows = Json::array();
-    for (const importing::ProgrammeRow& row : parts_.programme.rows)
+    for (const importing::ProgrammeRow& row : parts_.programme.rows) {
+      if (row.is_below_ground) continue;  // no floor area
+      const std::string name = row.name == row.use ? "" : row.name;
       rows.push_back({{"use", row.use},
                       {"floor_area", row.floor_area},
                       {"floor_area_min", row.floor_area_min.value_or(0)},
@@ -120,7 +116,8 @@ class Builder {
                       {"storey_height", row.storey_height},
                       {"count", static_cast<double>(row.count)},
                       {"standing", row.standing},
-                      {"note", row.name == row.use ? "" : row.name}});
+                      {"note", name + (name.empty() || row.note.empty() ? "" : "; ") + row.note}});
+    }
     node(kProgramme, {{"name", "Programme"}, {"types", {{"programme", {{"rows", rows}}}}}});
     node(kSolver,
          {{"name", "Solver"}, {"types", {{parts_.is_standing ? "standing_solver" : "smart_volumes_solver", Json::object()}}}});
@@ -133,7 +130,7 @@ class Builder {
     for (const NewVolume& volume : volumes) taken.insert(volume.id);
     for (const importing::ProgrammeRow& row : parts_.programme.rows) {
       const UseRates* rates = rates_of(row);
-      if ((rates == nullptr && !row.is_open) || !named.insert(row.use).second) continue;
+      if ((rates == nullptr && !row.is_open) || row.is_below_ground || !named.insert(row.use).second) continue;
       if (row.is_open) {
         const Json ground = {
             {"use", row.use},
@@ -155,19 +152,33 @@ class Builder {
     }
   }
 
-  void volume(const NewVolume& volume) {
+  void volume(const NewVolume& volume, const BuildingPart& building) {
     const importing::ProgrammeRow& row = parts_.programme.rows[volume.row];
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
     Json types = {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}};
     if (rates_of(row) != nullptr) types["use_figures"] = Json::object();
-    if (parts_.is_standing) types["footprint"] = {{"storeys", storeys_for(parts_, row)}};
-    if (parts_.is_standing && angle_ != 0) types["footprint"]["angle"] = angle_;
+    if (parts_.is_standing) types["footprint"] = footprint_of(row, building);
     node(volume.id, {{"name", volume.name},
                      {"position", {volume.position.x, volume.position.y, volume.position.z}},
                      {"tags", tags},
                      {"types", types}});
+  }
+
+  // What carries volumes and what they share: links that people see, and can take away.
+  void building_links(const std::vector<NewVolume>& volumes) {
+    for (std::size_t v = 0; v < volumes.size(); ++v) {
+      const BuildingPart& part = buildings_[v];
+      if (part.base) {
+        Json stack = {{"kind", "stack"}, {"from", volumes[*part.base].id}, {"to", volumes[v].id}};
+        if (!part.is_alone_on_roof) stack["parameters"] = {{"centred", false}};
+        link(fresh_id("on_roof_" + volumes[v].id, link_ids_), stack);
+      }
+      if (part.host)
+        link(fresh_id("building_" + volumes[v].id, link_ids_),
+             {{"kind", "share_footprint"}, {"from", volumes[*part.host].id}, {"to", volumes[v].id}});
+    }
   }
 
   void general_links() {
@@ -206,8 +217,32 @@ class Builder {
  private:
   void add(Command command) { commands_.push_back(std::move(command)); }
 
+  // Of what shares the footprint of another one, only its place in that building counts.
+  Json footprint_of(const importing::ProgrammeRow& row, const BuildingPart& building) const {
+    Json footprint = {{"storeys", building.storeys}};
+    if (building.order != 0) footprint["order"] = building.order;
+    if (building.host) return footprint;
+    if (angle_ != 0) footprint["angle"] = angle_;
+    if (building.cellar_storeys != 0) footprint["cellar_storeys"] = building.cellar_storeys;
+    const UseRates* rates = rates_of(row);
+    const double depth = row.depth.value_or(rates == nullptr ? 0 : rates->building_depth);
+    if (depth > 0) {
+      footprint["depth"] = depth;
+      // A bar of that depth, until it would be so long that a courtyard is the better form.
+      if (const double aspect = building.footprint / (depth * depth); aspect > 1 && aspect <= kLongestBar)
+        footprint["aspect"] = std::round(aspect * 100) / 100;
+    }
+    // Half on either side, and towards the border; walls of neighbours do not touch then.
+    if (row.distance.value_or(0) > 0) {
+      footprint["setback"] = *row.distance / 2;
+      footprint["party_walls"] = false;
+    }
+    return footprint;
+  }
+
   const SceneParts& parts_;
-  double angle_ = 0;  // of blocks [degree]
+  const std::vector<BuildingPart>& buildings_;  // of the volumes
+  double angle_ = 0;                            // of blocks [degree]
   std::vector<Command> commands_;
   std::set<std::string> link_ids_{"demands", kInsideLink, "room", "standing"};
 };
@@ -219,7 +254,7 @@ std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme) {
   std::vector<NewVolume> volumes;
   for (std::size_t r = 0; r < programme.rows.size(); ++r) {
     const importing::ProgrammeRow& row = programme.rows[r];
-    const std::size_t count = row.is_open ? 0 : static_cast<std::size_t>(row.count);
+    const std::size_t count = row.has_volumes() ? static_cast<std::size_t>(row.count) : 0;
     for (std::size_t i = 1; i <= count; ++i) {
       const std::string suffix = count > 1 ? "_" + numbered(i, count) : "", number = count > 1 ? " " + std::to_string(i) : "";
       volumes.push_back({fresh_id(to_identifier(row.use).substr(0, 48) + suffix, taken),
@@ -255,43 +290,73 @@ std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& program
   return contacts;
 }
 
-Result<Command> new_scene_command(const SceneParts& parts) {
-  std::vector<NewVolume> volumes = volumes_of(parts.programme);
-  const std::vector<WantedContact> contacts = contacts_of(parts.programme, volumes);
+namespace {
+
+// What stands on others or within their building touches it already.
+void leave_out_own_building(std::vector<WantedContact>& contacts, const std::vector<BuildingPart>& buildings) {
+  for (WantedContact& contact : contacts)
+    std::erase_if(contact.partners,
+                  [&](std::size_t partner) { return root_of(buildings, partner) == root_of(buildings, contact.hub); });
+  std::erase_if(contacts, [](const WantedContact& contact) { return contact.partners.empty(); });
+}
+
+// First positions: those of volumes with ground of their own are spread, the others go with them.
+Result<void> spread(const SceneParts& parts, const std::vector<WantedContact>& contacts,
+                    const std::vector<BuildingPart>& buildings, std::vector<NewVolume>& volumes) {
   std::vector<double> demands;
   std::vector<std::uint8_t> on_ground;
-  for (const NewVolume& volume : volumes) {
-    demands.push_back(volume.demand);
-    on_ground.push_back(parts.programme.rows[volume.row].standing == "ground" ? 1 : 0);
+  std::vector<std::size_t> place(volumes.size());  // of each volume: which of the points
+  const auto root = [&](std::size_t v) { return parts.is_standing ? root_of(buildings, v) : v; };
+  for (std::size_t v = 0; v < volumes.size(); ++v) {
+    if (root(v) != v) continue;
+    place[v] = demands.size();
+    // What stands is spread in plan: as volumes of one metre with the area of their footprint.
+    demands.push_back(parts.is_standing ? buildings[v].footprint : volumes[v].demand);
+    on_ground.push_back(parts.is_standing || parts.programme.rows[volumes[v].row].standing == "ground" ? 1 : 0);
   }
+  for (std::size_t v = 0; v < volumes.size(); ++v) place[v] = place[root(v)];
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (const WantedContact& contact : contacts)
-    for (const std::size_t partner : contact.partners) neighbours.emplace_back(contact.hub, partner);
-  // What stands is spread in plan: as volumes of one metre with the area of their footprint.
-  if (parts.is_standing)
-    for (std::size_t v = 0; v < volumes.size(); ++v) {
-      const importing::ProgrammeRow& row = parts.programme.rows[volumes[v].row];
-      demands[v] = volumes[v].demand / (row.storey_height * storeys_for(parts, row));
-      on_ground[v] = 1;
-    }
+    for (const std::size_t partner : contact.partners) neighbours.emplace_back(place[contact.hub], place[partner]);
   const double height = parts.is_standing ? 1 : parts.height;
   std::vector<geometry::Ring> holes = parts.holes;
-  for (const OpenPlace& place : parts.open_places) holes.emplace_back(place.ring.rbegin(), place.ring.rend());
+  for (const OpenPlace& open : parts.open_places) holes.emplace_back(open.ring.rbegin(), open.ring.rend());
   const auto points = spread_points(parts.plan, 0, height, demands, parts.seed, neighbours, holes, on_ground);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };
-  for (std::size_t v = 0; v < volumes.size(); ++v)
-    volumes[v].position = {millimetres((*points)[v].x), millimetres((*points)[v].y),
-                           parts.is_standing ? 0 : millimetres((*points)[v].z)};
-  Builder builder(parts);
+  for (std::size_t v = 0; v < volumes.size(); ++v) {
+    Point3 point = (*points)[place[v]];
+    for (std::optional<std::size_t> at = v; at && parts.is_standing;
+         at = buildings[*at].host ? buildings[*at].host : buildings[*at].base)
+      point = point + buildings[*at].offset;
+    volumes[v].position = {millimetres(point.x), millimetres(point.y), parts.is_standing ? 0 : millimetres(point.z)};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<NewSceneCommand> new_scene_command(const SceneParts& parts) {
+  NewSceneCommand made;
+  std::vector<NewVolume> volumes = volumes_of(parts.programme);
+  std::vector<WantedContact> contacts = contacts_of(parts.programme, volumes);
+  const std::vector<BuildingPart> buildings =
+      plan_buildings(parts, volumes, plan_area(parts), main_direction(parts.plan), made.notes);
+  leave_out_own_building(contacts, buildings);
+  if (auto done = spread(parts, contacts, buildings, volumes); !done) return done.error();
+  Builder builder(parts, buildings);
   builder.settings();
   builder.fixtures();
   builder.uses(volumes);
-  for (const NewVolume& volume : volumes) builder.volume(volume);
+  for (std::size_t v = 0; v < volumes.size(); ++v) builder.volume(volumes[v], buildings[v]);
   builder.general_links();
+  builder.building_links(volumes);
   for (const WantedContact& contact : contacts) builder.contact(contact, volumes);
-  return builder.batch();
+  for (std::size_t v = 0; v < volumes.size() && parts.is_standing; ++v)
+    made.footprints += root_of(buildings, v) == v ? buildings[v].footprint : 0;
+  made.command = builder.batch();
+  return made;
 }
 
 }  // namespace bl::making

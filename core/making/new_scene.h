@@ -54,6 +54,11 @@ std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme);
 /// other.
 std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
 /// The scene as one command, positions spread by the seed.
-Result<Command> new_scene_command(const SceneParts& parts);
+struct NewSceneCommand {
+  Command command;
+  std::vector<std::string> notes;  ///< what became of rows that have no volumes
+  double footprints = 0;           ///< [m²] of all buildings on the ground, by their storeys; 0 where they do not stand
+};
+Result<NewSceneCommand> new_scene_command(const SceneParts& parts);
 
 }  // namespace bl::making

@@ -132,7 +132,8 @@ Json Adding::sun_ports(const SunAddition& o, bool is_new) {
     const double hours = std::round((o.longitude ? *o.longitude : settings_of(scene_).longitude) / 15);
     ports["utc_offset"] = hours * 3600;
     say("Clocks are " + std::string(hours < 0 ? "" : "+") + shortest(hours) +
-        " h from universal time, by the longitude and without summer time: another zone is a port of the sun.");
+        " h from universal time, by the longitude alone, without summer time and the law of the place: where clocks show "
+        "another time, as in much of western Europe, give it by --utc-offset or in the port `utc_offset` of the sun.");
   }
   return ports;
 }

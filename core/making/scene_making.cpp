@@ -40,10 +40,12 @@ class Maker {
     parts.open_places = lay_open_places(parts.plan, parts.holes, parts.programme.rows, made_.notes);
     made_.plan_area = takes_hull ? hull.area : made_.plan->area;
     for (const NewVolume& volume : volumes_of(parts.programme)) made_.demand += volume.demand;
-    const auto command = new_scene_command(parts);
-    if (!command) return fail(o_.out, command.error());
+    const auto fresh = new_scene_command(parts);
+    if (!fresh) return fail(o_.out, fresh.error());
+    made_.notes.insert(made_.notes.end(), fresh->notes.begin(), fresh->notes.end());
+    made_.footprints = fresh->footprints;
     Ledger ledger(registry, Scene{});
-    if (auto done = ledger.submit(*command, "new", 0); !done) return fail(o_.out, done.error());
+    if (auto done = ledger.submit(fresh->command, "new", 0); !done) return fail(o_.out, done.error());
     if (const auto room = room_inside(ledger.scene(), registry); !room) return fail("", room.error());
     made_.scene = ledger.scene();
     if (const std::string note = tell_uses_without_figures(*made_.scene, registry); !note.empty()) made_.notes.push_back(note);
@@ -125,15 +127,32 @@ class Maker {
       }
       options.columns[column.substr(0, equals)] = column.substr(equals + 1);
     }
-    auto programme = read_programme_csv(*text, options);
-    if (!programme) {
-      fail(o_.programme, programme.error());
-      return std::nullopt;
-    }
+    options.is_standing = o_.form == "standing";
+    options.is_below_ground = is_cellar_use;
+    auto [programme, errors] = read_programme_table(*text, options);
+    for (Error& error : errors) fail(o_.programme, std::move(error));
+    if (!programme) return std::nullopt;
     for (const std::string& note : programme->notes) made_.notes.push_back(o_.programme + ": " + note);
     for (const std::string& warning : programme->warnings)
       made_.warnings.emplace_back(o_.programme, Error{ErrorCode::unknown_field, "", warning});
-    return std::move(*programme);
+    warn_of_standing(*programme);
+    std::vector<std::string> uses;
+    for (const importing::ProgrammeRow& row : programme->rows)
+      if (row.has_volumes()) uses.push_back(row.use);
+    if (const std::string note = tell_taken_uses(uses); !note.empty()) made_.notes.push_back(o_.programme + ": " + note);
+    return programme;
+  }
+
+  // What stands in storeys stands on the ground where no column names what carries it.
+  void warn_of_standing(const importing::ProgrammeImport& programme) {
+    if (o_.form != "standing") return;
+    for (const importing::ProgrammeRow& row : programme.rows)
+      if (row.has_volumes() && row.is_standing_said && row.standing != "ground" && row.on.empty() && row.shares.empty())
+        made_.warnings.emplace_back(
+            o_.programme, Error{ErrorCode::missing, "line " + std::to_string(row.line),
+                                "`" + row.use + "` stands on the ground: `" + row.standing +
+                                    "` in the column `standing` does not say on what it stands. Name the row below it in a "
+                                    "column `on`, or, for storeys of one building, in a column `shares`."});
   }
 
   const NewOptions& o_;

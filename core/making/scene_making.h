@@ -34,14 +34,16 @@ struct MadeScene {
   std::optional<Scene> scene;
   std::optional<importing::PlanBoundary> plan;
   SceneParts parts;
-  double plan_area = 0;  ///< [m²] of the plan that was taken
-  double demand = 0;     ///< [m³] of all volumes
+  double plan_area = 0;   ///< [m²] of the plan that was taken
+  double demand = 0;      ///< [m³] of all volumes
+  double footprints = 0;  ///< [m²] of all buildings on the ground, by their storeys; 0 where they do not stand
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, Error>> warnings;  ///< each with the file that it is in
   std::vector<std::pair<std::string, Error>> errors;    ///< each with the file that it is in; empty: in the options
 
   /// Demanded volume as a share of the boundary's.
-  double fill() const { return demand / ((plan_area - parts.open_area()) * parts.height); }
+  double fill() const { return demand / (ground() * parts.height); }
+  double ground() const { return plan_area - parts.open_area(); }  ///< that can be built on [m²]
 };
 MadeScene make_scene(const NewOptions& options, const Registry& registry);
 

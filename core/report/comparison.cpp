@@ -21,6 +21,11 @@ namespace bl::report {
 
 namespace {
 
+constexpr const char* kNoFigure = "\u2013";  // an en dash
+constexpr double kLeastOfAfter = 0.05;   // of what is there now: less is no base of a percentage
+
+constexpr std::size_t kMostListed = 3;  // nodes of one sort by name; more are counted
+
 std::string spoken(const std::string& id) {
   std::string text = id;
   std::replace(text.begin(), text.end(), '_', ' ');
@@ -69,6 +74,8 @@ class Walk {
   Walk(const State& before, const State& after, double least_share) : before_(before), after_(after), least_share_(least_share) {}
 
   Comparison run() {
+    result_.first = first_figures(before_, after_);
+    result_.tolerance = std::max(reading::account_tolerance(before_), reading::account_tolerance(after_));
     read_inputs();
     read_reasons();
     read(before_, false);
@@ -86,12 +93,16 @@ class Walk {
       total.before = figure(sum.before, sum.count_before);
       total.after = figure(sum.after, sum.count_after);
       total.is_share = sum.is_share;
+      total.has_before = sum.count_before > 0;
+      total.has_after = sum.count_after > 0;
+      total.is_noise = is_noise(total);
       result_.totals.push_back(std::move(total));
     }
     // A street that had two cars and has one is no news beside one that had two thousand.
     const auto rank = [this](const IndicatorRow& row) { return std::abs(row.after - row.before) / largest_.at(row.path); };
-    std::stable_sort(result_.nodes.begin(), result_.nodes.end(),
-                     [&](const IndicatorRow& a, const IndicatorRow& b) { return rank(a) > rank(b); });
+    for (std::vector<IndicatorRow>* rows : {&result_.volumes, &result_.nodes})
+      std::stable_sort(rows->begin(), rows->end(),
+                       [&](const IndicatorRow& a, const IndicatorRow& b) { return rank(a) > rank(b); });
     return std::move(result_);
   }
 
@@ -109,6 +120,8 @@ class Walk {
     // What is missing of what was asked for is no port: it follows from several, by the account that all displays share.
     for (const reading::VolumeAccount& volume : reading::accounts_of(state).volumes) {
       const NodePlan& node = plan.nodes[volume.node];
+      ask(node.id, "account.missing", volume.asked);
+      ask(node.id, "account.missing_area", volume.asked_area);
       take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(),
                   is_after);
       if (volume.is_by_area)
@@ -168,11 +181,31 @@ class Walk {
     ++(is_after ? sum.count_after : sum.count_before);
   }
 
+  // What was asked for, of a node and of all: the measure of what is missing of it.
+  void ask(const std::string& node, const std::string& path, double amount) {
+    double& most = asked_[{node, path}];
+    asked_[{"", path}] += std::max(0.0, amount - most);
+    most = std::max(most, amount);
+  }
+
+  static bool is_of_volume(const IndicatorRow& row) {
+    return row.path.starts_with("smart_volume.") || row.path.starts_with("footprint.") || row.path.starts_with("account.");
+  }
+
+  // Solvers stop within their tolerance: two runs to the same end differ by so much.
+  bool is_noise(const IndicatorRow& row) const {
+    if (!is_of_volume(row) || !row.has_before || !row.has_after) return false;
+    const auto asked = asked_.find({row.node, row.path});
+    const double whole = asked == asked_.end() ? std::max(std::abs(row.before), std::abs(row.after)) : asked->second;
+    return std::abs(row.after - row.before) <= result_.tolerance * whole;
+  }
+
   void pair_up() {
     for (const auto& [key, row] : rows_) {
       if (!in_before_.contains(key) || !in_after_.contains(key)) continue;
-      if (row.is_seen(least_share_)) result_.nodes.push_back(row);
-      else ++result_.same;
+      if (!row.is_seen(least_share_)) ++result_.same;
+      else if (is_noise(row)) ++result_.within_tolerance;
+      else (is_of_volume(row) ? result_.volumes : result_.nodes).push_back(row);
     }
   }
 
@@ -222,15 +255,40 @@ class Walk {
     return state.plan->nodes[state.plan->node_index(id)].name;
   }
 
+  // An import brings hundreds of nodes: they are counted.
+  static std::vector<std::string> names_of(const State& state, const std::vector<std::string>& ids) {
+    std::vector<std::string> names;
+    std::size_t imported = 0;
+    for (const std::string& id : ids)
+      if (state.plan->scene.nodes.at(id).types.contains("imported")) ++imported;
+    for (const std::string& id : ids)
+      if (imported <= kMostListed || !state.plan->scene.nodes.at(id).types.contains("imported"))
+        names.push_back(name_in(state, id));
+    if (imported > kMostListed) names.push_back(std::to_string(imported) + " imported nodes");
+    return names;
+  }
+
+  void tell_roles() {
+    for (const auto& [role, ids] : roles_) {
+      const auto& [type, which] = role;
+      if (ids.size() > kMostListed)
+        result_.inputs.push_back(type + ": a role of " + std::to_string(ids.size()) + " nodes in the " + which + " only");
+      else
+        for (const std::string& id : ids)
+          result_.inputs.push_back("nodes/" + id + "/" + type + ": a role in the " + which + " only");
+    }
+  }
+
   void read_inputs() {
     const Scene &a = before_.plan->scene, &b = after_.plan->scene;
     differing_ports("settings/", settings_type(), a.settings, b.settings);
     const reading::Changes changes = reading::changes_between(before_, after_);
-    for (const std::string& id : changes.removed_nodes) result_.only_before.push_back(name_in(before_, id));
-    for (const std::string& id : changes.added_nodes) result_.only_after.push_back(name_in(after_, id));
+    result_.only_before = names_of(before_, changes.removed_nodes);
+    result_.only_after = names_of(after_, changes.added_nodes);
     for (const auto& [id, node] : b.nodes)
       if (const auto other = a.nodes.find(id); other != a.nodes.end() && !(other->second == node))
         differing_node(id, other->second, node);
+    tell_roles();
     for (const auto& [id, link] : a.links)
       if (!b.links.contains(id)) result_.inputs.push_back("links/" + id + ": only in the first (" + link.kind + ")");
     for (const auto& [id, link] : b.links) {
@@ -245,12 +303,12 @@ class Walk {
     const auto& types = after_.plan->nodes[after_.plan->node_index(id)].types;
     for (const TypePlan& type : types) {
       const auto first = a.types.find(type.definition->id), second = b.types.find(type.definition->id);
-      if (first == a.types.end()) result_.inputs.push_back(place + type.definition->id + ": a role in the second only");
+      if (first == a.types.end()) roles_[{type.definition->id, "second"}].push_back(id);
       else if (second != b.types.end())
         differing_ports(place + type.definition->id + "/", *type.definition, first->second, second->second);
     }
     for (const auto& [type, values] : a.types)
-      if (!b.types.contains(type)) result_.inputs.push_back(place + type + ": a role in the first only");
+      if (!b.types.contains(type)) roles_[{type, "first"}].push_back(id);
     if (a.locked != b.locked) result_.inputs.push_back(place + "locked: other ports are locked");
   }
 
@@ -280,6 +338,8 @@ class Walk {
   double least_share_;
   std::map<Key, IndicatorRow> rows_;
   std::set<Key> in_before_, in_after_;
+  std::map<Key, double> asked_;  // by node and path; all together without a node
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> roles_;  // in one of both only: role, which one; nodes
   std::map<std::string, Sum> sums_;
   std::map<std::string, double> largest_;  // by port: the largest size of all nodes in both
   Comparison result_;
@@ -296,13 +356,21 @@ std::string IndicatorRow::figure(double value) const {
   return is_share ? reading::percent(value) : reading::quantity(value, unit == Unit::ratio ? Unit::none : unit);
 }
 
+std::string IndicatorRow::first() const { return has_before ? figure(before) : kNoFigure; }
+
+std::string IndicatorRow::second() const { return has_after ? figure(after) : kNoFigure; }
+
 std::string IndicatorRow::difference() const {
-  // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.
-  const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-3 * std::abs(after);
+  if (!has_before || !has_after) return kNoFigure;
+  if (before == after) return "same";
+  // A percentage of what people read as zero says nothing, nor does one of little beside what there is now.
+  const bool is_nothing = reads_as_zero(before) || std::abs(before) < kLeastOfAfter * std::abs(after);
   return is_nothing ? figure(after - before) : reading::signed_percent((after - before) / std::abs(before));
 }
 
 bool IndicatorRow::is_seen(double least_share) const {
+  if (is_noise) return false;
+  if (has_before != has_after) return !reads_as_zero(has_before ? before : after);
   return share() > least_share && figure(before) != figure(after) && !(reads_as_zero(before) && reads_as_zero(after));
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t kMostBars = 40;
 constexpr double kPageWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
 constexpr double kBarTextSize = 10;  // of the class `figure` [px]
 
-std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row.name; }
+std::string who(const IndicatorRow& row) { return row.name.empty() ? "All" : row.name; }
 
 // Who and what, cut at a letter where there is no room for all of it.
 std::string fitting(const IndicatorRow& row) {
@@ -54,7 +54,7 @@ std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, c
                       {"width", drawing::pixels(std::max(1.0, length))},
                       {"height", drawing::pixels(kLine - 6)},
                       {"fill", is_more ? "#0072b2" : "#d55e00"}});
-    svg.element("text", row.figure(row.before) + " \xE2\x86\x92 " + row.figure(row.after),
+    svg.element("text", row.first() + " \xE2\x86\x92 " + row.second(),
                 {{"x", drawing::pixels(right + 8)}, {"y", drawing::pixels(y + 14)}, {"class", "figure start"}});
   }
   svg.close();
@@ -76,8 +76,7 @@ void table(drawing::Markup& page, const std::vector<IndicatorRow>& rows, const s
   page.close().close().open("tbody");
   for (const IndicatorRow& row : rows) {
     page.open("tr").element("td", who(row)).element("td", row.label);
-    for (const std::string& cell : {row.figure(row.before), row.figure(row.after), row.difference()})
-      page.element("td", cell, {{"class", "n"}});
+    for (const std::string& cell : {row.first(), row.second(), row.difference()}) page.element("td", cell, {{"class", "n"}});
     page.close();
   }
   page.close().close().close();
@@ -106,6 +105,16 @@ void drawings(drawing::Markup& page, const State& before, const State& after, co
 
 }  // namespace
 
+std::string told_of_same(const Comparison& comparison) {
+  const std::string close = comparison.within_tolerance == 0
+                                ? ""
+                                : "; " + reading::counted(comparison.within_tolerance, "number") +
+                                      (comparison.within_tolerance == 1 ? " differs" : " differ") +
+                                      " by less than the tolerance of the solvers, " + reading::percent(comparison.tolerance);
+  return reading::counted(comparison.same, "number") + " of nodes in both " + (comparison.same == 1 ? "is" : "are") +
+         " the same" + close + ".";
+}
+
 std::string comparison_page(const State& before, const State& after, const Comparison& comparison, const std::string& name_before,
                             const std::string& name_after) {
   drawing::Markup page;
@@ -117,11 +126,17 @@ std::string comparison_page(const State& before, const State& after, const Compa
   page.element("title", title).open("style").raw(page_style()).close().close();
   page.open("body").open("header").element("h1", title).close().open("main");
   drawings(page, before, after, name_before, name_after);
+  page.element("h2", "What it is judged by");
+  table(page, comparison.first, name_before, name_after);
+  list(page, "What holds back the first", comparison.reasons_before);
+  list(page, "What holds back the second", comparison.reasons_after);
+  page.element("h2", "Volumes");
+  if (comparison.volumes.empty()) page.element("p", "No figure of a volume that both have differs.");
+  else page.open("figure").raw(bars(comparison.volumes, "volumes", "What differs most")).close();
+  table(page, comparison.volumes, name_before, name_after);
   list(page, "What was set differently", comparison.inputs);
   list(page, "Only in the first", comparison.only_before);
   list(page, "Only in the second", comparison.only_after);
-  list(page, "What holds back the first", comparison.reasons_before);
-  list(page, "What holds back the second", comparison.reasons_after);
   std::vector<IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const IndicatorRow& row) { return row.is_seen(0); });
@@ -129,10 +144,10 @@ std::string comparison_page(const State& before, const State& after, const Compa
   if (totals.empty()) page.element("p", "No indicator differs.");
   else page.open("figure").raw(bars(totals, "totals", "Totals and means")).close();
   table(page, totals, name_before, name_after);
-  page.element("h2", "Node by node");
+  page.element("h2", "Other nodes");
   if (!comparison.nodes.empty()) page.open("figure").raw(bars(comparison.nodes, "nodes", "What differs most")).close();
   table(page, comparison.nodes, name_before, name_after);
-  page.element("p", reading::counted(comparison.same, "number") + " of nodes in both are the same.");
+  page.element("p", told_of_same(comparison));
   page.close().close().close();
   return page.str();
 }

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/csv/csv_table.h"
 #include "core/define/codec.h"
+#include "core/define/no_value.h"
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
 
@@ -79,13 +80,6 @@ CsvFile part_file(const State& state, const FigureTable& table, const FigurePart
     }
   }
   return {std::string(part.id) + ".csv", write_csv(header, rows), !rows.empty()};
-}
-
-// A limit that nobody has set stands at a default that nothing reaches; what was measured or computed can be as large.
-bool is_no_limit(double number, const PortDefinition& port) {
-  constexpr double kBeyondReach = 1e9;
-  const double* fallback = std::get_if<double>(&port.default_value);
-  return !port.is_computed && fallback != nullptr && std::abs(*fallback) >= kBeyondReach && number == *fallback;
 }
 
 bool is_text(const PortDefinition& port) {
@@ -178,7 +172,7 @@ std::string figure_text(const Value& value, const PortDefinition& port, bool is_
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
   const double number = as_number(value);
-  if (!std::isfinite(number) || is_no_limit(number, port)) return "\xE2\x80\x93";
+  if (!std::isfinite(number) || means_none(port, number)) return "\xE2\x80\x93";
   if (port.unit == Unit::count && number == std::floor(number)) return reading::grouped(number);
   if (!port.unit_from.empty()) return reading::readable(number);
   if (is_share) return reading::percent(number);

@@ -192,7 +192,8 @@ TEST(PlotRules, WhatStandsKeepsTheHeightByItsStoreys) {
   high.read(End::to, "smart_volume.height", {28.0, 40.0});
   ASSERT_EQ(high.run(), "");
   EXPECT_EQ(high.remarked(LinkRemark::unmet),
-            "from: cannot be met: height 28.0 m of 20.0 m at `here`, held by `here`, which keeps at least 7 storeys; loosen the "
+            "from: cannot be met: height 28.0 m of 20.0 m at `here`, held by `here`, which keeps at least 7 storeys "
+            "(`storeys_min`); loosen the "
             "rule, or lower `storeys_min` of `here`");
 }
 

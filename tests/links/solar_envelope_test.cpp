@@ -161,7 +161,7 @@ TEST(SolarEnvelope, OfWhatStandsTheStoreysGoThatReachThrough) {
   ASSERT_EQ(least.run(), "");
   EXPECT_EQ(least.remarked(LinkRemark::unmet),
             "edge: cannot be met: `tower` reaches 9.00 m through the planes of the sun, held by `tower`, which keeps at least 6 "
-            "storeys; move the edge or the volume, or lower `storeys_min`");
+            "storeys (`storeys_min`); move the edge or the volume, or lower `storeys_min`");
 }
 
 // The same tower as two volumes: this one has the storeys from the fourth on, above shops of 4 m in three storeys.

@@ -258,7 +258,7 @@ TEST(SolarRight, TheLeastStoreysAndLockedLimitsAreNamed) {
   EXPECT_DOUBLE_EQ(height(low).value(), 6) << "a fifth of eight storeys is never taken: two";
   EXPECT_EQ(low.remarked(LinkRemark::unmet),
             "from: cannot be met: `garden` is short of 0.50 h of sun and can have 1.50 h of the 2.00 h, held by `tower`, which "
-            "keeps at least 2 storeys; lower "
+            "keeps at least 2 storeys (`least`: 20 % of 8); lower "
             "`required_sun`, lower `least`, or move the volume");
   EXPECT_NE(locked.remarked(LinkRemark::unmet).find("(its height limit is locked)"), std::string::npos);
 }

@@ -145,6 +145,31 @@ TEST(StandingSolver, WhatIsBuiltOtherwiseThanItIsSetIsSaid) {
   EXPECT_EQ(sound.text("solver", "standing_solver.message"), "");
 }
 
+TEST(StandingSolver, ASetBackOfAllStoreysThatChangesNothingIsTold) {
+  World idle = World::from_text(alone(R"("form": "block", "aspect": 1, "storeys": 4, "setback": 3)"));
+  ASSERT_TRUE(idle.settle());
+  EXPECT_EQ(idle.text("solver", "standing_solver.message"),
+            "the set-back of `house` holds for all of its 4 storeys alike, and changes nothing: set `full_storeys`, above which "
+            "it begins");
+  // A distance from neighbours, one storey alone, and what keeps from the border are meant.
+  for (const char* meant : {R"("form": "block", "aspect": 1, "storeys": 4, "setback": 3, "party_walls": false)",
+                            R"("form": "block", "aspect": 1, "storeys": 1, "setback": 3)", R"("form": "cell", "setback": 3)"}) {
+    World world = World::from_text(alone(meant));
+    world.settle();
+    EXPECT_EQ(world.text("solver", "standing_solver.message").find("changes nothing"), std::string::npos) << meant;
+  }
+}
+
+TEST(StandingSolver, WhoIsPlacedOutsideTheBoundaryIsToldSo) {
+  std::string far = alone(R"("form": "block", "aspect": 1, "storeys": 4)");
+  far.replace(far.find("[30, 20, 0]"), 11, "[160, 20, 0]");
+  World world = World::from_text(far);
+  world.tick(3);
+  const std::string outside = "has nothing, because it is placed 100 m outside of the boundary: move it inside";
+  EXPECT_NE(world.text("solver", "standing_solver.message").find("`house` " + outside), std::string::npos)
+      << world.text("solver", "standing_solver.message");
+}
+
 // The ground of a volume on a slope moves up and down by a little: the boundary above it leaves now eight storeys, now seven.
 TEST(StandingSolver, ABoundaryThatTremblesTakesAStoreyOnce) {
   geometry::StandingWish wish;

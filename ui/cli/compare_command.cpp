@@ -50,37 +50,50 @@ std::shared_ptr<const State> outcome_of(const std::string& file, const SceneRead
   return std::make_shared<const State>(with_sums_of_now(*state));
 }
 
-void print_rows(const std::vector<report::IndicatorRow>& rows, std::size_t most) {
+void print_rows(const char* heading, const std::vector<report::IndicatorRow>& rows, std::size_t most) {
+  if (rows.empty()) return;
+  print_line();
+  print_line(heading);
   TextTable table({{"node"}, {"indicator"}, {"first", true}, {"second", true}, {"difference", true}});
   for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
     const report::IndicatorRow& row = rows[k];
-    table.add({row.node.empty() ? "all" : row.name, row.label, row.figure(row.before), row.figure(row.after), row.difference()});
+    table.add({row.name.empty() ? "all" : row.name, row.label, row.first(), row.second(), row.difference()});
   }
   table.print();
   if (rows.size() > most) print_line("... and " + std::to_string(rows.size() - most) + " more; --report has them all");
 }
 
-void print_comparison(const report::Comparison& comparison) {
+void print_inputs(const report::Comparison& comparison) {
   print_line();
   print_line("Set differently:");
   for (const std::string& sentence : comparison.inputs) print_line("  " + sentence);
   for (const std::string& name : comparison.only_before) print_line("  " + name + ": only in the first");
   for (const std::string& name : comparison.only_after) print_line("  " + name + ": only in the second");
   if (comparison.inputs.empty() && comparison.only_before.empty() && comparison.only_after.empty()) print_line("  nothing");
-  if (!comparison.reasons_before.empty() || !comparison.reasons_after.empty()) print_line("What holds back one of them only:");
-  for (const std::string& reason : comparison.reasons_before) print_line("  the first: " + reason);
-  for (const std::string& reason : comparison.reasons_after) print_line("  the second: " + reason);
+}
+
+// What a proposal is judged by comes first, then its volumes, then the rest.
+void print_comparison(const report::Comparison& comparison) {
   std::vector<report::IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
+  const bool is_same = totals.empty() && comparison.volumes.empty() && comparison.nodes.empty();
+  if (!is_same) print_rows("Judged by:", comparison.first, comparison.first.size());
+  if (!comparison.reasons_before.empty() || !comparison.reasons_after.empty()) {
+    print_line();
+    print_line("What holds back one of them only:");
+  }
+  for (const std::string& reason : comparison.reasons_before) print_line("  the first: " + reason);
+  for (const std::string& reason : comparison.reasons_after) print_line("  the second: " + reason);
+  print_rows("Volumes:", comparison.volumes, kMostRows);
+  print_inputs(comparison);
+  print_rows("Sums and means of all nodes:", totals, totals.size());
+  print_rows("Other nodes:", comparison.nodes, kMostRows);
   print_line();
-  if (totals.empty() && comparison.nodes.empty())
+  if (is_same && comparison.within_tolerance == 0)
     return print_line("No difference: all " + std::to_string(comparison.same) + " numbers of nodes in both are the same.");
-  print_rows(totals, totals.size());
-  print_line();
-  print_rows(comparison.nodes, kMostRows);
-  print_line(std::to_string(comparison.nodes.size()) + " numbers of nodes differ, " + std::to_string(comparison.same) +
-             " are the same");
+  print_line(std::to_string(comparison.volumes.size() + comparison.nodes.size()) + " numbers of nodes differ; " +
+             report::told_of_same(comparison));
 }
 
 }  // namespace

@@ -34,7 +34,14 @@ void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
     print_line("open:      " + fixed(parts.open_area(), 1) + " m² of " + fixed(asked, 1) + " m² of open space asked for");
   print_line("density:   floor space index " + fixed(parts.programme.floor_area / plan_area, 2) +
              " (floor area / plan area), fill " + fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
-  if (fill > 1)
+  // Storeys that a brief gives are a wish that nothing raises: more height would not help then.
+  if (made.footprints > made.ground() * (1 + 1e-9))
+    print_error(o.out, {ErrorCode::infeasible, "",
+                        "warning: with the storeys that the brief gives, the buildings need " + fixed(made.footprints, 0) +
+                            " m² of ground, and there are " + fixed(made.ground(), 0) + " m²: " +
+                            (fill > 1 ? "give more storeys, and a height for them, or less floor area"
+                                      : "give more storeys, for which the height leaves room, or less floor area")});
+  else if (fill > 1)
     print_error(o.out, {ErrorCode::infeasible, "",
                         "warning: the demands do not fit into the boundary; they need a height of at least " +
                             fixed(std::ceil(10 * demand / (plan_area - parts.open_area())) / 10, 1) + " m"});

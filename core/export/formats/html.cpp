@@ -21,6 +21,8 @@ namespace bl::exporting {
 namespace {
 
 constexpr std::size_t kMostPageBytes = 3000000;
+// Of what the page reads (ui/web/src/proposal/data.ts): a page built before or after a change of it stays blank.
+constexpr int kDataVersion = 2;
 
 struct HtmlFormat {
   using PageJson = nlohmann::ordered_json;
@@ -339,6 +341,15 @@ struct HtmlFormat {
     return text;
   }
 
+  // The data that a built page reads; empty where it does not say.
+  static std::string version_of(const std::string& shell) {
+    constexpr std::string_view kSays = "<meta name=\"data-version\" content=\"";
+    const std::size_t begin = shell.find(kSays);
+    if (begin == std::string::npos) return "";
+    const std::size_t from = begin + kSays.size();
+    return shell.substr(from, std::min<std::size_t>(shell.find('"', from) - from, 12));
+  }
+
   static Result<ExportFiles> write(const Proposal& proposal, const Options& options) {
     constexpr std::string_view kTitle = "PAGE_TITLE", kData = "PAGE_DATA";
     const std::size_t title = proposal.shell.find(kTitle), data = proposal.shell.find(kData);
@@ -347,6 +358,11 @@ struct HtmlFormat {
           ErrorCode::missing, "",
           "the page is not built; `./bl export` builds it where npm is installed (the Debian packages nodejs and npm), and "
           "the variable BEHAVIOURLINKS_PAGE names the folder of a built one"};
+    if (const std::string version = version_of(proposal.shell); version != std::to_string(kDataVersion))
+      return Error{ErrorCode::version, "",
+                   "the built page reads data of version " + (version.empty() ? std::string("1 or older") : version) +
+                       ", and this program writes version " + std::to_string(kDataVersion) +
+                       ": build the page again with `./bl export`, or name the folder of one that fits in BEHAVIOURLINKS_PAGE"};
     ExportFiles made;
     constexpr std::array<Detail, 5> kDetails = {
         {{0.01, 3, 8000, 64000}, {0.02, 2, 4000, 32000}, {0.1, 1, 1500, 12000}, {0.3, 1, 400, 4000}, {1, 1, 0, 1000}}};

@@ -46,11 +46,12 @@ TEST(StoreyLimit, NeverFallsBelowTheLeast) {
   EXPECT_EQ(volume.built, 2);
   EXPECT_TRUE(is_at_least(volume, 0.2));
   EXPECT_EQ(least_storeys(volume, 0.5), 4);
-  EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys");
+  EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys (`storeys_min`)");
   EXPECT_EQ(way_to_fewer(volume, 0.2), "lower `storeys_min` and `least`");
   EXPECT_EQ(way_to_fewer(volume, 0.1), "lower `storeys_min`");
   EXPECT_EQ(way_to_fewer(volume, 0.4), "lower `least`");
   volume.least = 1;
+  EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys (`least`: 20 % of 8)");
   EXPECT_EQ(way_to_fewer(volume, 0.1), "lower `storey_height`") << "one storey is the least of all";
 }
 

@@ -186,7 +186,7 @@ TEST(CellarMeshes, AreBodiesOfTheirOwnWhereTheyAreWanted) {
 TEST(CellarPage, HasThemInPlansAndTables) {
   Proposal proposal = cellar_proposal();
   proposal.shell =
-      "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<title>PAGE_TITLE</title>\n"
+      "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<meta name=\"data-version\" content=\"2\">\n<title>PAGE_TITLE</title>\n"
       "<script id=\"data\" type=\"application/json\">PAGE_DATA</script>\n";
   const std::string page = files_of(proposal, "html", {}, false).begin()->second;
   const std::size_t begin = page.find("json\">") + 6;

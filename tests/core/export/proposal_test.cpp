@@ -189,6 +189,22 @@ TEST(Formats, APageHoldsItsDataAndNothingThatEndsIt) {
     for (const auto& storey : building["storeys"]) EXPECT_LT(storey["path"], data["paths"].size());
 }
 
+// A page that reads other data stays blank, without a word: an export refuses it.
+TEST(Formats, APageOfAnotherVersionIsRefused) {
+  Proposal proposal = proposal_of(settled_world());
+  const FormatDefinition* format = find_format("html");
+  const std::string now = "content=\"2\"";
+  for (const std::string other : {"content=\"1\"", "content=\"three\"", ""}) {
+    proposal.shell = kShell;
+    proposal.shell.replace(proposal.shell.find(now), now.size(), other);
+    const auto made = format->write(proposal, *option_values(*format, {}), false);
+    ASSERT_FALSE(made) << other;
+    EXPECT_EQ(made.error().code, ErrorCode::version);
+    EXPECT_NE(made.error().message.find("this program writes version 2: build the page again"), std::string::npos)
+        << made.error().message;
+  }
+}
+
 // So many volumes that a page has no room for their shapes.
 Proposal crowded_proposal() {
   Proposal proposal = proposal_of(settled_world());

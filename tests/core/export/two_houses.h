@@ -36,7 +36,7 @@ inline Proposal proposal_of(const World& world) {
 
 // As the page's build leaves it, without its script.
 inline constexpr const char* kShell =
-    "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<title>PAGE_TITLE</title>\n"
+    "<!doctype html>\n<!-- BehaviourLinks proposal -->\n<meta name=\"data-version\" content=\"2\">\n<title>PAGE_TITLE</title>\n"
     "<script id=\"data\" type=\"application/json\">PAGE_DATA</script>\n";
 
 /// All files of a format with these options.

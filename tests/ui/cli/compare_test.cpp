@@ -111,6 +111,63 @@ TEST(Compare, PercentagesOfNothingAreNotPrinted) {
   EXPECT_NE(outcome.out.find("missing of the volume asked for"), std::string::npos) << outcome.out;
 }
 
+// What matters comes first, in the text and on the page: floor area by use, densities, sun, rules; then volumes, then the rest.
+TEST(Compare, BeginsWithWhatAProposalIsJudgedBy) {
+  const Workplace place;
+  const auto scene = [](const std::string& demand, const std::string& more) {
+    std::string casters;
+    for (int k = 0; k < 5; ++k)
+      casters += R"(, {"id": "b)" + std::to_string(k) + R"(", "position": [900, )" + std::to_string(30 * k) +
+                 R"(, 0], "types": {"existing_building": {"outline": [[0,0,0],[9,0,0],[9,9,0]], "height": 9})" + more + "}}";
+    return R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "flats", "name": "Flats", "types": {"footprint": {"storeys": 3}, "smart_volume": {"use": "housing", "demand": )" +
+           demand + R"(}}},
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-40,-40,0],[40,-40,0],[40,40,0],[-40,40,0]], "height": 30}}},
+      {"id": "solver", "types": {"standing_solver": {}}})" +
+           casters + R"(], "links": []})";
+  };
+  place.write("a.json", scene("3000", ""));
+  place.write("b.json", scene("4500", R"(, "shadow_caster": {})"));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json", "--report", "d.html"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = place.text("d.html");
+  for (const std::string& text : {outcome.out, page}) {
+    std::size_t last = 0;
+    for (const char* part : {"housing", "Floor area", "FSI", "GSI", "OSR", "SmartVolume: floor area",
+                             "shadow_caster: a role of 5 nodes in the second only"}) {
+      const std::size_t at = text.find(part, &text == &page ? text.find("What it is judged by") : 0);
+      ASSERT_NE(at, std::string::npos) << part << "\n" << text;
+      EXPECT_GE(at, last) << part;
+      last = at;
+    }
+    EXPECT_EQ(text.find("nodes/b0/shadow_caster"), std::string::npos);
+  }
+  report::IndicatorRow missing{"", "", "", "", Unit::square_metre, 0, 12};
+  missing.has_before = false;
+  EXPECT_EQ(missing.first(), "\u2013") << "a proposal that has no such thing has no 0 of it";
+  EXPECT_EQ(missing.difference(), "\u2013");
+  EXPECT_TRUE(missing.is_seen(1e-6));
+}
+
+// Two runs to the same end differ by what solvers may miss: such differences are counted, and have no percentage.
+TEST(Compare, DifferencesBelowTheToleranceAreCounted) {
+  const Workplace place;
+  const auto scene = [](const std::string& demand) {
+    return R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "flats", "name": "Flats", "types": {"footprint": {"storeys": 3}, "smart_volume": {"use": "housing", "demand": )" +
+           demand + R"(}}},
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[-40,-40,0],[40,-40,0],[40,40,0],[-40,40,0]], "height": 30}}},
+      {"id": "solver", "types": {"standing_solver": {}}}], "links": []})";
+  };
+  place.write("a.json", scene("3000"));
+  place.write("b.json", scene("3003"));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("Volumes:"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("by less than the tolerance of the solvers"), std::string::npos) << outcome.out;
+  EXPECT_EQ((report::IndicatorRow{"", "", "", "", Unit::cubic_metre, 0.047, 33.6}.difference().find('%')), std::string::npos);
+}
+
 TEST(Compare, BadScenesAreToldWithTheirPlace) {
   const Workplace place;
   place.write("a.json", moving_scene());

@@ -237,6 +237,22 @@ TEST(Dialogs, CancellingTheFileOfAQuestionCancelsWhatItWasAskedFor) {
   EXPECT_FALSE(desktop.editor().document);
 }
 
+// Who types what planners call it finds the table of wishes.
+TEST(Dialogs, ThePaletteFindsTheBrief) {
+  for (const char* word : {"brief", "programme the"}) {
+    NullDesktop desktop("scenes/start/quarter.json");
+    desktop.key(GLFW_KEY_K, true);
+    desktop.frames(3);
+    desktop.type(word);
+    desktop.key(GLFW_KEY_ENTER);
+    desktop.frames(3);
+    EXPECT_FALSE(is_asking()) << word;
+    ASSERT_EQ(desktop.editor().picks.nodes.size(), 1u) << word;
+    const NodeRecord& node = desktop.editor().document->scene().nodes.at(*desktop.editor().picks.nodes.begin());
+    EXPECT_TRUE(node.types.contains("programme")) << word;
+  }
+}
+
 TEST(Dialogs, OneDialogOpensAnother) {
   NullDesktop desktop("scenes/start/quarter.json");
   desktop.key(GLFW_KEY_K, true);

@@ -37,6 +37,18 @@ std::string bytes_of(const std::string& path) {
   return read ? *read : "";
 }
 
+TEST(WindowExport, AllFormatsAreChosenAtOnce) {
+  const Folder folder("export_every");
+  ExportDesktop desktop(folder);
+  desktop.press("export/all");
+  for (const char* lacking : {"export/html", "export/geojson"}) desktop.press(lacking);  // a built page, a place on Earth
+  desktop.press("export/write");
+  EXPECT_FALSE(desktop.is_open()) << desktop.told();
+  for (const exporting::FormatDefinition& format : exporting::all_formats())
+    EXPECT_EQ(std::filesystem::exists(folder.at("standing" + format.ending)), format.id != "html" && format.id != "geojson")
+        << format.id;
+}
+
 TEST(WindowExport, WritesTheStateThatIsShownInEachFormat) {
   const Folder folder("export_all");
   ExportDesktop desktop(folder);

@@ -1,4 +1,5 @@
 // The inspector, driven by keys and mouse on the null renderer.
+#include "core/define/catalogue.h"
 #include "core/reading/figures.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/inspector_quantity.h"
@@ -24,6 +25,22 @@ TEST(Quantities, ALimitThatIsNoneSaysSo) {
   EXPECT_EQ(desktop.number("library", "smart_volume", "demand_limit"), 5000);
   desktop.type_into("smart_volume.demand_limit", "none");
   EXPECT_EQ(desktop.number("library", "smart_volume", "demand_limit"), 1e9) << desktop.complaint();
+}
+
+// Of a building as well: a depth, a height and a ground that nobody has set are no lengths.
+TEST(Quantities, NumbersThatStandForNoneSaySo) {
+  const TypificationDefinition& footprint = *full_registry().typification("footprint");
+  for (const auto& [id, value] : {std::pair{"depth", 1000.0}, {"wing_depth", 1000.0}, {"height_limit", 1e6}, {"ground", -1e4}}) {
+    const PortDefinition& port = *footprint.find_port(id);
+    EXPECT_EQ(value_text(Value(value), port, port.unit), "none") << id;
+    EXPECT_NE(facts_of(port, port.unit).find("default  none"), std::string::npos) << id;
+  }
+  for (const char* id : {"border_distance", "setback", "aspect", "cellar_height"}) {
+    const PortDefinition& port = *footprint.find_port(id);
+    EXPECT_NE(value_text(port.default_value, port, port.unit), "none") << id;
+  }
+  EXPECT_NE(catalogue_page(footprint, full_registry()).find("| none, `1000` | from 3 to 1000 |"),
+            std::string::npos);
 }
 
 TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {

@@ -108,7 +108,22 @@ void ExportDialog::draw() {
   draw_place();
 }
 
+// One box for all of them: off where one is missing.
+void ExportDialog::draw_all_formats() {
+  const std::size_t count = exporting::all_formats().size();
+  bool is_all = chosen_.size() == count;
+  if (ImGui::Checkbox("All formats", &is_all)) {
+    chosen_.clear();
+    if (is_all)
+      for (const exporting::FormatDefinition& format : exporting::all_formats()) chosen_.insert(format.id);
+    asked_.clear();
+  }
+  note_place(*editor_, "export/all");
+  ImGui::Separator();
+}
+
 void ExportDialog::draw_formats() {
+  draw_all_formats();
   for (const exporting::FormatDefinition& format : exporting::all_formats()) {
     ImGui::PushID(format.id.c_str());
     bool is_chosen = chosen_.contains(format.id);
@@ -272,7 +287,7 @@ void Dialogs::show_export(const std::string& section) {
 }
 
 void Dialogs::draw_export() {
-  if (!begin("Export", 780, 580)) {
+  if (!begin("Export", 780, 660)) {
     if (memory_of(*editor_).typing.key.starts_with("export/")) memory_of(*editor_).typing = {};
     return;
   }

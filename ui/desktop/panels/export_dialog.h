@@ -28,6 +28,7 @@ class ExportDialog {
 
  private:
   void draw_formats();
+  void draw_all_formats();
   void draw_options();
   void draw_place();
   std::string path_of(const exporting::FormatDefinition& format) const;

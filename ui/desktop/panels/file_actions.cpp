@@ -3,6 +3,7 @@
 
 #include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -31,6 +32,20 @@ bool has_hosted(const Workbench& editor) { return editor.hosting != nullptr; }
 bool has_imports(const Workbench& editor) { return has_document(editor) && !editor.document->imports().empty(); }
 bool has_log(const Workbench& editor) { return has_document(editor) && editor.document->room() == nullptr; }
 bool has_file(const Workbench& editor) { return has_document(editor) && !editor.document->source().empty(); }
+
+std::string programme_of(const Workbench& editor) {
+  if (!has_document(editor)) return "";
+  for (const auto& [id, node] : editor.document->scene().nodes)
+    if (node.types.contains("programme")) return id;
+  return "";
+}
+bool has_programme(const Workbench& editor) { return !programme_of(editor).empty(); }
+
+// Its rows stand in the inspector, what came of them in the statistics.
+void show_programme(Workbench& editor) {
+  editor.picks.only_node(programme_of(editor));
+  memory_of(editor).wanted_tab = "Statistics";
+}
 
 }  // namespace
 
@@ -68,6 +83,7 @@ void add_edit_actions(std::vector<Action>& list) {
                   has_document,
                   [](Workbench& e) { e.redo(); },
                   true});
+  list.push_back({"Edit", "Programme (the brief)", {}, {}, Area::none, has_programme, show_programme});
   list.push_back(
       {"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Workbench& e) { e.dialogs->show_palette(); }});
 }

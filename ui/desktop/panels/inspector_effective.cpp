@@ -12,7 +12,7 @@ namespace {
 
 // As many digits as one reads at a glance; what was set is shown exactly, what became of it need not be.
 std::string glance(const Value& value, const PortDefinition& port) {
-  if (const auto* number = std::get_if<double>(&value); number != nullptr && !is_no_limit(port, *number))
+  if (const auto* number = std::get_if<double>(&value); number != nullptr && !means_none(port, *number))
     return reading::quantity(as_number(value), port.unit);
   return value_text(value, port, port.unit);
 }

@@ -246,11 +246,6 @@ std::string shown_number(double value, Unit unit) {
   return symbol.empty() ? text : text + "\xC2\xA0" + symbol;
 }
 
-bool is_no_limit(const PortDefinition& port, double value) {
-  constexpr double kEndless = 1e9;  // ranges that end lower are limits that somebody means
-  return port.rule == CombineRule::min && port.hard_maximum >= kEndless && value >= port.hard_maximum;
-}
-
 std::string typed_form(double value, Unit unit) {
   const std::string symbol(info(unit).symbol);
   return shortest(value) + (symbol.empty() || info(unit).pretty.empty() ? "" : " " + symbol);
@@ -272,7 +267,7 @@ std::string facts_of(const PortDefinition& port, Unit unit) {
       line("unit", std::string(info(unit).name) + (info(unit).pretty.empty() ? "" : " (" + std::string(info(unit).pretty) + ")"));
   if (is_number && !port.is_computed) {
     const double by_default = as_number(port.default_value);
-    line("default", (is_no_limit(port, by_default) ? kNoLimit : shown_number(by_default, unit)) +
+    line("default", (means_none(port, by_default) ? kNoneWord : shown_number(by_default, unit)) +
                         (port.of_scene == OfScene::unless_set ? ", or the scene's setting" : ""));
     const bool has_low = std::isfinite(port.hard_minimum), has_high = std::isfinite(port.hard_maximum);
     if (has_low && has_high)

@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/base/unit.h"
 #include "core/define/definition.h"
+#include "core/define/no_value.h"
 #include "ui/desktop/view/labels.h"
 
 namespace bl::desktop {
@@ -19,9 +20,6 @@ bool is_relative(std::string_view text);
 
 /// As many digits as the number has, up to nine, in groups, with its unit: "7 200 m³", "0.05".
 std::string shown_number(double value, Unit unit);
-/// Does a limit hold nobody back? The lowest voice wins there, and this is the highest that there can be.
-bool is_no_limit(const PortDefinition& port, double value);
-inline constexpr const char* kNoLimit = "none";  ///< shown for it, and typed to get it
 /// The same for a field to type into: "7200 m3".
 std::string typed_form(double value, Unit unit);
 /// A quantity of this unit in words: "a volume in cubic metres (m³)".

@@ -45,7 +45,7 @@ double at_most_nine_digits(double value) {
 
 std::optional<Change> typed_change(Workbench& editor, const Subject& subject, const std::string& text) {
   const double now = as_number(subject.value);
-  if (text == kNoLimit && is_no_limit(*subject.port, subject.port->hard_maximum)) return constant(subject.port->hard_maximum);
+  if (const auto none = value_of_none(*subject.port); none && text == kNoneWord) return constant(*none);
   const auto number = typed_number(text, subject.unit, now);
   const std::string what = "`" + text + "` was refused: ";
   if (!number) {
@@ -194,7 +194,7 @@ std::optional<Change> number_field(Workbench& editor, const Subject& subject, fl
   const bool is_soft = port.soft_minimum && port.soft_maximum && number >= *port.soft_minimum && number <= *port.soft_maximum;
   if (!subject.is_mixed && is_soft && *port.soft_maximum > *port.soft_minimum)
     look.fill = (number - *port.soft_minimum) / (*port.soft_maximum - *port.soft_minimum);
-  const std::string shown = subject.is_mixed ? "" : is_no_limit(port, number) ? kNoLimit : shown_number(number, subject.unit);
+  const std::string shown = subject.is_mixed ? "" : means_none(port, number) ? kNoneWord : shown_number(number, subject.unit);
   const CellEvent event = cell(editor, subject.key, shown, subject.is_mixed ? "" : typed_form(number, subject.unit), width, look);
   if (event.is_typed) return typed_change(editor, subject, event.text);
   if (event.is_scrubbing) return scrubbed_change(editor, subject, event, width);
@@ -273,7 +273,7 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
     if ((*selection)->is_query()) return (*selection)->typification + " " + (*selection)->tag;
     return reading::counted((*selection)->ids.size(), "node");
   }
-  if (port.kind == ValueKind::number && is_no_limit(port, as_number(value))) return kNoLimit;
+  if (port.kind == ValueKind::number && means_none(port, as_number(value))) return kNoneWord;
   if (port.kind == ValueKind::number && !port.is_computed) return shown_number(as_number(value), unit);
   if (std::holds_alternative<std::int64_t>(value)) return reading::grouped(as_number(value));
   if (unit == Unit::ratio) return reading::percent(as_number(value));

@@ -134,7 +134,7 @@ std::string text_of(const Workbench& editor, const NodeBox& box, const Section& 
   if (const auto* selection = std::get_if<Shared<Selection>>(value)) return text_of(editor, **selection);
   if (const auto* numbers = std::get_if<Numbers>(value)) return counted((*numbers)->size(), "number");
   if (is_derived(definition.kind)) return std::string(kind_text(definition.kind, definition.made));
-  if (is_no_limit(definition, as_number(*value))) return kNoLimit;
+  if (means_none(definition, as_number(*value))) return kNoneWord;
   if (definition.unit == Unit::ratio) {
     const double share = as_number(*value);
     return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : reading::percent(share);

@@ -1,4 +1,5 @@
-// What a page of a proposal holds: made by core/export/formats/html.cpp.
+// What a page of a proposal holds: made by core/export/formats/html.cpp. Whoever changes it raises `data-version` in index.html and
+// `kDataVersion` there: an export refuses a page that reads other data.
 import type { Look } from "../space/picture";
 
 export interface Storey {

@@ -1,0 +1,32 @@
+// How the volumes of a brief that stand are joined to buildings: roofs, shared footprints, storeys and cellars.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/making/new_scene.h"
+
+namespace bl::making {
+
+/// What one volume has. Base and host are indices of volumes; without both it has ground of its own.
+struct BuildingPart {
+  std::optional<std::size_t> base, host;
+  bool is_alone_on_roof = true;  ///< no other volume stands on its base
+  int storeys = 1;               ///< of the whole building, at its host
+  int order = 0;                 ///< among those that share a footprint
+  int cellar_storeys = 0;
+  double footprint = 0;  ///< estimate of the building's [m²]
+  Vector3 offset;        ///< from the position of its base [m]
+};
+
+/// Parts of all volumes. `ground` is the area that can be built on [m²], `along` the main direction of the plan. Notes say what
+/// became of rows that lie below the ground.
+std::vector<BuildingPart> plan_buildings(const SceneParts& parts, const std::vector<NewVolume>& volumes, double ground,
+                                         const Vector3& along, std::vector<std::string>& notes);
+
+/// The volume with ground of its own under a volume: itself, or what carries or holds it.
+std::size_t root_of(const std::vector<BuildingPart>& plan, std::size_t volume);
+
+}  // namespace bl::making
