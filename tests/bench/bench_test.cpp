@@ -6,7 +6,6 @@
 
 #include "core/drawing/line_chart.h"
 #include "tests/support/place/source_folder.h"
-#include "tests/support/sanitized.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
@@ -57,7 +56,6 @@ TEST(Bench, TimesAreThoseOfTheSameTicksSlowestFirst) {
 std::string study_scene() { return scene_text(volume_text("a", "[8, 0, 8]") + "," + volume_text("b", "[-8, 0, 8]", "2000")); }
 
 TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
-  if (test::kIsSanitized) GTEST_SKIP() << "the tests of the geometry compute the same";
   const Workplace place;
   place.write("study.json", study_scene());
   const Outcome outcome = place.bench(
@@ -134,7 +132,6 @@ TEST(SolverBench, FitsAreMetAndDragsKeepTheirTolerance) {
 }
 
 TEST(SolverBench, ChartsAreWholeDrawings) {
-  if (test::kIsSanitized) GTEST_SKIP() << "the tests of the geometry compute the same";
   const Workplace place;
   const Outcome outcome = place.bench({"--solver", "--quick", "--rows", "growth", "tick_growth", "study", "--sites", "30", "60",
                                        "--chart", "charts", "--json", "rows.json", "--threads", "1"});
@@ -161,7 +158,6 @@ TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
 
 // What is printed is lines of text: headings have been printed with the letters `\\n` in them.
 TEST(SolverBench, HeadingsAreLinesOfText) {
-  if (test::kIsSanitized) GTEST_SKIP() << "the tests of the geometry compute the same";
   const Workplace place;
   place.write("study.json", study_scene());
   const Outcome outcome = place.bench({"study.json", "--solver", "--quick", "--seeds", "1", "--sites", "30", "--threads", "1"});
