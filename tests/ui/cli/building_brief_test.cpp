@@ -179,7 +179,7 @@ TEST_F(BuildingBrief, UsesAreKnownByTheWordsThatPeopleWrite) {
     if (node["types"].contains("use"))
       people[node["types"]["use"]["use"].get<std::string>()] = node["types"]["use"]["people_per_100"].get<double>();
     if (node["id"] != "programme") continue;
-    EXPECT_EQ(node["types"]["programme"]["rows"][0]["note"], "100 units");
+    EXPECT_EQ(node["types"]["programme"]["rows"][0].value("note", ""), "100 units");
   }
   EXPECT_EQ(people,
             (std::map<std::string, double>{{"Café", 4.6}, {"Shop", 4.6}, {"Start-up office", 6.7}, {"Starter housing", 1.7}}));
