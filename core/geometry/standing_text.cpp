@@ -27,8 +27,7 @@ std::string why_outside(const StandingWish& wish, const StandingResult& result, 
   if (!(wish.volume > 0) || result.floor_area > 0 || wish.base >= 0 || wish.host >= 0 || domain.pieces.empty()) return "";
   const Point3 at{wish.site.site.position.x, wish.site.site.position.y, domain.minimum.z + kNearly};
   if (domain.contains(at, kNearly)) return "";
-  return "has nothing, because it is placed " + fixed(distance(at, domain.place_inside(at)), 0) +
-         " m outside of the boundary: move it inside";
+  return "is placed outside of the boundary, where there is no ground for it: move it inside";
 }
 
 }  // namespace

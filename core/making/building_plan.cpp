@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -18,6 +19,8 @@ constexpr double kCoverage = 0.45;  // share of the ground that footprints cover
 // The same of a roof, by one building and by several, whose blocks have to fit beside each other.
 constexpr double kRoofOfOne = 0.9, kRoofOfSeveral = 0.5;
 constexpr int kMostCellarStoreys = 20;
+constexpr double kLeastOfLargest = 0.25;  // footprint of a building that gets cellars, to the largest
+constexpr std::size_t kMostTold = 5;      // buildings in a sentence
 
 class Planner {
  public:
@@ -144,20 +147,31 @@ class Planner {
       return name + "lies below the ground, and there is no volume above it: its " + written_out(asked) + " m² were left out.";
     std::stable_sort(sites.begin(), sites.end(),
                      [this](std::size_t a, std::size_t b) { return plan_[a].footprint > plan_[b].footprint; });
+    // Cellars under what is small are not worth their walls.
+    const double largest = plan_[sites.front()].footprint;
+    std::erase_if(sites, [&](std::size_t site) { return plan_[site].footprint < kLeastOfLargest * largest; });
     std::map<std::size_t, int> storeys;
     double dug = 0;
-    for (int level = 1; level <= kMostCellarStoreys && dug < asked * (1 - 1e-9); ++level)
-      for (const std::size_t site : sites) {
-        if (dug >= asked * (1 - 1e-9) || plan_[site].cellar_storeys >= kMostCellarStoreys) continue;
+    for (int level = 1; level <= kMostCellarStoreys; ++level)
+      for (std::vector<std::size_t> left = sites; !left.empty() && dug < asked * (1 - 1e-9);) {
+        // The smallest that is enough for the rest, else the largest.
+        const auto enough = std::find_if(left.rbegin(), left.rend(),
+                                         [&](std::size_t site) { return plan_[site].footprint >= (asked - dug) * (1 - 1e-9); });
+        const auto chosen = enough == left.rend() ? left.begin() : std::prev(enough.base());
+        const std::size_t site = *chosen;
+        left.erase(chosen);
+        if (plan_[site].cellar_storeys >= kMostCellarStoreys) continue;
         ++plan_[site].cellar_storeys;
         ++storeys[site];
         dug += plan_[site].footprint;
       }
     std::string list;
+    std::size_t told = 0;
     for (const std::size_t site : sites)
-      if (storeys.contains(site) && list.size() < 120)
+      if (storeys.contains(site) && told++ < kMostTold)
         list += (list.empty() ? "" : ", ") + how_many(static_cast<std::size_t>(storeys[site]), "storey") + " under `" +
                 volumes_[site].id + "`";
+    if (told > kMostTold) list += " and under " + std::to_string(told - kMostTold) + " more";
     return name + "lies below the ground and is no floor area: about " + written_out(std::round(dug)) +
            " m² of cellars for the " + written_out(asked) + " m² asked for, " + list + ".";
   }

@@ -362,7 +362,7 @@ std::string IndicatorRow::second() const { return has_after ? figure(after) : kN
 
 std::string IndicatorRow::difference() const {
   if (!has_before || !has_after) return kNoFigure;
-  if (before == after) return "same";
+  if (figure(before) == figure(after)) return "same";
   // A percentage of what people read as zero says nothing, nor does one of little beside what there is now.
   const bool is_nothing = reads_as_zero(before) || std::abs(before) < kLeastOfAfter * std::abs(after);
   return is_nothing ? figure(after - before) : reading::signed_percent((after - before) / std::abs(before));

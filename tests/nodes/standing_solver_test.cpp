@@ -165,7 +165,7 @@ TEST(StandingSolver, WhoIsPlacedOutsideTheBoundaryIsToldSo) {
   far.replace(far.find("[30, 20, 0]"), 11, "[160, 20, 0]");
   World world = World::from_text(far);
   world.tick(3);
-  const std::string outside = "has nothing, because it is placed 100 m outside of the boundary: move it inside";
+  const std::string outside = "is placed outside of the boundary, where there is no ground for it: move it inside";
   EXPECT_NE(world.text("solver", "standing_solver.message").find("`house` " + outside), std::string::npos)
       << world.text("solver", "standing_solver.message");
 }

@@ -1,5 +1,6 @@
 // `new`: makes a scene that can run from a plan boundary and a programme.
 #include <sys/stat.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.h"
@@ -35,7 +36,9 @@ void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
   print_line("density:   floor space index " + fixed(parts.programme.floor_area / plan_area, 2) +
              " (floor area / plan area), fill " + fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
   // Storeys that a brief gives are a wish that nothing raises: more height would not help then.
-  if (made.footprints > made.ground() * (1 + 1e-9))
+  const bool has_storeys = std::any_of(parts.programme.rows.begin(), parts.programme.rows.end(),
+                                       [](const importing::ProgrammeRow& row) { return row.storeys > 0; });
+  if (has_storeys && made.footprints > made.ground() * (1 + 1e-9))
     print_error(o.out, {ErrorCode::infeasible, "",
                         "warning: with the storeys that the brief gives, the buildings need " + fixed(made.footprints, 0) +
                             " m² of ground, and there are " + fixed(made.ground(), 0) + " m²: " +
