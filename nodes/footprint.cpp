@@ -131,8 +131,9 @@ struct Footprint {
         .soft(0, 10)
         .combine(CombineRule::max)
         .doc(
-            "How far all storeys keep from the sides of the boundary along streets; the solver finds these sides. Links of the "
-            "kind `plot_rules` propose the set-back of the plot.");
+            "How far all storeys keep from the sides of the boundary along streets; the solver finds these sides. Streets that "
+            "the "
+            "boundary leaves out have `exclusion_distance`. Links of the kind `plot_rules` propose the set-back of the plot.");
     t.in(&In::exclusion_distance, "exclusion_distance")
         .unit(Unit::metre)
         .range(0, 1000)

@@ -422,6 +422,17 @@ struct StandingSolver {
                                : std::to_string(plots.size()) + " boundaries were found: choose one of them here"};
   }
 
+  static void gather(const std::vector<Member>& members, Kept& kept) {
+    kept.names.clear();
+    kept.wishes.clear();
+    kept.cellars.clear();
+    for (const Member& member : members) {
+      kept.names.push_back(member.id);
+      kept.wishes.push_back(wish_of(member));
+      kept.cellars.emplace_back(member.cellar_storeys, member.cellar_height);
+    }
+  }
+
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     const auto domain = domain_of(sets.plots);
     if (!domain) return domain.error();
@@ -429,14 +440,7 @@ struct StandingSolver {
     if (sets.members.all.empty()) return out;
     std::optional<Kept> own;
     Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own.emplace();
-    kept.names.clear();
-    kept.wishes.clear();
-    kept.cellars.clear();
-    for (const Member& member : sets.members.all) {
-      kept.names.push_back(member.id);
-      kept.wishes.push_back(wish_of(member));
-      kept.cellars.emplace_back(member.cellar_storeys, member.cellar_height);
-    }
+    gather(sets.members.all, kept);
     std::string words = find_bases(sets.members.all, kept) + find_hosts(sets.members.all, kept);
     const std::vector<geometry::StreetAxis> streets = streets_of(in, sets);
     const geometry::StandingTick now{.steps = tick.is_recall ? 0 : in.steps,

@@ -1,6 +1,6 @@
 // Colours of land-use plans: housing yellow, shops red, offices blue, industry brown, parking grey, open space green. They were
-// chosen so that people with protanopia or deuteranopia tell any two of them apart: at least 10 apart in CIE L*a*b* as these see
-// them (Machado and others 2009), and 25 as others do. The tests measure it.
+// chosen so that people with protanopia or deuteranopia tell any two of them apart: at least 9.5 apart in CIE L*a*b* as these see
+// them (Machado and others 2009), and 25 as others do. The tests measure it. Streets are paler than all uses, and no use.
 #include "core/drawing/use_colours.h"
 
 #include <algorithm>
@@ -28,9 +28,10 @@ struct KnownUse {
 };
 
 constexpr std::array<KnownUse, 13> kKnownUses = {{
-    {{of_hex(0xf0dd8c), 51}, " housing home house flat apartment dwelling residence residential living wohnen wonen logement "},
+    {{of_hex(0xf0dd8c), 51},
+     " housing home house townhouse flat apartment dwelling residence residential living wohnen wonen logement "},
     {{of_hex(0x6792dd), 150}, " office workplace workspace coworking administration business "},
-    {{of_hex(0xdd5070), 10}, " shop shopping retail store supermarket market commerce commercial restaurant cafe café bar "},
+    {{of_hex(0xdd5070), 10}, " shop shopping retail store supermarket market commerce commercial restaurant cafe café bar pub "},
     {{of_hex(0xdda648), 40}, " hotel hostel lodging guesthouse "},
     {{of_hex(0x9a5fd8), 190}, " school education kindergarten nursery creche university college campus teaching "},
     {{of_hex(0xd648ae), 220}, " culture cultural library museum theatre theater cinema gallery concert community church mosque "},
@@ -80,10 +81,14 @@ const KnownUse* known_use(const std::string& word) {
   return found == kKnownUses.end() ? nullptr : &*found;
 }
 
-// In English the last word says what it is: a school library is a library.
+// In English the last word says what it is: a school library is a library. But a car park has cars, and a business park offices.
 const KnownUse* row_of_use_name(const std::string& use) {
   const std::vector<std::string> words = words_of_use(use);
   const KnownUse* row = nullptr;
+  if (words.size() > 1 && words.back() == "park") {
+    row = known_use(words[words.size() - 2]);
+    if (row != nullptr && row->cover != GroundCover::none) row = nullptr;
+  }
   for (auto word = words.rbegin(); word != words.rend() && row == nullptr; ++word) row = known_use(*word);
   return row;
 }

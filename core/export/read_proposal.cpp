@@ -216,22 +216,30 @@ void add_uses(const reading::ReportModel& model, const drawing::Palette& palette
   all.all.buildings = model.volumes.size();
 }
 
-// Exclusions with a use are open space. Imports name those of streets by their kind; the others are existing buildings and what
-// people have drawn without a use, which the boundary shows as its holes.
+// What imports keep clear has its kind as the first word of its name. Other exclusions without a use are existing buildings and
+// what people have drawn, which the boundary shows as its holes.
+std::string kind_of_kept(const std::string& name) {
+  const std::string kind = name.substr(0, name.find(' '));
+  const bool is_kind = kind == "street" || kind == "rail" || kind == "water" || kind == "green";
+  return is_kind && kind.size() < name.size() ? kind : "";
+}
+
+// Exclusions with a use are open space.
 void add_open_spaces(const State& state, const reading::ReportModel& model, Proposal& all) {
   std::map<std::string, std::vector<PlateFace>> faces;
-  std::vector<PlateFace> streets;
+  std::map<std::string, std::vector<PlateFace>> kept;
   for (const auto& [node, ground] : reading::rows<reading::OpenGround>(state))
     for (geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions)) {
       const std::string& use = ground.exclusions->text(ring.first_row, "use");
-      if (use.empty() && !ring.name.starts_with("street ")) continue;
-      std::vector<PlateFace>& list = use.empty() ? streets : faces[use];
+      const std::string kind = use.empty() ? kind_of_kept(ring.name) : "";
+      if (use.empty() && kind.empty()) continue;
+      std::vector<PlateFace>& list = use.empty() ? kept[kind] : faces[use];
       for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) list.push_back(std::move(face));
     }
   for (const reading::OpenAccount& open : model.accounts.open)
     all.open_spaces.push_back({open.use, drawing::use_colour(open.use).colour, open.asked, open.area,
                                why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
-  if (!streets.empty()) all.kept.push_back({"street", std::move(streets)});
+  for (auto& [kind, ground] : kept) all.kept.push_back({kind, std::move(ground)});
 }
 
 }  // namespace

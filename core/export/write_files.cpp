@@ -85,7 +85,10 @@ Result<void> may_make_folder(const std::string& out, const fs::path& folder) {
   std::error_code none;
   fs::path above = fs::absolute(folder, none).lexically_normal();
   while (!fs::exists(above, none) && above.has_relative_path()) above = above.parent_path();
-  if (fs::is_directory(above, none)) return {};
+  if (fs::is_directory(above, none)) {
+    const auto may = may_write_file((above / fs::path(out).filename()).string());
+    return may ? Result<void>() : Error{ErrorCode::io, out, may.error().message};
+  }
   return Error{ErrorCode::io, out, "cannot be written: " + above.string() + " is a file, not a folder"};
 }
 

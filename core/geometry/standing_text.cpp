@@ -73,6 +73,7 @@ std::string pieces_text(const StandingBody& body, const std::string& name) {
 bool has_idle_setback(const StandingWish& wish, const StandingResult& whole) {
   if (!(wish.setback > 0) || wish.full_storeys > 0 || !wish.site.has_party_walls || whole.storeys.count < 2) return false;
   if (!whole.body || whole.body->stacks.empty()) return false;
+  if (wish.base >= 0) return false;  // it keeps its set-back from the edge of the roof
   for (const PlateRing& outline : whole.body->stacks.front().outlines)
     for (const PlateRing::Corner& corner : outline.corners)
       if (corner.beyond == PlateRing::kPlot) return false;

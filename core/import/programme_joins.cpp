@@ -42,6 +42,7 @@ class Joiner {
   std::optional<std::size_t> row_called(std::size_t i, const std::string& name, ProgrammeColumn column);
   void join(std::size_t i, std::string& name, ProgrammeColumn column);
   void look_for_circles();
+  void leave_to_building(ProgrammeRow& row);
   std::size_t row_of(const std::string& use) const {
     const auto found = index_.find(use);
     return found == index_.end() ? uses_.size() : found->second;
@@ -112,7 +113,9 @@ void Joiner::join(std::size_t i, std::string& name, ProgrammeColumn column) {
   } else if (!other.has_volumes() || (!row.has_volumes() && !is_cellar_of)) {
     const ProgrammeRow& without = other.has_volumes() ? row : other;
     note(row, "`" + without.use + "` " + why_no_body(without) +
-                  (other.has_volumes() ? ": it stands on no roof" : " that `" + row.use + "` could stand on or share") +
+                  (!other.has_volumes()                ? " that `" + row.use + "` could stand on or share"
+                   : column == ProgrammeColumn::shares ? ": it shares no building"
+                                                       : ": it stands on no roof") +
                   "; this was left out.");
   } else {
     name = other.use;
@@ -140,6 +143,20 @@ void Joiner::look_for_circles() {
   }
 }
 
+// What a row says of its own footprint or ground has no place where another row decides.
+void Joiner::leave_to_building(ProgrammeRow& row) {
+  if (!row.shares.empty() && (row.depth || row.distance)) {
+    note(row, "the depth and the distance of `" + row.use + "` were left out: it shares the building of `" + row.shares +
+                  "`, whose row gives both.");
+    row.depth.reset();
+    row.distance.reset();
+  }
+  if (!row.on.empty() && row.cellar_storeys > 0) {
+    note(row, "the cellars of `" + row.use + "` were left out: it stands on the roof of `" + row.on + "`.");
+    row.cellar_storeys = 0;
+  }
+}
+
 void Joiner::buildings() {
   for (std::size_t i = 0; i < import_.rows.size(); ++i) {
     ProgrammeRow& row = import_.rows[i];
@@ -153,6 +170,7 @@ void Joiner::buildings() {
     join(i, row.shares, ProgrammeColumn::shares);
   }
   look_for_circles();
+  for (ProgrammeRow& row : import_.rows) leave_to_building(row);
   // Who shares with one that shares takes part in the same building.
   for (ProgrammeRow& row : import_.rows)
     while (!row.shares.empty() && !import_.rows[row_of(row.shares)].shares.empty())

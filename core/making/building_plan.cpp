@@ -172,6 +172,7 @@ class Planner {
         list += (list.empty() ? "" : ", ") + how_many(static_cast<std::size_t>(storeys[site]), "storey") + " under `" +
                 volumes_[site].id + "`";
     if (told > kMostTold) list += " and under " + std::to_string(told - kMostTold) + " more";
+    if (list.empty()) list = "because all buildings have the most that they may have";
     return name + "lies below the ground and is no floor area: about " + written_out(std::round(dug)) +
            " m² of cellars for the " + written_out(asked) + " m² asked for, " + list + ".";
   }

@@ -121,7 +121,9 @@ std::vector<Exclusion> SiteBuildings::left_out(const Site& site, const Ground& g
   std::vector<Exclusion> inside;
   double area = 0, whole = 0;
   for (const std::vector<geometry::Ring>& outline : site.grounds) whole += std::abs(geometry::signed_area(outline.front()));
-  for (const geometry::Ring& ring : ground.rings()) {
+  const std::vector<geometry::Ring> rings = ground.rings();
+  if (rings.empty()) ground_notes_.push_back("`" + ground.name + "` is not kept clear: its outline encloses no ground.");
+  for (const geometry::Ring& ring : rings) {
     double common = 0;
     for (const std::vector<geometry::Ring>& outline : site.grounds) common += area_on(outline, {&ring});
     area += common;

@@ -117,7 +117,7 @@ std::vector<geometry::Ring> area_ground(const importing::ContextArea& area) {
   const std::string_view kind = ground_kind(area.use);
   if (area.holes.empty() || (kind != "streets" && kind != "rails")) return {area.outer};
   const auto body = geometry::extrude_plan(area.outer, area.holes, 0, 1);
-  if (!body) return {area.outer};
+  if (!body) return {};  // the outer ring alone would take the ground of its holes too
   std::vector<geometry::Ring> pieces;
   for (const geometry::Domain::Piece& piece : body->pieces)
     for (std::size_t k = 0; k < piece.shape.planes.size(); ++k) {

@@ -78,7 +78,7 @@ void print_comparison(const report::Comparison& comparison) {
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
   const bool is_same = totals.empty() && comparison.volumes.empty() && comparison.nodes.empty();
-  if (!is_same) print_rows("Judged by:", comparison.first, comparison.first.size());
+  print_rows("Judged by:", comparison.first, comparison.first.size());
   if (!comparison.reasons_before.empty() || !comparison.reasons_after.empty()) {
     print_line();
     print_line("What holds back one of them only:");
@@ -92,7 +92,9 @@ void print_comparison(const report::Comparison& comparison) {
   print_line();
   if (is_same && comparison.within_tolerance == 0)
     return print_line("No difference: all " + std::to_string(comparison.same) + " numbers of nodes in both are the same.");
-  print_line(std::to_string(comparison.volumes.size() + comparison.nodes.size()) + " numbers of nodes differ; " +
+  const std::size_t others = comparison.volumes.size() + comparison.nodes.size();
+  print_line((others == 0 ? "No number of a node differs by more than the tolerance; "
+                          : std::to_string(others) + " numbers of nodes differ; ") +
              report::told_of_same(comparison));
 }
 

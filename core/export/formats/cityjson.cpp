@@ -346,19 +346,21 @@ struct CityJsonFormat {
           {"geometry", CityText::array({{{"type", "MultiSurface"}, {"lod", "1"}, {"boundaries", std::move(surfaces)}}})}};
     }
 
+    static const char* type_of_ground(const std::string& use) {
+      const drawing::GroundCover cover = drawing::cover_of_use(use);
+      return cover == drawing::GroundCover::water    ? "WaterBody"
+             : cover == drawing::GroundCover::plants ? "PlantCover"
+                                                     : "LandUse";
+    }
+
     void add_open_ground() {
-      for (const OpenSpace& open : proposal.open_spaces) {
-        const drawing::GroundCover cover = drawing::cover_of_use(open.use);
-        const char* type = cover == drawing::GroundCover::water    ? "WaterBody"
-                           : cover == drawing::GroundCover::plants ? "PlantCover"
-                                                                   : "LandUse";
-        add_surface("open_space/" + open.use, type,
+      for (const OpenSpace& open : proposal.open_spaces)
+        add_surface("open_space/" + open.use, type_of_ground(open.use),
                     {{"name", open.use}, {"function", open.use}, {"area_m2", open.area}, {"asked_area_m2", open.asked_area}},
                     open.faces, proposal.ground);
-      }
       for (const KeptGround& kept : proposal.kept)
-        add_surface("kept_clear/" + kept.kind, "LandUse", {{"name", kept.kind}, {"function", kept.kind + ", kept clear"}},
-                    kept.faces, proposal.ground);
+        add_surface("kept_clear/" + kept.kind, type_of_ground(kept.kind),
+                    {{"name", kept.kind}, {"function", kept.kind + ", kept clear"}}, kept.faces, proposal.ground);
     }
   };
 

@@ -109,10 +109,9 @@ struct GeoJsonFormat {
            {"colour", drawing::hex(open.colour)}});
     }
 
-    // Ground of streets on which nothing is built.
+    // Ground on which nothing is built. Strips of streets lie over each other where these cross: no area is told.
     void add_kept(const KeptGround& kept) {
-      add("kept_clear/" + kept.kind, polygons(kept.faces),
-          {{"kind", "kept_clear"}, {"name", kept.kind}, {"area_m2", to_millionths(area_of(kept.faces))}});
+      add("kept_clear/" + kept.kind, polygons(kept.faces), {{"kind", "kept_clear"}, {"name", kept.kind}});
     }
 
     void add_building(const Building& b) {

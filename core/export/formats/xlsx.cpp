@@ -226,7 +226,7 @@ struct XlsxFormat {
         const std::string row = std::to_string(sheet.rows.size() + 1);
         sheet.rows.push_back({w(sun.name + ": share of the area with " + fixed(sun.required_hours, 1) + " h of sun"),
                               n(sun.share), w("at_least"), n(sun.required_share), w(""),
-                              f("B" + row + "-D" + row, sun.share - sun.required_share), w(sun.is_met() ? "met" : "far"),
+                              f("B" + row + "-D" + row, sun.share - sun.required_share), w(sun.is_met() ? "met" : "short"),
                               n(sun.required_share > 0 ? std::min(1.0, sun.share / sun.required_share) : 1)});
       }
       return sheet;

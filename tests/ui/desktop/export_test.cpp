@@ -153,10 +153,11 @@ TEST(WindowExport, SaysWhyNothingCanBeWritten) {
   desktop.press("export/write");
   EXPECT_TRUE(desktop.is_open()) << "no format was chosen";
   desktop.press("export/svg");
-  desktop.type_over("export/folder", folder.at("missing"));
+  folder.write("taken", "a file");
+  desktop.type_over("export/folder", folder.at("taken/inside"));
   desktop.press("export/write");
   EXPECT_TRUE(desktop.is_open());
-  EXPECT_NE(desktop.told().find("there is no folder"), std::string::npos) << desktop.told();
+  EXPECT_NE(desktop.told().find("is a file, not a folder"), std::string::npos) << desktop.told();
   // Several files go into a folder of their own, which is made.
   desktop.type_over("export/folder", folder.at(""));
   desktop.press("export/svg/folder");
