@@ -422,7 +422,7 @@ struct StandingSolver {
                                : std::to_string(plots.size()) + " boundaries were found: choose one of them here"};
   }
 
-  static void gather(const std::vector<Member>& members, Kept& kept) {
+  static void gather(std::span<const Member> members, Kept& kept) {
     kept.names.clear();
     kept.wishes.clear();
     kept.cellars.clear();
