@@ -78,7 +78,7 @@ void print_comparison(const report::Comparison& comparison) {
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
   const bool is_same = totals.empty() && comparison.volumes.empty() && comparison.nodes.empty();
-  print_rows("Judged by:", comparison.first, comparison.first.size());
+  if (!is_same || comparison.within_tolerance > 0) print_rows("Judged by:", comparison.first, comparison.first.size());
   if (!comparison.reasons_before.empty() || !comparison.reasons_after.empty()) {
     print_line();
     print_line("What holds back one of them only:");

@@ -48,8 +48,8 @@ TEST(OpenGround, IsPartOfModelsAndMaps) {
   EXPECT_EQ(std::distance(std::sregex_iterator(ifc.begin(), ifc.end(), elements), std::sregex_iterator()), 3);
   EXPECT_NE(ifc.find("'OpenArea',$,$,100."), std::string::npos);
   std::set<std::string> ids;
-  for (const auto& feature : nlohmann::json::parse(file_of(proposal, "geojson"))["features"])
-    ids.insert(feature["id"].get<std::string>());
+  const auto map = nlohmann::json::parse(file_of(proposal, "geojson"));
+  for (const auto& feature : map["features"]) ids.insert(feature["id"].get<std::string>());
   for (const char* id : {"open_space/garden", "open_space/pond", "kept_clear/street"}) EXPECT_TRUE(ids.contains(id)) << id;
   EXPECT_NE(file_of(proposal, "csv").find("sun,,Back garden,"), std::string::npos);
   EXPECT_NE(file_of(proposal, "csv").find(",0.8,0.5,share of the area with 2 h,met,"), std::string::npos);

@@ -48,6 +48,8 @@ Standing standing_proposal() {
     building.use = "housing";
     stand(geometry::body_of(diagram, k), building);
     building.floor_area = (*measured)[k].floor_area;
+    building.bottom = building.storeys.front().bottom;
+    building.top = building.storeys.back().top;
     made.floor_area += building.floor_area;
     made.proposal.buildings.push_back(std::move(building));
   }
