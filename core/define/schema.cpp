@@ -189,7 +189,8 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
   const Json state = {{"type", "object"},
                       {"properties",
-                       {{"tick", tick},
+                       {{"check", {{"type", "string"}}},
+                        {"tick", tick},
                         {"calm", tick},
                         {"nodes", objects},
                         {"voices", objects},

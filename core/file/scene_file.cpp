@@ -5,10 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/hash.h"
 #include "core/base/packed_kind.h"
 #include "core/base/text.h"
 #include "core/define/bounded_json.h"
 #include "core/define/codec.h"
+#include "core/define/json_text.h"
 #include "core/file/state_json.h"
 
 namespace bl {
@@ -58,6 +60,24 @@ std::optional<Error> why_no_scene(std::string_view text) {
                std::string("this is not a scene, which is JSON text: it ") + kBeginning};
 }
 
+// A digest of what a running state belongs to, and of the state itself but for its `check`. Whoever edits a saved file with
+// another program means what they have written, and not the figures of before.
+std::string check_of(const Json& file, const Json& state) {
+  Hash hash;
+  for (const char* key : {"settings", "scripts", "nodes", "links"})
+    if (const auto part = file.find(key); part != file.end()) hash.add(write_json_line(*part));
+  for (const auto& [key, part] : state.items())
+    if (key != "check") hash.add(std::string_view(key)), hash.add(write_json_line(part));
+  return hex_digits(hash.value());
+}
+
+// Files of older programs have no check.
+bool fits_its_state(const Json& file) {
+  const auto state = file.find("state");
+  if (state == file.end() || !state->is_object() || !state->contains("check")) return true;
+  return (*state)["check"] == check_of(file, *state);
+}
+
 class Reader {
  public:
   explicit Reader(const Registry& program) : program_(program), registry_(&program) {}
@@ -91,6 +111,7 @@ class Reader {
                        "; get a newer program"});
     if (*version < 1) return fail({ErrorCode::version, "version", "there is no version " + version->dump()});
     note(check_keys(file, {"format", "version", "revisions", "settings", "scripts", "nodes", "links", "state", "view"}, ""));
+    const bool is_as_saved = fits_its_state(file);  // before records are read, which takes them out of the file
     read_revisions(file);
     if (const auto it = file.find("settings"); it != file.end())
       if (auto settings = ports_from_json(settings_type(), *it, "settings"); note(settings))
@@ -107,8 +128,14 @@ class Reader {
     }
     if (reading_.is_usable())
       for (Problem& problem : check_scene(reading_.scene, program_)) reading_.problems.push_back(std::move(problem));
-    if (const auto it = file.find("state"); it != file.end() && reading_.is_usable())
-      reading_.state = state_from_json(*it, reading_.scene, *registry_, reading_.problems);
+    const auto state = file.find("state");
+    if (state == file.end() || !reading_.is_usable()) return;
+    if (is_as_saved) reading_.state = state_from_json(*state, reading_.scene, *registry_, reading_.problems);
+    else
+      reading_.problems.push_back(
+          {false,
+           {ErrorCode::conflict, "state",
+            "the file was edited after this running state was saved: it is left out, and the scene starts anew"}});
   }
 
   void read_revisions(const Json& file) {
@@ -276,7 +303,11 @@ std::string write_scene(const Scene& scene, const Registry& program, const Saved
     append_fields(record, link_to_json(link, registry));
     links.push_back(std::move(record));
   }
-  if (state != nullptr && state->tick > 0) file["state"] = state_to_json(*state, registry);
+  if (state != nullptr && state->tick > 0) {
+    Json running = state_to_json(*state, registry);
+    running["check"] = check_of(file, running);
+    file["state"] = std::move(running);
+  }
   if (!scene.view.empty()) {
     // Ours, because the library's own builder takes n² for the boxes of n nodes; but it reads no more once a stop is wished.
     auto view = parse_json(scene.view);

@@ -42,8 +42,8 @@ class StateReader {
 
   bool read(const Json& json) {
     if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
-    if (!note(check_keys(json, {"tick", "calm", "nodes", "voices", "held", "errors", "link_errors", "analyses", "meshes"},
-                         "state")))
+    if (!note(check_keys(
+            json, {"check", "tick", "calm", "nodes", "voices", "held", "errors", "link_errors", "analyses", "meshes"}, "state")))
       return false;
     if (!read_tick(json, "tick", "state", state.tick) || !read_tick(json, "calm", "state", state.calm)) return false;
     const auto read_nodes = [&](const Json& nodes) {

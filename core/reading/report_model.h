@@ -26,8 +26,8 @@ struct VolumeRow : VolumeAccount {
   Point3 place;
   std::size_t group = 0;  ///< volumes of one solver stand together
 
-  /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
-  double error() const { return limited > 0 ? (volume - limited) / limited : 0; }
+  /// How far the volume is from what the solver aims at, in the unit of its demand, as a share of it: what settling looks at.
+  double error() const { return figures.error; }
 };
 
 /// A boundary and the lines that draw it.

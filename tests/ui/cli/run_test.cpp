@@ -7,6 +7,27 @@ namespace bl::test {
 
 namespace {
 
+// Whoever writes into a saved file means what they write, and not the figures of before.
+TEST(Run, ASavedSceneThatWasEditedStartsAnew) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  ASSERT_EQ(place.run({"run", "s.json", "--save", "saved.json"}).code, 0);
+  EXPECT_EQ(place.run({"run", "saved.json", "--json", "same.json"}).err.find("edited"), std::string::npos);
+  for (const auto& [from, to] : {std::pair{"\"demand\": 2000", "\"demand\": 4000"}, {"\"calm\": ", "\"calm\": 1"}}) {
+    std::string text = place.text("saved.json");
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from << text;
+    std::string plain = moving_scene();
+    if (const std::size_t wish = plain.find(from); wish != std::string::npos) plain.replace(wish, std::string(from).size(), to);
+    place.write("plain.json", plain);
+    ASSERT_NE(place.run({"run", "plain.json", "--json", "anew.json"}).code, 2);
+    place.write("edited.json", text.replace(at, std::string(from).size(), to));
+    const Outcome outcome = place.run({"run", "edited.json", "--json", "r.json"});
+    EXPECT_NE(outcome.err.find("the file was edited after this running state was saved"), std::string::npos) << outcome.err;
+    EXPECT_EQ(place.json("r.json")["ticks"], place.json("anew.json")["ticks"]) << "from the beginning";
+  }
+}
+
 TEST(Run, SettlesAndSaysSo) {
   const Workplace place;
   place.write("s.json", moving_scene());
