@@ -20,6 +20,7 @@
 #include "core/import/osm_context.h"
 #include "core/import/terrain_grid.h"
 #include "core/making/context_nodes.h"
+#include "core/making/room_left.h"
 #include "core/making/site_on_ground.h"
 #include "core/session/ledger.h"
 
@@ -124,6 +125,8 @@ class Import {
     if (nodes_.is_empty()) result_.scene = scene_;
     else add({nodes_.batch()});
     if (result_.scene && has_terrain_) stand_on_ground();
+    if (result_.scene && !o_.keep_clear.empty())
+      if (const std::string room = room_left_text(*result_.scene, registry_); !room.empty()) result_.notes.push_back(room);
     return std::move(result_);
   }
 
