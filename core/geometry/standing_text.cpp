@@ -65,7 +65,8 @@ std::string pieces_text(const StandingBody& body, const std::string& name) {
   }
   if (pieces.size() < 2) return "";
   return "; `" + name + "` stands in " + std::to_string(pieces.size()) + " pieces of " + fixed(least, 0) + " to " +
-         fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in one";
+         fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in " +
+         "one, by hand or by `run SCENE --set " + name + "/node.position='[x,y,0]' --save SCENE`";
 }
 
 // A set-back of all storeys makes the footprint larger by as much, but for what it keeps from a border, and from neighbours whose

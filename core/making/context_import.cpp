@@ -20,6 +20,8 @@
 #include "core/import/osm_context.h"
 #include "core/import/terrain_grid.h"
 #include "core/making/context_nodes.h"
+#include "core/making/room_left.h"
+#include "core/making/site_on_ground.h"
 #include "core/session/ledger.h"
 
 namespace bl::making {
@@ -120,20 +122,36 @@ class Import {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
       return std::move(result_);
     }
-    if (nodes_.is_empty()) {
-      result_.scene = scene_;
-      return std::move(result_);
-    }
-    (void)goes_on(context_.watch, "adding to the scene", 0, 0);
-    result_.command = nodes_.batch();
-    result_.bounds = nodes_.bounds();
-    Ledger ledger(registry_, scene_);
-    if (auto done = ledger.submit(result_.command, "import", 0); !done) fail(o_.out, done.error());
-    else result_.scene = ledger.scene();
+    if (nodes_.is_empty()) result_.scene = scene_;
+    else add({nodes_.batch()});
+    if (result_.scene && has_terrain_) stand_on_ground();
+    if (result_.scene && !o_.keep_clear.empty())
+      if (const std::string room = room_left_text(*result_.scene, registry_); !room.empty()) result_.notes.push_back(room);
     return std::move(result_);
   }
 
  private:
+  // Adds to the scene by one command.
+  void add(std::vector<Command> commands) {
+    (void)goes_on(context_.watch, "adding to the scene", 0, 0);
+    result_.command = commands.size() == 1 ? std::move(commands.front()) : command<Batch>({std::move(commands)});
+    result_.bounds = nodes_.bounds();
+    Ledger ledger(registry_, scene_);
+    if (auto done = ledger.submit(result_.command, "import", 0); !done) fail(o_.out, done.error());
+    else result_.scene = ledger.scene();
+  }
+
+  // Sites and volumes on a terrain that was imported.
+  void stand_on_ground() {
+    SitesOnGround on_ground = sites_on_ground(scene_, *result_.scene, registry_);
+    result_.notes.insert(result_.notes.end(), on_ground.notes.begin(), on_ground.notes.end());
+    result_.warnings.insert(result_.warnings.end(), on_ground.warnings.begin(), on_ground.warnings.end());
+    if (on_ground.commands.empty()) return;
+    on_ground.commands.insert(on_ground.commands.begin(), nodes_.batch());
+    result_.scene.reset();
+    add(std::move(on_ground.commands));
+  }
+
   bool is_stopped() const { return context_.watch != nullptr && context_.watch->is_stopped; }
   void fail(const std::string& file, Error error) {
     if (!file.empty() && std::find(o_.files.begin(), o_.files.end(), file) != o_.files.end())
@@ -318,6 +336,7 @@ class Import {
     take(file, terrain->report, notes, terrain->reference);
     nodes_.begin(making_);
     nodes_.add(*terrain, making_, result_.reports.back().second);
+    has_terrain_ = true;
     nodes_.end(file, is_last_of_source_);
   }
 
@@ -346,6 +365,7 @@ class Import {
   std::set<std::string> properties_;  // of all features
   bool is_last_of_source_ = true;     // no file after it has the same source
   bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
+  bool has_terrain_ = false;          // some file was read as one
   NodeMaking making_;
   std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
   ImportedScene result_;

@@ -277,6 +277,19 @@ TEST(StandingTick, WhatReachesOutOfTheBoundaryIsToldByHowMuch) {
   EXPECT_EQ(run(plot(100, 50, 30), wishes, kept, 1).results[3].outside, BoundaryReach());
 }
 
+// A street of 6 m parts a bar that lies across it: the sentence says how the bar is moved, with its name.
+TEST(StandingTick, AFootprintInPiecesIsToldAndHowToMoveIt) {
+  const std::vector<Point3> ring{{0, 0, 0}, {100, 0, 0}, {100, 50, 0}, {0, 50, 0}},
+      street{{47, -5, 0}, {53, -5, 0}, {53, 55, 0}, {47, 55, 0}};
+  const Domain parted = site_domain({ring, {}, 0, 30, {}, {{street, 0, 30}}}).value();
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {50, 25, 0}, 2, 2400)};
+  StandingTick::Cache kept;
+  const auto outcome = run(parted, wishes, kept);
+  const std::string text = other_storeys_text(wishes, outcome.results, kept.results, 30, 1e-6, std::vector<std::string>{"bar"});
+  EXPECT_NE(text.find("`bar` stands in 2 pieces of "), std::string::npos) << text;
+  EXPECT_NE(text.find("run SCENE --set bar/node.position='[x,y,0]' --save SCENE"), std::string::npos) << text;
+}
+
 // The sides of a boundary lean inwards by 45°: a cell as large as its ground reaches out of it everywhere.
 TEST(StandingTick, ALeaningBoundaryIsReachedOutOf) {
   const std::vector<Point3> corners{{0, 0, 0},    {40, 0, 0},   {40, 40, 0},  {0, 40, 0},

@@ -53,6 +53,9 @@ TEST_F(KeepClear, StreetsTakeTheirWidthOutOfTheSite) {
       place.run({"import", "streets.geojson", "--into", "scene.json", "--keep-clear", "streets", "--out", "a.json"});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("The site `site` leaves out the ground of 1 piece of street"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("Of 8000 m² of the site `site`, 7100 m² remain to build on; the brief asks for 3600 m² of floor area."),
+            std::string::npos)
+      << done.out;
   // 55 m from the west, and 35 m up from there: the corner counts once.
   EXPECT_NEAR(ground_area("a.json"), 8000 - 55 * 10 - 35 * 10, 1e-6);
   ASSERT_EQ(place.run({"import", "streets.geojson", "--into", "a.json", "--keep-clear", "streets", "--out", "b.json"}).code, 0);
