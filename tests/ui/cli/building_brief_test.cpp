@@ -110,6 +110,21 @@ TEST_F(BuildingBrief, DepthsAndDistancesReachTheFootprints) {
   volumes();
 }
 
+TEST_F(BuildingBrief, FlatsAboveShopsAreHousing) {
+  const Outcome made = make(
+      "use,floor_area_m2,storey_height_m\nFlats above shops,900,3\nShops below flats,300,4\nFlats over the shops 2,900,3\n"
+      "Rooms above a pub,90,3\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  std::map<std::string, double> people;
+  const nlohmann::json scene = place.json("s.json");
+  for (const nlohmann::json& node : scene["nodes"])
+    if (node["types"].contains("use"))
+      people[node["types"]["use"]["use"].get<std::string>()] = node["types"]["use"]["people_per_100"].get<double>();
+  EXPECT_EQ(people, (std::map<std::string, double>{
+                        {"Flats above shops", 1.7}, {"Shops below flats", 4.6}, {"Flats over the shops 2", 1.7}}));
+  EXPECT_NE(made.out.find("No figures are known of the use `Rooms above a pub`"), std::string::npos) << made.out;
+}
+
 TEST_F(BuildingBrief, StoreysThatHoldTheAreaBackAreToldAndNoHeightThatWouldNotHelp) {
   const Outcome made = make("use,floor_area_m2,count,storey_height_m,storeys\nflats,9000,4,3,4\n");
   ASSERT_EQ(made.code, 0);
