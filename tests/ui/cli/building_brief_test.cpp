@@ -110,6 +110,23 @@ TEST_F(BuildingBrief, DepthsAndDistancesReachTheFootprints) {
   volumes();
 }
 
+// A square with a courtyard of the same depth would have a courtyard half a metre wide.
+TEST_F(BuildingBrief, ABarIsBuiltWhereACourtyardWouldBeNarrow) {
+  const auto aspect_of = [this](const std::string& area, const std::string& depth) {
+    const Outcome made = make("use,floor_area_m2,storey_height_m,storeys,depth\noffices," + area + ",3,1," + depth + "\n");
+    EXPECT_EQ(made.code, 0) << made.err;
+    return footprint("offices").value("aspect", 1.0);
+  };
+  EXPECT_NEAR(aspect_of("600", "12"), 4.17, 1e-9) << "12 m by 50 m";
+  EXPECT_NEAR(aspect_of("1050", "12"), 7.29, 1e-9) << "the courtyard would be 9.9 m wide";
+  EXPECT_EQ(aspect_of("1060", "12"), 1) << "and here 10.1 m";
+  EXPECT_NEAR(aspect_of("576", "12"), 4, 1e-9);
+  EXPECT_EQ(aspect_of("120", "12"), 1) << "less than its depth";
+  aspect_of("600", "12");
+  const nlohmann::json offices = volumes()["offices"];
+  EXPECT_NEAR(offices["footprint"].get<double>(), 600, 3);
+}
+
 TEST_F(BuildingBrief, FlatsAboveShopsAreHousing) {
   const Outcome made = make(
       "use,floor_area_m2,storey_height_m\nFlats above shops,900,3\nShops below flats,300,4\nFlats over the shops 2,900,3\n"
