@@ -127,6 +127,19 @@ TEST_F(BuildingBrief, ABarIsBuiltWhereACourtyardWouldBeNarrow) {
   EXPECT_NEAR(offices["footprint"].get<double>(), 600, 3);
 }
 
+TEST_F(BuildingBrief, ATowerOnAPodiumKeepsNoDistanceOnItsRoof) {
+  const Outcome made =
+      make("use,floor_area_m2,count,storey_height_m,on,distance\npodium,900,1,5,,10\ntower,2400,1,3,podium,24\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("the distance of `tower` was left out: on the roof of `podium` it keeps none"), std::string::npos)
+      << made.out;
+  EXPECT_FALSE(footprint("tower").contains("setback"));
+  EXPECT_EQ(footprint("podium")["setback"], 5);
+  auto run = volumes();
+  EXPECT_NEAR(bottom(run["tower"]), 5, 1e-9);
+  EXPECT_NEAR(run["tower"]["floor_area"].get<double>(), 2400, 12);
+}
+
 TEST_F(BuildingBrief, FlatsAboveShopsAreHousing) {
   const Outcome made = make(
       "use,floor_area_m2,storey_height_m\nFlats above shops,900,3\nShops below flats,300,4\nFlats over the shops 2,900,3\n"
