@@ -1,4 +1,4 @@
-// Words that people type: in one form, and without what hides or moves others.
+// Words that people type: in one form, without what hides or moves others, and what names are names of.
 #pragma once
 
 #include <string>
@@ -11,5 +11,8 @@ bool is_harmless(std::string_view text);
 /// The text with letters and their accents as one character each, where Unicode has one (NFC, UAX 15): two names that look the
 /// same are the same. What is no UTF-8 stays as it is.
 std::string composed(std::string_view text);
+/// What a name in English names, without what it lies at: "Flats above shops" are "Flats". All of a name without such a word,
+/// or with one at its beginning or end.
+std::string_view without_place(std::string_view name);
 
 }  // namespace bl

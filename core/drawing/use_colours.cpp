@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/hash.h"
+#include "core/base/words.h"
 
 namespace bl::drawing {
 
@@ -59,7 +60,7 @@ constexpr std::array<UseColour, 8> kOtherTones = {{{of_hex(0xc9a27a), 33},
 constexpr UseColour kUnnamedUse = {of_hex(0xc1beb9), 253};
 
 // Runs of letters in lower case and in the singular; letters beyond ASCII stay as they are.
-std::vector<std::string> words_of_use(const std::string& use) {
+std::vector<std::string> words_of_use(std::string_view use) {
   std::vector<std::string> words(1);
   for (const char c : use) {
     const auto byte = static_cast<unsigned char>(c);
@@ -81,9 +82,10 @@ const KnownUse* known_use(const std::string& word) {
   return found == kKnownUses.end() ? nullptr : &*found;
 }
 
-// In English the last word says what it is: a school library is a library. But a car park has cars, and a business park offices.
+// In English the last word says what it is: a school library is a library. But a car park has cars, a business park offices, and
+// flats above shops are flats.
 const KnownUse* row_of_use_name(const std::string& use) {
-  const std::vector<std::string> words = words_of_use(use);
+  const std::vector<std::string> words = words_of_use(without_place(use));
   const KnownUse* row = nullptr;
   if (words.size() > 1 && words.back() == "park") {
     row = known_use(words[words.size() - 2]);

@@ -151,6 +151,11 @@ void Joiner::leave_to_building(ProgrammeRow& row) {
     row.depth.reset();
     row.distance.reset();
   }
+  // The set-back that comes of it would hold from the edges of the roof, too, and nothing be left of a slim tower.
+  if (!row.on.empty() && row.distance) {
+    note(row, "the distance of `" + row.use + "` was left out: on the roof of `" + row.on + "` it keeps none.");
+    row.distance.reset();
+  }
   if (!row.on.empty() && row.cellar_storeys > 0) {
     note(row, "the cellars of `" + row.use + "` were left out: it stands on the roof of `" + row.on + "`.");
     row.cellar_storeys = 0;

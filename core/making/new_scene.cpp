@@ -30,7 +30,9 @@ constexpr const char* kTotal = "total_floor_area";
 // can be had. The surface of a ball of volume V is 4.84 V^(2/3).
 constexpr double kFacetShare = 0.15, kSurfaceShare = 0.3 * 4.84;
 
-constexpr double kLongestBar = 4;  // length / depth
+// A bar is no longer than this, but where the square around a courtyard would leave a courtyard narrower than that.
+constexpr double kLongestBar = 4;   // length / depth
+constexpr double kLeastCourt = 10;  // [m]
 
 std::string numbered(std::size_t number, std::size_t count) {
   const std::string text = std::to_string(number), last = std::to_string(count);
@@ -228,9 +230,10 @@ class Builder {
     const double depth = row.depth.value_or(rates == nullptr ? 0 : rates->building_depth);
     if (depth > 0) {
       footprint["depth"] = depth;
-      // A bar of that depth, until it would be so long that a courtyard is the better form.
-      if (const double aspect = building.footprint / (depth * depth); aspect > 1 && aspect <= kLongestBar)
-        footprint["aspect"] = std::round(aspect * 100) / 100;
+      // A bar of that depth, until it would be so long that a courtyard is the better form. A square of the depth d around a
+      // courtyard with the plate A has sides of A / (4 d) + d, and its courtyard has sides of A / (4 d) - d.
+      const double aspect = building.footprint / (depth * depth), court = building.footprint / (4 * depth) - depth;
+      if (aspect > 1 && (aspect <= kLongestBar || court < kLeastCourt)) footprint["aspect"] = std::round(aspect * 100) / 100;
     }
     // Half on either side, and towards the border; walls of neighbours do not touch then.
     if (row.distance.value_or(0) > 0) {

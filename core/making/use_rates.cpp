@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/base/words.h"
 
 namespace bl::making {
 
@@ -126,8 +127,9 @@ std::string_view without_number(std::string_view name) {
 
 const UseRates* use_rates(std::string_view use) {
   const std::string lower = lower_case(std::string(use));
-  const std::string_view name = without_number(lower);
-  if (const UseRates* rates = rates_called(name)) return rates;
+  const std::string_view of = without_place(lower), name = without_number(of);
+  // Open space is known by its whole name alone.
+  if (const UseRates* rates = rates_called(name)) return rates->is_open && of != lower ? nullptr : rates;
   if (const UseRates* rates = rates_by_word(name, false)) return rates;
   const std::size_t space = name.find_last_of(" -_/");
   if (space == std::string_view::npos) return nullptr;

@@ -25,8 +25,8 @@ struct UseRates {
 /// without any use and programme, where nobody looks for figures.
 std::string tell_uses_without_figures(const Scene& scene, const Registry& registry);
 
-/// The figures of a use by its name: in one or several, by another word for it, or by its last word, as in `Student housing`.
-/// Nothing where there are none. Open space is known by its whole name alone.
+/// The figures of a use by its name: in one or several, by another word for it, or by its last word, as in `Student housing`
+/// and `Flats above shops`, whose shops are others. Nothing where there are none. Open space is known by its whole name alone.
 const UseRates* use_rates(std::string_view use);
 
 /// A sentence that says which uses were taken for which by a word within their names; empty where none was.

@@ -15,6 +15,17 @@ TEST(Words, AreComposed) {
   EXPECT_EQ(composed("\xff\xfe\xc3\xa4"), "\xff\xfe\xc3\xa4") << "no UTF-8";
 }
 
+TEST(Words, OfPlaceEndWhatANameNames) {
+  EXPECT_EQ(without_place("Flats above shops"), "Flats");
+  EXPECT_EQ(without_place("flats_over_shops"), "flats");
+  EXPECT_EQ(without_place("Shop 2 (below the flats)"), "Shop 2");
+  EXPECT_EQ(without_place("Student housing ON top of a café"), "Student housing");
+  EXPECT_EQ(without_place("caf\u00e9 beside offices with parking"), "caf\u00e9");
+  for (const char* whole : {"", " ", "flats", "Over 55s housing", "on-street parking", "add-on housing", "drive-through with",
+                            "overlook flats", "Flats 3 above", "above", "--"})
+    EXPECT_EQ(without_place(whole), whole);
+}
+
 TEST(Words, AreHarmlessWithoutControlsAndMarksOfDirection) {
   for (const char* text : {"", "a\nb", "caf\u00e9", "\u05d0\u05d1", "\U0001f468\u200d\U0001f33e"})
     EXPECT_TRUE(is_harmless(text)) << text;

@@ -67,6 +67,21 @@ TEST(UseColours, FollowFromTheNameAlone) {
     EXPECT_EQ(drawing::hex(drawing::Palette(one).colour(use)), drawing::hex(drawing::Palette(turned).colour(use))) << use;
 }
 
+TEST(UseColours, AreNotThoseOfWhatAUseLiesAt) {
+  const auto kind = [](const std::string& use) {
+    std::string nearest;
+    for (const char* known : {"housing", "shops", "offices", "parking", "garden", "school"})
+      if (nearest.empty() || apart(use, known, kUsual) < apart(use, nearest, kUsual)) nearest = known;
+    return nearest;
+  };
+  EXPECT_EQ(kind("Flats above shops"), "housing");
+  EXPECT_EQ(kind("Flats over the shops"), "housing");
+  EXPECT_EQ(kind("Shops below flats"), "shops");
+  EXPECT_EQ(kind("Offices beside a school"), "offices");
+  EXPECT_EQ(kind("Garden on the parking"), "garden");
+  EXPECT_EQ(drawing::cover_of_use("Shops with a garden"), drawing::GroundCover::none);
+}
+
 // Files of a scene whose rows stand the other way round have the same colours.
 TEST(UseColours, FilesHaveThemWhateverTheOrder) {
   Proposal proposal = proposal_of(settled_world());

@@ -110,6 +110,51 @@ TEST_F(BuildingBrief, DepthsAndDistancesReachTheFootprints) {
   volumes();
 }
 
+// A square with a courtyard of the same depth would have a courtyard half a metre wide.
+TEST_F(BuildingBrief, ABarIsBuiltWhereACourtyardWouldBeNarrow) {
+  const auto aspect_of = [this](const std::string& area, const std::string& depth) {
+    const Outcome made = make("use,floor_area_m2,storey_height_m,storeys,depth\noffices," + area + ",3,1," + depth + "\n");
+    EXPECT_EQ(made.code, 0) << made.err;
+    return footprint("offices").value("aspect", 1.0);
+  };
+  EXPECT_NEAR(aspect_of("600", "12"), 4.17, 1e-9) << "12 m by 50 m";
+  EXPECT_NEAR(aspect_of("1050", "12"), 7.29, 1e-9) << "the courtyard would be 9.9 m wide";
+  EXPECT_EQ(aspect_of("1060", "12"), 1) << "and here 10.1 m";
+  EXPECT_NEAR(aspect_of("576", "12"), 4, 1e-9);
+  EXPECT_EQ(aspect_of("120", "12"), 1) << "less than its depth";
+  aspect_of("600", "12");
+  const nlohmann::json offices = volumes()["offices"];
+  EXPECT_NEAR(offices["footprint"].get<double>(), 600, 3);
+}
+
+TEST_F(BuildingBrief, ATowerOnAPodiumKeepsNoDistanceOnItsRoof) {
+  const Outcome made =
+      make("use,floor_area_m2,count,storey_height_m,on,distance\npodium,900,1,5,,10\ntower,2400,1,3,podium,24\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("the distance of `tower` was left out: on the roof of `podium` it keeps none"), std::string::npos)
+      << made.out;
+  EXPECT_FALSE(footprint("tower").contains("setback"));
+  EXPECT_EQ(footprint("podium")["setback"], 5);
+  auto run = volumes();
+  EXPECT_NEAR(bottom(run["tower"]), 5, 1e-9);
+  EXPECT_NEAR(run["tower"]["floor_area"].get<double>(), 2400, 12);
+}
+
+TEST_F(BuildingBrief, FlatsAboveShopsAreHousing) {
+  const Outcome made = make(
+      "use,floor_area_m2,storey_height_m\nFlats above shops,900,3\nShops below flats,300,4\nFlats over the shops 2,900,3\n"
+      "Rooms above a pub,90,3\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  std::map<std::string, double> people;
+  const nlohmann::json scene = place.json("s.json");
+  for (const nlohmann::json& node : scene["nodes"])
+    if (node["types"].contains("use"))
+      people[node["types"]["use"]["use"].get<std::string>()] = node["types"]["use"]["people_per_100"].get<double>();
+  EXPECT_EQ(people, (std::map<std::string, double>{
+                        {"Flats above shops", 1.7}, {"Shops below flats", 4.6}, {"Flats over the shops 2", 1.7}}));
+  EXPECT_NE(made.out.find("No figures are known of the use `Rooms above a pub`"), std::string::npos) << made.out;
+}
+
 TEST_F(BuildingBrief, StoreysThatHoldTheAreaBackAreToldAndNoHeightThatWouldNotHelp) {
   const Outcome made = make("use,floor_area_m2,count,storey_height_m,storeys\nflats,9000,4,3,4\n");
   ASSERT_EQ(made.code, 0);
