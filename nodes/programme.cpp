@@ -136,7 +136,7 @@ struct Programme {
     const Table& rows = in.rows;
     std::set<std::string> open;
     for (const Named& known : sets.uses)
-      if (known.is_open) open.insert(known.use);
+      if (known.is_open) open.insert(lower_case(known.use));
     Out out;
     std::set<std::string> seen;
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
@@ -149,7 +149,7 @@ struct Programme {
         return Error{ErrorCode::duplicate, place + "use",
                      "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
       const demand::BriefSums sums = demand::brief_sums(rows, row);
-      const bool is_open = open.contains(use);
+      const bool is_open = open.contains(lower_case(use));
       if (is_open) out.open_uses.push_back(use);
       out.total_open_area += is_open ? sums.area : 0;
       out.total_floor_area += is_open ? 0 : sums.area;

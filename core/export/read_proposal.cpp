@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/hash.h"
+#include "core/base/text.h"
 #include "core/drawing/use_colours.h"
 #include "core/geometry/cellar.h"
 #include "core/geometry/domain_table.h"
@@ -233,12 +234,12 @@ void add_open_spaces(const State& state, const reading::ReportModel& model, Prop
       const std::string& use = ground.exclusions->text(ring.first_row, "use");
       const std::string kind = use.empty() ? kind_of_kept(ring.name) : "";
       if (use.empty() && kind.empty()) continue;
-      std::vector<PlateFace>& list = use.empty() ? kept[kind] : faces[use];
+      std::vector<PlateFace>& list = use.empty() ? kept[kind] : faces[lower_case(use)];
       for (PlateFace& face : faces_of_rings({std::move(ring.corners)})) list.push_back(std::move(face));
     }
   for (const reading::OpenAccount& open : model.accounts.open)
     all.open_spaces.push_back({open.use, drawing::use_colour(open.use).colour, open.asked, open.area,
-                               why_short(open, model.accounts.tolerance), std::move(faces[open.use])});
+                               why_short(open, model.accounts.tolerance), std::move(faces[lower_case(open.use)])});
   for (auto& [kind, ground] : kept) all.kept.push_back({kind, std::move(ground)});
 }
 

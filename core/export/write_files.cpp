@@ -71,13 +71,18 @@ Result<void> ending_fits(const Order& order) {
   return {};
 }
 
-// An ending that is none of ours is somebody's choice, or a slip. Devices have none.
+// An ending that is none of ours, and none at all, is somebody's choice, or a slip. Devices have none.
 std::string note_on_ending(const Order& order) {
   const std::string& usual = order.format->ending;
   const std::string ending = fs::path(lower_name(order.out)).extension().string();
-  if (order.is_folder || ending.empty() || usual.find(ending) != std::string::npos || (ending == ".json" && usual == ".geojson"))
-    return "";
-  return order.format->id + ": " + order.out + " does not end with " + usual + ", by which programs know such files";
+  std::error_code none;
+  const bool is_device = fs::exists(order.out, none) && !fs::is_regular_file(order.out, none);
+  const bool is_usual =
+      !ending.empty() && (usual.find(ending) != std::string::npos || (ending == ".json" && usual == ".geojson"));
+  if (order.is_folder || is_device || is_usual) return "";
+  return order.format->id + ": " + order.out + " does not end with " + usual + ", by which programs know such files" +
+         (ending.empty() && order.format->may_fill_folder ? "; a folder is named with a stroke at its end: " + order.out + "/"
+                                                          : "");
 }
 
 // The nearest folder above that is there is one, and no file.

@@ -134,10 +134,11 @@ void Joiner::look_for_circles() {
       if (at < import_.rows.size()) way += (way.empty() ? " by way of `" : "`, `") + import_.rows[at].use;
     }
     if (at != i) continue;
-    const ProgrammeColumn column = import_.rows[i].on.empty() ? ProgrammeColumn::shares : ProgrammeColumn::on;
+    const bool is_sharing = import_.rows[i].on.empty();
+    const ProgrammeColumn column = is_sharing ? ProgrammeColumn::shares : ProgrammeColumn::on;
     errors_.push_back({ErrorCode::conflict, place_(i, column),
-                       "`" + import_.rows[i].use + "` would stand upon itself" + way + (way.empty() ? "" : "`") +
-                           ": leave out one of the names."});
+                       "`" + import_.rows[i].use + (is_sharing ? "` would share its own building" : "` would stand upon itself") +
+                           way + (way.empty() ? "" : "`") + ": leave out one of the names."});
     import_.rows[i].on.clear();
     import_.rows[i].shares.clear();
   }

@@ -86,6 +86,10 @@ std::vector<std::string> rule_warnings(const Scene& scene, const Registry& regis
     warnings.push_back("Warning: " + std::to_string(found.ids.size()) + " of " + std::to_string(found.of) + " volumes cannot be" +
                        as_low + named_list(found.ids) + by_number(found.ids.size(), " is", " are") +
                        " higher with the least number of storeys.");
+  if (rules.fsi && *rules.fsi == 0)
+    warnings.push_back("Warning: an FSI of 0 allows no floor area on `" + plot + "`: each volume breaks the rule.");
+  if (rules.gsi && *rules.gsi == 0)
+    warnings.push_back("Warning: a GSI of 0 leaves no ground of `" + plot + "` to build on: each volume on it breaks the rule.");
   if (rules.setback && *rules.setback > 0 && polygon.size() >= 3)
     if (!(left_within(polygon, *rules.setback, 1) > 0))
       warnings.push_back("Warning: a setback of " + shortest(*rules.setback) + " m leaves nothing of `" + plot +

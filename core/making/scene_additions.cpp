@@ -12,6 +12,7 @@
 #include "core/define/codec.h"
 #include "core/geometry/plan_ring.h"
 #include "core/making/addition_checks.h"
+#include "core/making/open_rows.h"
 #include "core/making/site.h"
 #include "core/making/use_rates.h"
 #include "core/session/commands.h"
@@ -194,7 +195,8 @@ std::vector<Point3> plan_of(const Scene& scene, const Registry& registry, const 
 Result<void> Adding::open_use(const std::string& use) {
   const TypificationDefinition& type = *registry_.typification("use");
   for (const auto& [id, node] : scene_.nodes) {
-    if (!node.types.contains("use") || std::get<std::string>(set_value(scene_, node, type, *type.find_port("use"))) != use)
+    if (!node.types.contains("use") ||
+        lower_case(std::get<std::string>(set_value(scene_, node, type, *type.find_port("use")))) != lower_case(use))
       continue;
     if (std::get<bool>(set_value(scene_, node, type, *type.find_port("is_open")))) return {};
     return Error{ErrorCode::conflict, "--use",
@@ -214,18 +216,23 @@ Result<void> Adding::open_use(const std::string& use) {
   return {};
 }
 
-// From the underside of a boundary to its top, so that nothing hangs above open space. Rows of a garden that has gone give way.
+// From the underside of a boundary to its top, so that nothing hangs above open space. Rows of a garden that has gone give way,
+// and one rectangle that was laid for the same use until somebody would say where it belongs.
 Result<void> Adding::leave_out(const std::string& name, const std::string& use, const std::vector<Point3>& corners) {
   if (auto known = open_use(use); !known) return known;
   const double whole = std::abs(geometry::signed_area(corners));
-  bool reaches_any = false;
+  bool reaches_any = false, has_taken_place = false;
   for (Site& site : sites_of(scene_, registry_)) {
     double common = 0;
     for (const std::vector<geometry::Ring>& ground : site.grounds) common += area_on(ground, {&corners});
     common = std::min(common, whole);
     if (!(common > kTouch * whole)) continue;
     reaches_any = true;
-    const bool had_some = site.replace(name, {{name, use, corners, site.bottom, site.top}});
+    const std::string laid = has_taken_place ? "" : laid_by_new(scene_, site, use, corners);
+    has_taken_place = has_taken_place || !laid.empty();
+    const bool had_some =
+        site.replace([&](const std::string& other) { return other == name || (!laid.empty() && other == laid); },
+                     {{name, use, corners, site.bottom, site.top}});
     const PortDefinition& port = *registry_.typification("boundary")->find_port("exclusions");
     set(site.id, "boundary.exclusions", value_to_json(Shared<Table>(site.rows), port));
     say("The boundary `" + site.id + "` leaves out " +
@@ -233,7 +240,9 @@ Result<void> Adding::leave_out(const std::string& name, const std::string& use, 
              ? "its " + fixed(whole, 1) + " m²"
              : "the " + fixed(common, 1) + " m² of it that lie inside, of " + fixed(whole, 1) + " m²") +
         ": open space, which plots count as not built." +
-        (had_some ? " What it left out as `" + name + "` before is replaced." : ""));
+        (!laid.empty() ? " It takes the place of the rectangle `" + laid + "`, which `new` had laid for `" + use + "`."
+         : had_some    ? " What it left out as `" + name + "` before is replaced."
+                       : ""));
   }
   if (!reaches_any) say("No boundary reaches it, so that none leaves its ground out.");
   return {};
@@ -376,7 +385,6 @@ Result<void> check_garden(const Scene& scene, const GardenAddition& garden) {
   if (garden.corners.empty() && !node->second.types.contains("shadow_receiver") && !node->second.types.contains("plot"))
     return Error{ErrorCode::wrong_kind, "--id",
                  "`" + garden.id + "` is neither a plot nor a shadow receiver: give the garden --corners"};
-  if (garden.is_open && garden.use.empty()) return Error{ErrorCode::missing, "--use", "name the use of the open space"};
   if (garden.is_open && garden.corners.empty() && node->second.types.contains("shadow_receiver"))
     return Error{ErrorCode::conflict, "--open", "`" + garden.id + "` is there already: open space is laid with a new garden"};
   return {};
@@ -422,8 +430,11 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
     adding.say("New: the garden `" + id + "`, " + fixed(box.width, 1) + " m by " + fixed(box.depth, 1) + " m, with " +
                shortest(hours) + " h of sun a day on " + shortest(100 * share) + " % of its area.");
     for (const std::string& warning : garden_warnings(scene, registry, corners)) adding.say(warning);
-    if (garden.is_open)
-      if (auto open = adding.leave_out(id, garden.use, corners); !open) return open.error();
+    if (garden.is_open) {
+      const OpenRow row = open_row_for(scene, registry, garden.use);
+      if (!row.said.empty()) adding.say(row.said);
+      if (auto open = adding.leave_out(id, row.use, corners); !open) return open.error();
+    }
     if (box.beyond > kRectangle)
       adding.say("A garden is a rectangle: " + fixed(100 * box.beyond, 0) + " % of this one lies outside of the corners.");
   }

@@ -33,7 +33,7 @@ struct GardenAddition {
   std::optional<double> hours;       ///< of sun a day
   std::optional<double> share;       ///< of its area that has them; of a new garden a half (BRE report 209)
   bool is_open = false;              ///< boundaries leave its ground out: open space that nobody builds on
-  std::string use = "garden";        ///< of that open space
+  std::string use;                   ///< of that open space; empty: of the only open row of the programme, else `garden`
   SunAddition sun;                   ///< used where something of it is given, or the scene has no sun study
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/text.h"
 #include "core/demand/brief_sums.h"
 #include "core/reading/figures.h"
 #include "core/reading/storeys.h"
@@ -139,7 +140,7 @@ Brief brief_of(const State& state) {
     const Table& table = *programme.rows;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       if (table.text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
-      if (open.contains(table.text(r, "use"))) continue;
+      if (open.contains(lower_case(table.text(r, "use")))) continue;
       const auto [found, is_new] = index.emplace(table.text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
@@ -302,7 +303,8 @@ std::string why_some_are_short(const State& state, const Accounts& accounts, con
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use) {
   if (!use.is_short(accounts.tolerance)) return why_some_are_short(state, accounts, use);
   if (use.volumes == 0) {
-    const bool is_kept_open = std::ranges::any_of(accounts.open, [&](const OpenAccount& open) { return open.use == use.use; });
+    const bool is_kept_open =
+        std::ranges::any_of(accounts.open, [&](const OpenAccount& open) { return lower_case(open.use) == lower_case(use.use); });
     return "no volume has this use: add one, or give one that use" +
            std::string(is_kept_open ? "; ground is kept open for it, which counts once its node of the type `use` has `is_open`"
                                     : "");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/base/text.h"
 #include "core/demand/brief_sums.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/programme.h"
@@ -23,7 +24,7 @@ double OpenAccount::missing_share() const { return asked > kNoGround ? missing()
 std::set<std::string> open_uses(const State& state) {
   std::set<std::string> uses;
   for (const auto& [node, named] : rows<UseKind>(state))
-    if (named.is_open) uses.insert(named.use);
+    if (named.is_open) uses.insert(lower_case(named.use));
   return uses;
 }
 
@@ -32,7 +33,7 @@ std::vector<OpenAccount> open_accounts(const State& state) {
   std::vector<OpenAccount> accounts;
   std::map<std::string, std::size_t> index;
   const auto account_of = [&](const std::string& use) -> OpenAccount& {
-    const auto [found, is_new] = index.emplace(use, accounts.size());
+    const auto [found, is_new] = index.emplace(lower_case(use), accounts.size());
     if (is_new) accounts.emplace_back().use = use;
     return accounts[found->second];
   };
@@ -40,7 +41,7 @@ std::vector<OpenAccount> open_accounts(const State& state) {
     for (const auto& [node, programme] : rows<ProgrammeFigures>(state))
       for (std::size_t row = 0; row < programme.rows->rows.size(); ++row) {
         const std::string& use = programme.rows->text(row, "use");
-        if (!open.contains(use)) continue;
+        if (!open.contains(lower_case(use))) continue;
         OpenAccount& account = account_of(use);
         account.is_in_programme = true;
         account.asked += demand::brief_sums(*programme.rows, row).area;

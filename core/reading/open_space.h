@@ -24,7 +24,7 @@ struct OpenAccount {
   bool operator==(const OpenAccount&) const = default;
 };
 
-/// The uses that their nodes declare to be open space.
+/// The uses that their nodes declare to be open space, in small letters: rows, uses and ground are the same in large ones.
 std::set<std::string> open_uses(const State& state);
 /// Those that programmes ask for in the order of their rows, then others that boundaries keep open, by name.
 std::vector<OpenAccount> open_accounts(const State& state);

@@ -18,7 +18,7 @@ namespace bl::reading {
 namespace {
 
 constexpr std::size_t kNamedBreakers = 4;
-constexpr double kSetbackRounding = 1e-6;  // [m] of set-backs that are kept exactly, as the plot reckons
+constexpr double kLeastLength = 1e-3;  // [m] by which a height or a set-back misses a rule: nobody builds to less
 
 /// A volume with the part that it has in what is found.
 struct Breaker {
@@ -145,13 +145,14 @@ class Rules {
             breakers(volumes_, [](const VolumeThere& v) { return v.figures.floor_area; }), Unit::square_metre);
     at_most("gsi_max", "GSI ", figures_.gsi, figures_.gsi_max, 2, "",
             breakers(volumes_, [&](const VolumeThere& v) { return built_ground(v); }), Unit::square_metre);
-    at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
-            breakers(volumes_,
-                     [&](const VolumeThere& v) {
-                       return top(v.figures) > figures_.height_max * (1 + kRuleRounding) ? top(v.figures) : 0;
-                     }),
-            Unit::metre);
-    if (figures_.setback_overshoot <= kRuleRounding * figures_.setback) return;
+    if (figures_.top >= figures_.height_max + kLeastLength)
+      at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
+              breakers(volumes_,
+                       [&](const VolumeThere& v) {
+                         return top(v.figures) >= figures_.height_max + kLeastLength ? top(v.figures) : 0;
+                       }),
+              Unit::metre);
+    if (figures_.setback_overshoot < kLeastLength) return;
     const double found = figures_.setback - figures_.setback_overshoot;
     add("setback",
         found < 0 ? "built " + fixed(-found, 2) + " m beyond the side of the plot, where a set-back of " +
@@ -167,7 +168,7 @@ class Rules {
   double top(const PlotVolume& volume) const { return volume.bottom + volume.height - figures_.ground; }
   double lack_of_setback(const VolumeThere& volume) const {
     const double lack = figures_.setback - volume.clearance;
-    return lack < kSetbackRounding ? 0 : lack;
+    return lack < kLeastLength ? 0 : lack;
   }
   double built_ground(const VolumeThere& volume) const {
     const PlotVolume& v = volume.figures;

@@ -70,7 +70,8 @@ FigureTable junctions_table() {
           "Junctions",
           "Vehicles that arrive by all streets together, and the largest load of these streets.",
           {{"streets", "Streets"}, {"flow", "Flow"}, {"volume_over_capacity", "Largest load", kAll, true}},
-          {}};
+          {},
+          "traffic_network"};
 }
 
 FigureTable zones_table() {

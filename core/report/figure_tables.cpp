@@ -117,12 +117,26 @@ std::string common_remark(const State& state, const FigureTable& table, const st
   return std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) { return said(node) == first; }) ? first : "";
 }
 
+bool has_node_of(const State& state, std::string_view type) {
+  return std::any_of(state.plan->nodes.begin(), state.plan->nodes.end(), [&](const auto& node) {
+    return std::any_of(node.types.begin(), node.types.end(), [&](const TypePlan& of) { return of.definition->id == type; });
+  });
+}
+
 void write_one(drawing::Markup& page, const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
   constexpr std::size_t kMostRows = 300;
   const std::vector<const FigureColumn*> columns = page_columns(state, table, nodes);
   if (columns.empty()) return;
   const std::string heading(table.heading);
   page.element("h2", heading, {{"id", std::string(table.id)}});
+  if (!table.maker.empty() && !has_node_of(state, table.maker)) {
+    std::string maker(table.maker);
+    std::replace(maker.begin(), maker.end(), '_', ' ');
+    page.element("p", "No " + maker + " takes care of " + (nodes.size() == 1 ? "it" : "them") +
+                          ", so that there are no figures. " + (nodes.size() == 1 ? "The row is in " : "The rows are in ") +
+                          std::string(table.id) + ".csv.");
+    return;
+  }
   if (const std::string remark = common_remark(state, table, nodes); !remark.empty()) {
     page.element("p",
                  "All " + std::to_string(nodes.size()) + ": " + remark + ". The rows are in " + std::string(table.id) + ".csv.");

@@ -35,6 +35,7 @@ struct FigureTable {
   std::string_view caption;
   std::vector<FigureColumn> columns;
   std::vector<FigurePart> parts;
+  std::string_view maker = {};  ///< the type of nodes that make these figures, where they are all zero without one
 };
 
 /// In the order of the page. That every port exists is a law: a renamed one fails a test, and does not become an empty column.

@@ -199,8 +199,10 @@ void declare_add(CLI::App& app, AddOptions& o) {
   option("--id", o.garden.id, "garden: a plot or a garden of the scene; with --corners the id of the new one.", "ID", "garden");
   of_addition(c.add_flag("--open", o.garden.is_open, "garden: keeps its ground free, as open space inside the boundary."), o,
               "garden");
-  option("--use", o.garden.use,
-         "garden: with --open, the use of the ground, as a row of the programme names it. Default: garden.", "USE", "garden");
+  option(
+      "--use", o.garden.use,
+      "garden: with --open, the use of the ground, as a row of the programme names it. Default: the only such row, else garden.",
+      "USE", "garden");
   option("--hours", o.garden.hours, "garden: hours of sun a day that it needs. Default: 2.", "HOURS", "garden");
   option("--share", o.garden.share, "garden: share of its area that needs them. Default of a new one: 0.5.", "RATIO", "garden");
   c.footer(

@@ -47,6 +47,21 @@ TEST(OpenSpace, HasARowOfItsOwnAndIsNoFloorArea) {
   EXPECT_LE(accounts.worst_short, accounts.tolerance);
 }
 
+// Maps and people write uses in small letters where a brief has large ones.
+TEST(OpenSpace, IsTheSameInSmallAndInLargeLetters) {
+  World world = World::from_text(open_scene("GARDEN", 0, 30));
+  const Accounts accounts = settled_accounts(world);
+  ASSERT_EQ(accounts.open.size(), 1u);
+  EXPECT_EQ(accounts.open[0].use, "garden") << "as the brief writes it";
+  EXPECT_NEAR(accounts.open[0].area, 600, 1e-9);
+  std::string text = open_scene("garden", 0, 30);
+  text.replace(text.find(R"("use": {"use": "garden")"), 23, R"("use": {"use": "Garden")");
+  World other = World::from_text(text);
+  EXPECT_EQ(settled_accounts(other).open, accounts.open);
+  EXPECT_EQ(settled_accounts(other).uses.size(), 1u) << "the row asks for no floor area";
+  EXPECT_EQ(other.link_error("deal"), "") << "nor for a volume";
+}
+
 TEST(OpenSpace, WhatIsMissingIsToldWithItsReason) {
   World small = World::from_text(open_scene("garden", 0, 20));
   Accounts accounts = settled_accounts(small);

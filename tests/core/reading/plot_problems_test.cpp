@@ -70,6 +70,26 @@ TEST(PlotProblems, ASetBackIsToldWithItsDistance) {
   EXPECT_TRUE(broken[0].text.find("m of 8.00 m asked for, by `high`") != std::string::npos) << broken[0].text;
 }
 
+// Nobody builds to less than a millimetre, and a fit ends before.
+TEST(PlotProblems, LengthsThatMissARuleByLessThanAMillimetreKeepIt) {
+  const auto with_setback = [](const std::string& setback) {
+    World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "house", "position": [10, 10, 0], "types": {"smart_volume": {"demand": 1764, "storey_height": 3},
+       "footprint": {"form": "cell", "storeys": 3, "border_distance": 3, "street_distance": 3}}},
+      {"id": "plot", "types": {"plot": {"polygon": [[0,0,0],[20,0,0],[20,20,0],[0,20,0]], "height_max": )" +
+                                   setback + R"(, "setback": )" + setback + R"(}}},
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[20,0,0],[20,20,0],[0,20,0]], "height": 40}}},
+      {"id": "solver", "types": {"standing_solver": {}}}]})");
+    std::vector<std::string> ports;
+    for (const BrokenRule& rule : broken_in(world)) ports.push_back(rule.port);
+    return ports;
+  };
+  EXPECT_EQ(with_setback("3.0001"), std::vector<std::string>{"height_max"}) << "9 m of 3 m, and 0.1 mm of the set-back";
+  EXPECT_EQ(with_setback("3.002"), (std::vector<std::string>{"height_max", "setback"}));
+  EXPECT_EQ(with_setback("8.9999"), std::vector<std::string>{"setback"}) << "a height of 9 m";
+  EXPECT_EQ(with_setback("8.998"), (std::vector<std::string>{"height_max", "setback"}));
+}
+
 // In a plot that is not convex distances are kept to ten nanometres: who keeps them is not named beside who does not.
 TEST(PlotProblems, WhoKeepsASetBackToTheGridIsNotNamed) {
   const std::string outline = "[[0,0,0],[47.3,5.7,0],[51.1,48.9,0],[27.7,22.3,0],[-3.1,44.9,0]]";

@@ -70,6 +70,9 @@ TEST_F(Add, RulesThatNothingCanKeepAreTold) {
   EXPECT_EQ(some.out.find("leaves nothing"), std::string::npos) << "2 m by 38 m are left; " << some.out;
   const Outcome sound = add({"rules", "--height", "12", "--setback", "3"});
   EXPECT_EQ(sound.out.find("Warning"), std::string::npos) << sound.out;
+  const Outcome none = add({"rules", "--fsi", "0", "--gsi", "0"});
+  EXPECT_NE(none.out.find("Warning: an FSI of 0 allows no floor area on `site`"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("Warning: a GSI of 0 leaves no ground of `site` to build on"), std::string::npos) << none.out;
 }
 
 TEST_F(Add, AGardenFarFromTheSiteIsTold) {

@@ -189,7 +189,7 @@ TEST_F(BuildingBrief, SaysWhichColumnAStackNeeds) {
 TEST_F(BuildingBrief, ListsAllMistakesWithRowAndColumn) {
   const Outcome made = make(
       "use,floor_area_m2,count,storeys,on,shares,below_ground,depth\nshops,x,1,,,,,\nflats,600,1.5,,shop,,,1\n"
-      "offices,600,1,999,offices,,deep,\na,100,1,,b,,,\nb,100,1,,a,,,\nc,100,1,,shops,a,,\n");
+      "offices,600,1,999,offices,,deep,\na,100,1,,b,,,\nb,100,1,,a,,,\nc,100,1,,shops,a,,\nd,100,1,,,e,,\ne,100,1,,,d,,\n");
   EXPECT_EQ(made.code, 2);
   for (const std::string part :
        {"line 2, column 2 `floor_area_m2`: `x` is not understood", "line 3, column 3 `count`: The count is 1.5",
@@ -198,6 +198,7 @@ TEST_F(BuildingBrief, ListsAllMistakesWithRowAndColumn) {
         "line 4, column 4 `storeys`: The number of storeys is 999", "line 4, column 5 `on`: `offices` names itself",
         "line 4, column 7 `below_ground`: `deep` is not understood",
         "line 5, column 5 `on`: `a` would stand upon itself by way of `b`",
+        "line 8, column 6 `shares`: `d` would share its own building by way of `e`: leave out one of the names",
         "line 7, column 6 `shares`: `c` cannot stand on the roof of `shops` and share the building of `a`"})
     EXPECT_NE(made.err.find(part), std::string::npos) << part << "\n" << made.err;
 }

@@ -99,6 +99,21 @@ TEST(Export, MissingFoldersAreMadeForSingleFiles) {
   EXPECT_EQ(outcome.out.find("csv: "), std::string::npos) << outcome.out;
 }
 
+// Whoever means a folder and forgets its stroke reads what became of it.
+TEST(Export, AFileWithoutAnEndingIsTold) {
+  const Workplace place;
+  place.write("a.json", moving_scene());
+  const Outcome outcome =
+      place.run({"export", "a.json", "--settle", "--format", "svg", "--out", "plans", "--format", "csv", "--out", "/dev/null"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_regular_file(place.path("plans")));
+  EXPECT_NE(outcome.out.find("svg: plans does not end with .svg, by which programs know such files; a folder is named with a "
+                             "stroke at its end: plans/"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(outcome.out.find("csv: "), std::string::npos) << "a device has no ending: " << outcome.out;
+}
+
 // A disk that is full is played by the largest size that a file may have.
 TEST(Export, AFullDiskLeavesTheOldFileWhole) {
   const Workplace place;

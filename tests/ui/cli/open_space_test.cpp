@@ -104,12 +104,47 @@ TEST_F(OpenSpaceRows, AGardenThatIsAddedCountsForItsUse) {
   ASSERT_EQ(done.code, 0) << done.err;
   const nlohmann::json ground = result()["totals"]["open_space"][0];
   EXPECT_EQ(ground["use"], "playground");
-  EXPECT_GT(ground["area"].get<double>(), 200.5) << "besides what `new` has laid";
+  EXPECT_NEAR(ground["area"].get<double>(), 100, 1e-6) << "in place of what `new` has laid";
+  EXPECT_NE(done.out.find("It takes the place of the rectangle `playground`, which `new` had laid for `playground`."),
+            std::string::npos)
+      << done.out;
   EXPECT_EQ(place.run({"add", "s.json", "garden", "--corners", "0,0", "9,0", "9,9", "--open", "--use", "housing"}).code, 2)
       << "housing has a node that says what it is";
   const Outcome other = place.run({"add", "s.json", "garden", "--corners", "0,0", "9,0", "9,9", "--open"});
   ASSERT_EQ(other.code, 0) << other.err;
-  EXPECT_NE(other.out.find("by which `garden` is open space"), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("Its ground counts for `playground`, the only open space that the programme asks for."),
+            std::string::npos)
+      << other.out;
+  EXPECT_NEAR(result()["totals"]["open_space"][0]["area"].get<double>(), 140.5, 1e-6) << "both that were added";
+}
+
+TEST_F(OpenSpaceRows, AGardenIsNotThereTwice) {
+  ASSERT_EQ(make("use,floor_area_m2,count,open\nhousing,900,3,\nGarden,200,2,\nPocket park,100,1,yes\n").code, 0);
+  const auto add = [this](const std::string& west, const std::string& east, std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"add", "s.json", "garden", "--corners", west + ",-29", east + ",-29", east + ",-19", west + ",-19", "--open"});
+    const Outcome done = place.run(more);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.out;
+  };
+  const auto area_of = [this](std::size_t row) { return result()["totals"]["open_space"][row]["area"].get<double>(); };
+  // Of two rectangles it takes the place of one; the row called so is meant, in whatever letters.
+  std::string said = add("-20", "5", {});
+  EXPECT_NE(said.find("It takes the place of the rectangle `Garden "), std::string::npos) << said;
+  EXPECT_NE(said.find("which `new` had laid for `Garden`."), std::string::npos) << said;
+  EXPECT_NEAR(area_of(0), 450, 1e-3);
+  said = add("5", "25", {"--use", "GARDEN"});
+  EXPECT_NEAR(area_of(0), 450, 1e-3);
+  said = add("25", "30", {"--use", "garden"});
+  EXPECT_EQ(said.find("takes the place"), std::string::npos) << "none is left that `new` had laid: " << said;
+  EXPECT_NEAR(area_of(0), 500, 1e-3);
+  EXPECT_EQ(result()["totals"]["open_space"].size(), 2u);
+  said = add("-25", "-20", {"--use", "Gardens"});
+  EXPECT_NE(said.find("Warning: no row of the programme asks for `Gardens`, did you mean `Garden`?"), std::string::npos) << said;
+  said = add("-30", "-25", {"--use", "arboretum"});
+  EXPECT_NE(said.find("asks for `arboretum`: it asks for `Garden`, `Pocket park`. Name one of them by --use."), std::string::npos)
+      << said;
+  EXPECT_EQ(result()["totals"]["open_space"].size(), 4u) << "what no row asks for is there all the same";
 }
 
 }  // namespace

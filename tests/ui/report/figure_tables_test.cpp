@@ -128,6 +128,11 @@ TEST(FigureTables, WhatAllOfManySayIsSaidOnce) {
   EXPECT_NE(page.str().find("All 8: no traffic network takes care of it, or its network fails. The rows are in streets.csv."),
             std::string::npos)
       << page.str();
+  EXPECT_NE(
+      page.str().find("No traffic network takes care of them, so that there are no figures. The rows are in junctions.csv."),
+      std::string::npos)
+      << page.str();
+  EXPECT_EQ(page.str().find("<table"), std::string::npos) << "rows of zeros";
 }
 
 TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/reading/views/programme.h"
 #include "core/reading/views/volume.h"
@@ -28,12 +29,12 @@ std::vector<Shared<Table>> briefs_of(const Scene& scene) {
   return briefs;
 }
 
-// No volume has these.
+// No volume has these; in small letters, as the programme compares them.
 std::set<std::string> open_uses(const Scene& scene) {
   std::set<std::string> uses;
   for (const auto& [id, node] : scene.nodes)
     if (const auto kind = reading::settings_of<reading::UseKind>(scene, full_registry(), node); kind && kind->is_open)
-      uses.insert(kind->use);
+      uses.insert(lower_case(kind->use));
   return uses;
 }
 
@@ -44,7 +45,7 @@ std::vector<std::string> uses_of_briefs(const Scene& scene) {
   for (const Shared<Table>& brief : briefs_of(scene))
     for (std::size_t row = 0; row < brief->rows.size(); ++row)
       if (const std::string& use = brief->text(row, "use");
-          !use.empty() && !open.contains(use) && std::find(uses.begin(), uses.end(), use) == uses.end())
+          !use.empty() && !open.contains(lower_case(use)) && std::find(uses.begin(), uses.end(), use) == uses.end())
         uses.push_back(use);
   return uses;
 }
