@@ -228,7 +228,7 @@ Result<void> Adding::leave_out(const std::string& name, const std::string& use, 
     common = std::min(common, whole);
     if (!(common > kTouch * whole)) continue;
     reaches_any = true;
-    const std::string laid = has_taken_place ? "" : laid_by_new(scene_, site, use, corners);
+    const std::string laid = has_taken_place || site.leaves_out(name) ? "" : laid_by_new(scene_, site, use, corners);
     has_taken_place = has_taken_place || !laid.empty();
     const bool had_some =
         site.replace([&](const std::string& other) { return other == name || (!laid.empty() && other == laid); },

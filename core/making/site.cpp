@@ -115,6 +115,12 @@ void Site::insert(std::ptrdiff_t place, const std::vector<Exclusion>& exclusions
   rows.rows.insert(rows.rows.begin() + place, std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
 }
 
+bool Site::leaves_out(const std::string& name) const {
+  for (std::size_t row = 0; row < rows.rows.size(); ++row)
+    if (rows.text(row, "name") == name) return true;
+  return false;
+}
+
 bool Site::replace(const std::string& name, const std::vector<Exclusion>& exclusions) {
   return replace([&](const std::string& other) { return other == name; }, exclusions);
 }

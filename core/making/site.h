@@ -30,6 +30,7 @@ struct Site {
   /// Puts these in place of all whose name is an old one. Were there any?
   bool replace(const std::function<bool(const std::string&)>& is_old, const std::vector<Exclusion>& exclusions);
   bool replace(const std::string& name, const std::vector<Exclusion>& exclusions = {});
+  bool leaves_out(const std::string& name) const;
   /// Puts these behind the last one whose name belongs with theirs, else behind all.
   void extend(const std::function<bool(const std::string&)>& belongs, const std::vector<Exclusion>& exclusions);
 
