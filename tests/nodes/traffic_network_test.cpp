@@ -74,6 +74,7 @@ TEST(TrafficNetwork, TripsThatOlderFilesHeldAsDigitsAreTheSame) {
     row["links"] = digits_of(row.value("links", std::vector<std::uint32_t>()));
     for (const char* list : {"flows", "trips"}) row[list] = digits_of(row.value(list, std::vector<double>()));
   }
+  file["state"].erase("check");  // older files have none
   World old = World::from_text(write_json(file));
   for (int i = 0; i < 3; ++i, now.tick(), old.tick()) ASSERT_EQ(old.state().hash, now.state().hash) << i;
 }
