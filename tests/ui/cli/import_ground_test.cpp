@@ -100,8 +100,9 @@ TEST_F(ImportGround, RoundedVolumesAndRulesGoWithTheSite) {
   ASSERT_EQ(new_scene("rounded", "round.json").code, 0);
   ASSERT_EQ(place.run({"add", "round.json", "rules", "--height", "20"}).code, 0);
   (void)import("hill.asc", "round.json", "a.json");
-  EXPECT_NEAR(ground_part(place.json("a.json"), "site")["plot"].value("ground", 0.0), 67, 0.0101);
-  for (const auto& one : place.json("a.json")["nodes"])
+  const auto scene = place.json("a.json");
+  EXPECT_NEAR(ground_part(scene, "site")["plot"].value("ground", 0.0), 67, 0.0101);
+  for (const auto& one : scene["nodes"])
     if (one["types"].contains("smart_volume")) {
       EXPECT_GE(one["position"][2].get<double>(), 67 - 0.0101);
       EXPECT_LE(one["position"][2].get<double>(), 67 + 25);

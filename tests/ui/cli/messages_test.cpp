@@ -53,7 +53,7 @@ TEST_F(Messages, CommandLinesAreAnsweredInSentences) {
 TEST_F(Messages, TensOfThousandsOfVolumesAreChecked) {
   if (test::kIsSanitized) GTEST_SKIP() << "it is about time";
   std::string nodes;
-  for (int k = 0; k < (kIsSanitized ? 4000 : 40000); ++k)
+  for (int k = 0; k < 40000; ++k)
     nodes += (k > 0 ? ",\n" : "") + (R"({"id": "n)" + std::to_string(k) + R"(", "types": {"smart_volume": {"demand": 900}}})");
   place.write("many.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + nodes + "]}");
   // Seconds of the processor, so that a busy machine does not decide.
