@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -14,9 +15,10 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4;
+constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4, kMostRaises = 24, kMostCandidates = 4;
 // Parts of the equal weights, from which fits start that lead nowhere otherwise: the smaller forms are, the more of them end
 // inside their cells.
+constexpr double kAll = 1e9;  // more than any part of a demand
 constexpr double kLooseStarts[] = {0.02, 0.0005};
 
 // The plot that a demand needs at the least: each plate is a whole footprint.
@@ -122,7 +124,76 @@ class DemandSearch {
     return share;
   }
 
+  // Where the largest share of all has been found: those whose footprints touch nobody who stands in the way get all that they
+  // ask for, and so do all but one of a group that touch each other, where it is that one. The others keep the share: how many.
+  Result<std::size_t> raise_others(double share) {
+    const std::vector<std::vector<std::uint32_t>> groups = newton_.touching();
+    std::vector<std::uint32_t> all;
+    for (const std::vector<std::uint32_t>& group : groups) all.insert(all.end(), group.begin(), group.end());
+    for (const std::uint32_t g : all) newton_.aim(g, share);
+    tries_ = 0;
+    std::size_t raised = 0;
+    // All of them at once cannot be: that is what the search for the share has found. Its halves are tried, and theirs.
+    std::vector<Part> parts;
+    if (groups.size() > 1) parts = halves_of({0, groups.size()});
+    else if (!groups.empty()) parts = {{0, 1}};
+    while (!parts.empty() && !report_.is_stopped) {
+      const Part part = parts.back();
+      parts.pop_back();
+      std::vector<std::uint32_t> members;
+      for (std::size_t k = part.first; k < part.first + part.count; ++k)
+        members.insert(members.end(), groups[k].begin(), groups[k].end());
+      const auto done = groups.size() > 1 ? raise(members, share) : Result<bool>(false);
+      if (!done) return done.error();
+      if (*done) {
+        raised += members.size();
+      } else if (part.count > 1) {
+        for (const Part& half : halves_of(part)) parts.push_back(half);
+      } else if (const auto others = raise_all_but_one(members, share); !others) {
+        return others.error();
+      } else raised += *others;
+    }
+    return all.size() - raised;
+  }
+
  private:
+  struct Part {
+    std::size_t first = 0, count = 0;
+  };
+  static std::vector<Part> halves_of(const Part& part) {
+    const std::size_t half = part.count / 2;
+    return {{part.first + half, part.count - half}, {part.first, half}};
+  }
+
+  // Can these have all that they ask for, and the others what they have? If not, all stays as it is.
+  Result<bool> raise(std::span<const std::uint32_t> demands, double share) {
+    if (++tries_ > kMostRaises) return false;
+    const std::vector<StandingSite> before = sites_;
+    for (const std::uint32_t g : demands) newton_.aim(g, kAll);
+    const auto met = newton_.run(1, steps_);
+    if (!met || *met) return met;
+    for (const std::uint32_t g : demands) newton_.aim(g, share);
+    sites_ = before;
+    if (auto done = newton_.evaluate(); !done) return done.error();
+    return false;
+  }
+
+  // Who gains least by more weight is tried first. How many have been raised.
+  Result<std::size_t> raise_all_but_one(const std::vector<std::uint32_t>& group, double share) {
+    if (group.size() < 2) return std::size_t{0};
+    std::vector<std::uint32_t> candidates = group;
+    std::ranges::sort(candidates, {}, [&](std::uint32_t g) { return std::pair(newton_.gain_of(g), g); });
+    candidates.resize(std::min<std::size_t>(candidates.size(), kMostCandidates));
+    for (const std::uint32_t kept : candidates) {
+      std::vector<std::uint32_t> others;
+      std::ranges::copy_if(group, std::back_inserter(others), [&](std::uint32_t g) { return g != kept; });
+      const auto done = raise(others, share);
+      if (!done) return done.error();
+      if (*done) return others.size();
+    }
+    return std::size_t{0};
+  }
+
   Result<double> largest_share(double most) {
     Result<double> share = 0.0;
     for (std::size_t k = 0; k < starts_.size() && !report_.is_stopped; ++k) {
@@ -154,7 +225,7 @@ class DemandSearch {
   FootprintNewton& newton_;
   std::vector<StandingSite>& sites_;
   const FootprintFit& report_;
-  int steps_;
+  int steps_, tries_ = 0;
   std::vector<std::vector<StandingSite>> starts_;
 };
 
@@ -186,6 +257,13 @@ void add_losses(const FootprintNewton& newton, std::span<const FloorDemand> dema
     const double had = newton.floor_of(g);
     if (!report.is_met && had < demands[g].least * (1 - tolerance)) report.losses.push_back({g, demands[g].least, had});
   }
+}
+
+// Those that may have what they ask for.
+std::size_t count_of_asking(const FootprintNewton& newton, std::span<const FloorDemand> demands) {
+  std::size_t count = 0;
+  for (std::uint32_t g = 0; g < demands.size(); ++g) count += newton.counts(g) ? 1 : 0;
+  return count;
 }
 
 }  // namespace
@@ -230,7 +308,14 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
     report.factor = *share;
     if (*share == 0)
       add_words("the demands cannot be met together, nor in any share of all: the weights stay as they are", report);
-    else if (*share < 1) add_words("the demands cannot be met together: " + fixed(100 * *share, 1) + " % of each can", report);
+    else if (*share < 1) {
+      const auto short_of = search.raise_others(*share);
+      if (!short_of) return short_of.error();
+      add_words((*short_of < count_of_asking(newton, demands) ? std::to_string(*short_of) + " of the demands cannot be met"
+                                                              : "the demands cannot be met together") +
+                    ": " + fixed(100 * *share, 1) + (*short_of == 1 ? " % of it can" : " % of each can"),
+                report);
+    }
   }
   if (newton.left_out() > 0)
     add_words(std::to_string(newton.left_out()) +

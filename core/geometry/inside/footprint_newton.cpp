@@ -34,7 +34,8 @@ FootprintNewton::FootprintNewton(FootprintDiagram& diagram, std::vector<Standing
       options_(options),
       report_(report),
       demand_of_(sites.size(), kNoDemand),
-      is_out_(demands.size(), 0) {
+      is_out_(demands.size(), 0),
+      aims_(demands.size(), 1e9) {
   for (std::uint32_t g = 0; g < demands.size(); ++g)
     for (const std::uint32_t i : demands[g].sites) demand_of_[i] = g;
 }
@@ -136,6 +137,12 @@ double FootprintNewton::floor_of(std::uint32_t g) const {
   for (const std::uint32_t i : demands_[g].sites) sum += diagram_.footprints()[i].floor_area;
   return sum;
 }
+double FootprintNewton::gain_of(std::uint32_t g) const {
+  double sum = 0;
+  for (const std::uint32_t i : demands_[g].sites) sum += diagram_.footprints()[i].own_response;
+  return demands_[g].least > 0 ? sum / demands_[g].least : 0;
+}
+
 // Between its bounds a demand asks for nothing else than it has.
 double FootprintNewton::error_of(std::uint32_t g, double factor) const {
   const double wanted = std::clamp(floor_of(g), factor * demands_[g].least, factor * demands_[g].most);
@@ -146,7 +153,27 @@ std::size_t FootprintNewton::count_of(std::uint8_t why) const {
   return static_cast<std::size_t>(std::count(is_out_.begin(), is_out_.end(), why));
 }
 double FootprintNewton::wanted(std::uint32_t g) const {
-  return std::clamp(floors_[g], factor_ * demands_[g].least, factor_ * demands_[g].most);
+  const double factor = std::min(factor_, aims_[g]);
+  return std::clamp(floors_[g], factor * demands_[g].least, factor * demands_[g].most);
+}
+
+std::vector<std::vector<std::uint32_t>> FootprintNewton::touching() const {
+  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<std::uint8_t> is_in(demands_.size(), 0);
+  for (std::uint32_t first = 0; first < demands_.size(); ++first) {
+    if (!counts(first) || is_in[first] != 0) continue;
+    is_in[first] = 1;
+    std::vector<std::uint32_t>& group = groups.emplace_back(1, first);
+    for (std::size_t k = 0; k < group.size(); ++k)
+      for (const std::uint32_t i : demands_[group[k]].sites)
+        for (const FootprintMeasure::Neighbour& n : diagram_.footprints()[i].neighbours) {
+          const std::uint32_t h = demand_of_[n.site];
+          if (h == kNoDemand || is_in[h] != 0 || !counts(h)) continue;
+          is_in[h] = 1;
+          group.push_back(h);
+        }
+  }
+  return groups;
 }
 
 // Of sites in one place only the heaviest has a footprint. The others have no weight with which they could get one.

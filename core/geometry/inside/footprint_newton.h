@@ -26,6 +26,8 @@ class FootprintNewton {
   /// them nearer (`is_stalled`), or because `most_steps` were not enough.
   /// Where it `ends_with_lost`, it ends at once if a site has nothing however heavy it was made (`has_lost`).
   Result<bool> run(double factor, int most_steps, bool ends_with_lost = true);
+  /// The largest part of what it asks for that a demand aims at, whatever the factor of a run is; 1e9: all.
+  void aim(std::uint32_t demand, double most) { aims_[demand] = most; }
   /// Measures the sites as they are.
   Result<void> evaluate();
 
@@ -44,8 +46,14 @@ class FootprintNewton {
   bool leave_out_lost();
   bool has_lost() const;
   bool may_have(std::uint32_t demand) const { return is_out_[demand] == 0; }
+  /// It may have some floor, and asks for some.
+  bool counts(std::uint32_t g) const { return is_out_[g] == 0 && !demands_[g].sites.empty() && demands_[g].most > 0; }
+  /// Those that take part, parted into groups whose footprints touch each other, of their members and of nobody else.
+  std::vector<std::vector<std::uint32_t>> touching() const;
 
   double floor_of(std::uint32_t demand) const;
+  /// The part of what it asks for that a demand gains by more weight of its own [1/m²].
+  double gain_of(std::uint32_t demand) const;
   double error_of(std::uint32_t demand, double factor) const;
 
  private:
@@ -53,7 +61,6 @@ class FootprintNewton {
 
   std::size_t count_of(std::uint8_t why) const;
   double wanted(std::uint32_t g) const;
-  bool counts(std::uint32_t g) const { return is_out_[g] == 0 && !demands_[g].sites.empty() && demands_[g].most > 0; }
   Result<void> measure();
   void leave_doubled();
   void leave_groundless();
@@ -81,7 +88,7 @@ class FootprintNewton {
   std::vector<std::uint32_t> demand_of_;
   std::vector<std::uint8_t> is_out_;       // per demand: why it cannot have anything, or 0
   std::vector<std::uint8_t> began_empty_;  // per demand: had it no floor when the last run began?
-  std::vector<double> floors_;
+  std::vector<double> floors_, aims_;
   double factor_ = 1, least_ratio_ = 0;
   double share_ = 1;  // of the last full step, that was taken
   int loosenings_ = 0;

@@ -98,6 +98,25 @@ TEST(FootprintFit, WhatDoesNotFitIsSharedInProportionAndNamed) {
   EXPECT_NEAR(found.floors[1] / 800, found.report.factor, 1e-4);
 }
 
+// 15 m from the border there are 100 m² for the one in the middle, however heavy it is. The others touch it nowhere.
+TEST(FootprintFit, WhoCannotGrowTakesNothingFromThoseWhoTouchNobodyInTheWay) {
+  std::vector<StandingSite> sites{site_of(FootprintForm::round, 6, 6), site_of(FootprintForm::block, 20, 20),
+                                  site_of(FootprintForm::round, 34, 6), site_of(FootprintForm::block, 34, 34)};
+  sites[1].border_distance = sites[1].street_distance = 15;
+  const std::vector<double> wanted{80, 150, 60, 90};
+  const auto found = fitted(fit_square(), sites, floor_demands(wanted));
+  EXPECT_FALSE(found.report.is_met);
+  EXPECT_LE(found.floors[1], 100 + 1e-6);
+  EXPECT_GE(found.floors[1], 97);
+  for (const std::size_t i : {0u, 2u, 3u}) EXPECT_NEAR(found.floors[i], wanted[i], 1e-3) << i;
+  EXPECT_NE(found.report.infeasible.find("1 of the demands cannot be met: 6"), std::string::npos) << found.report.infeasible;
+  ASSERT_EQ(found.report.losses.size(), 1u);
+  EXPECT_EQ(found.report.losses[0].demand, 1u);
+  // The same from these weights: nobody loses it again.
+  const auto warm = fitted(fit_square(), found.sites, floor_demands(wanted));
+  for (const std::size_t i : {0u, 2u, 3u}) EXPECT_NEAR(warm.floors[i], wanted[i], 1e-3) << i;
+}
+
 // A block in the place of a cell has nothing, so that cells are all there is, and these fill the plot.
 TEST(FootprintFit, CellsAloneShareThePlotWhoeverStandsInTheirPlace) {
   const std::vector<StandingSite> sites{site_of(FootprintForm::cell, 10, 20), site_of(FootprintForm::block, 10, 20),
@@ -198,6 +217,38 @@ TEST(FootprintFitLaws, WhatFitsIsMetWhateverFormsAreBesideEachOther) {
     }
   }
   EXPECT_GT(cells, 1000u);
+}
+
+// One that asks for more than there is takes nothing from those whose footprints touch nobody in the way: these have all, and
+// everybody has the share that all can have.
+TEST(FootprintFitLaws, WhoStandsInNobodysWayHasAllThatItAsksFor) {
+  std::size_t shared = 0, raised = 0;
+  for (const PlotShape shape : kPlotShapes) {
+    const geometry::Domain plot = plot_of(shape);
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      Mixture made = random_mixture(plot, 7000 * static_cast<std::uint64_t>(shape) + seed);
+      const std::size_t large = seed % made.areas.size();
+      made.areas[large] *= seed % 3 == 0 ? 30 : 6;
+      // Most of the ground is too near to the border for it.
+      if (seed % 2 == 0) made.sites[large].border_distance = made.sites[large].street_distance = 25;
+      const auto found = fitted(plot, made.sites, floor_demands(made.areas));
+      if (found.report.is_met || !(found.report.factor < 1) || found.report.infeasible.find(" can") == std::string::npos)
+        continue;
+      ++shared;
+      std::size_t in_full = 0;
+      for (std::size_t i = 0; i < made.sites.size(); ++i) {
+        EXPECT_GE(found.floors[i], found.report.factor * made.areas[i] * (1 - 1e-5)) << "seed " << seed << ", site " << i;
+        EXPECT_LE(found.floors[i], made.areas[i] * (1 + 1e-5)) << "seed " << seed << ", site " << i;
+        in_full += found.floors[i] >= made.areas[i] * (1 - 1e-5) ? 1 : 0;
+      }
+      EXPECT_EQ(found.report.losses.size(), made.sites.size() - in_full);
+      const std::string some = std::to_string(found.report.losses.size()) + " of the demands cannot be met: ";
+      EXPECT_EQ(found.report.infeasible.find(some) != std::string::npos, in_full > 0) << found.report.infeasible;
+      raised += in_full;
+    }
+  }
+  EXPECT_GT(shared, 50u);
+  EXPECT_GT(raised, 20u) << "of those that would have had a share only";
 }
 
 // From whatever weights: those of a session in which somebody has just changed forms, storeys and demands.
