@@ -465,7 +465,7 @@ struct StandingSolver {
                "` stands on the ground, because it would stand upon itself: change its `bases`, or the `stack` link to it";
     }
     words += geometry::outside_text(kept.wishes, done->results, **domain, kept.names);
-    words += geometry::other_storeys_text(kept.wishes, done->results, kept.cache.results, (*domain)->maximum.z, in.tolerance,
+    words += geometry::other_storeys_text(kept.wishes, done->results, kept.cache.results, **domain, in.tolerance,
                                           kept.names);
     for (std::size_t i = 0; i < kept.names.size(); ++i)
       if (kept.cellars[i].first > 0) words += geometry::lost_cellar_text(done->results[i], i, kept.names);

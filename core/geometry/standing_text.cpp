@@ -81,12 +81,20 @@ bool has_idle_setback(const StandingWish& wish, const StandingResult& whole) {
   return true;
 }
 
+constexpr double kAnyDepth = 1000;  // [m]; the default of the port, which asks for no courtyard
+
+// The shorter side of the rectangle around the ground [m].
+double breadth_of(const Domain& domain) {
+  return std::min(domain.maximum.x - domain.minimum.x, domain.maximum.y - domain.minimum.y);
+}
+
 }  // namespace
 
 std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
-                               std::span<const StandingResult> buildings, double top, double tolerance,
+                               std::span<const StandingResult> buildings, const Domain& domain, double tolerance,
                                std::span<const std::string> names) {
   std::string words;
+  const double top = domain.maximum.z, breadth = breadth_of(domain);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const StandingWish& wish = wishes[i];
     if (!(wish.volume > 0)) continue;
@@ -108,6 +116,10 @@ std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<c
                fixed(whole.outside.height, 1) + " m high, by up to " + fixed(whole.outside.area, 1) +
                " m² of a plate: lower its `storeys`, or move it";
     if (whole.body) words += pieces_text(*whole.body, names[i]);
+    if (wish.site.depth < kAnyDepth && wish.site.depth > breadth)
+      words += "; the `depth` of `" + names[i] + "`, " + shortest(wish.site.depth) +
+               " m, is larger than the ground of the site, " + fixed(breadth, 1) +
+               " m: it leaves no courtyard anywhere, and changes nothing";
     if (has_idle_setback(wish, whole))
       words += "; the set-back of `" + names[i] + "` holds for all of its " +
                how_many(static_cast<std::size_t>(whole.storeys.count), "storey") +

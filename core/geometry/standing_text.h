@@ -23,9 +23,9 @@ std::string outside_text(std::span<const StandingWish> wishes, std::span<const S
                          std::span<const std::string> names);
 
 /// What is built otherwise than people have set it, each sentence after "; ". `buildings`: the results of whole buildings, where
-/// volumes share a footprint; `top`: of the boundary [m]; `tolerance`: the share by which a volume may miss what it wants.
+/// volumes share a footprint; `tolerance`: the share by which a volume may miss what it wants.
 std::string other_storeys_text(std::span<const StandingWish> wishes, std::span<const StandingResult> results,
-                               std::span<const StandingResult> buildings, double top, double tolerance,
+                               std::span<const StandingResult> buildings, const Domain& domain, double tolerance,
                                std::span<const std::string> names);
 
 /// Those that have less floor area than they want, each after "; ": the three that lack most, and how many there are besides.

@@ -267,7 +267,7 @@ TEST(StandingTick, WhatReachesOutOfTheBoundaryIsToldByHowMuch) {
   EXPECT_NEAR(outcome.results[3].outside.area, 50, 1e-3) << "half of its plate";
   const std::vector<std::string> names{"left", "right", "podium", "tower"};
   EXPECT_EQ(
-      other_storeys_text(wishes, outcome.results, kept.results, 30, 1e-6, names),
+      other_storeys_text(wishes, outcome.results, kept.results, site(9), 1e-6, names),
       "; `left` reaches out of the boundary from storey 4 on, 12.0 m high, by up to 400.0 m² of a plate: lower its `storeys`, "
       "or move it; `tower` reaches out of the boundary from storey 2 on, 12.0 m high, by up to 50.0 m² of a plate: lower its "
       "`storeys`, or move it");
@@ -285,9 +285,29 @@ TEST(StandingTick, AFootprintInPiecesIsToldAndHowToMoveIt) {
   std::vector<StandingWish> wishes{wish(FootprintForm::block, {50, 25, 0}, 2, 2400)};
   StandingTick::Cache kept;
   const auto outcome = run(parted, wishes, kept);
-  const std::string text = other_storeys_text(wishes, outcome.results, kept.results, 30, 1e-6, std::vector<std::string>{"bar"});
+  const std::string text =
+      other_storeys_text(wishes, outcome.results, kept.results, parted, 1e-6, std::vector<std::string>{"bar"});
   EXPECT_NE(text.find("`bar` stands in 2 pieces of "), std::string::npos) << text;
   EXPECT_NE(text.find("run SCENE --set bar/node.position='[x,y,0]' --save SCENE"), std::string::npos) << text;
+}
+
+// A depth that no footprint on the site can reach is told; 1000 m is how people say none.
+TEST(StandingTick, ADepthLargerThanTheGroundIsTold) {
+  std::vector<StandingWish> wishes{wish(FootprintForm::block, {25, 25, 0}, 2, 800),
+                                   wish(FootprintForm::block, {75, 25, 0}, 2, 800)};
+  wishes[0].site.depth = 60;
+  wishes[1].site.depth = 1000;
+  StandingTick::Cache kept;
+  const Domain ground = plot(100, 50, 30);
+  const auto text = [&] {
+    const auto outcome = run(ground, wishes, kept);
+    return other_storeys_text(wishes, outcome.results, kept.results, ground, 1e-6, std::vector<std::string>{"wide", "other"});
+  };
+  EXPECT_EQ(text(),
+            "; the `depth` of `wide`, 60 m, is larger than the ground of the site, 50.0 m: it leaves no courtyard anywhere, "
+            "and changes nothing");
+  wishes[0].site.depth = 40;
+  EXPECT_EQ(text(), "");
 }
 
 // The sides of a boundary lean inwards by 45°: a cell as large as its ground reaches out of it everywhere.
