@@ -65,7 +65,8 @@ struct SheetOptions : FormOptions {
   DrawnExtent extent = DrawnExtent::site;
   double scale = 0;  ///< n of 1:n; 0: the largest of the usual ones that fits
   bool surroundings = true, labels = true;
-  /// A line as `section_line` reads it, or one height; `auto`: along the longest side; `none`: no section.
+  /// A line as `section_line` reads it, or one height; `auto`: along the longest side, through
+  /// the highest volume; `none`: no section.
   std::string section = "auto";
 };
 

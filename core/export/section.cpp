@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/export/drawn_levels.h"
@@ -198,6 +199,43 @@ void measure(const SectionFrame& frame, const Proposal& proposal, Section& made)
   }
 }
 
+// What a line cuts: the highest volume or not, and the area of all cuts, as if storeys were all alike [m²].
+std::pair<bool, double> cut_by(const Proposal& proposal, const SectionLine& line, double highest) {
+  const SectionFrame frame(line);
+  std::pair<bool, double> sum{false, 0};
+  for (const Building& building : proposal.buildings) {
+    const std::vector<double> ends = frame.crossings(building.outline);
+    double length = 0;
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) length += ends[k + 1] - ends[k];
+    sum.first |= length > 0 && building.top >= highest - kOneHeight;
+    sum.second += length * (building.top - building.bottom);
+  }
+  return sum;
+}
+
+// Parallel to a line, through the middle of a volume: where the highest one is cut, and most of all others.
+SectionLine most_telling(const Proposal& proposal, const SectionLine& line) {
+  const Vector3 way = line.to - line.from, left{-way.y / norm(way), way.x / norm(way), 0};
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Building& building : proposal.buildings) highest = std::max(highest, building.top);
+  SectionLine best = line;
+  std::pair<bool, double> most = cut_by(proposal, line, highest);
+  const SectionFrame frame(line);
+  for (const Building& building : proposal.buildings) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const PlateFace& face : building.outline)
+      for (const Point3& p : face.outer) low = std::min(low, frame.left(p)), high = std::max(high, frame.left(p));
+    if (!(low <= high)) continue;
+    const Vector3 aside = (0.5 * (low + high)) * left;
+    const SectionLine moved{line.from + aside, line.to + aside};
+    // Of lines that cut as much the first counts.
+    if (const auto cut = cut_by(proposal, moved, highest);
+        cut.first > most.first || (cut.first == most.first && cut.second > most.second * (1 + 1e-9)))
+      most = cut, best = moved;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<double> level_cut(const std::string& text) {
@@ -276,7 +314,7 @@ Result<SectionLine> section_line(const Proposal& proposal, const std::string& te
       }
   if (way.x < 0 || (way.x == 0 && way.y < 0)) way = -1 * way;
   const double half = distance(extent.low, extent.high) / 2;
-  return SectionLine{middle - half * way, middle + half * way};
+  return most_telling(proposal, {middle - half * way, middle + half * way});
 }
 
 Section section_of(const Proposal& proposal, const SectionLine& line, bool with_surroundings) {

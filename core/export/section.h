@@ -15,7 +15,8 @@ struct SectionLine {
   Point3 from, to;
 };
 
-/// "X1 Y1 X2 Y2" in metres, also with commas; empty: along the longest side of the land, through the middle. Fails on other
+/// "X1 Y1 X2 Y2" in metres, also with commas; empty: along the longest side of the land, through the
+/// highest volume and as many others as a parallel to it can cut. Fails on other
 /// texts, and on a line without length.
 Result<SectionLine> section_line(const Proposal& proposal, const std::string& text);
 /// The height of a level cut [m above the origin], where the text is one number; nothing where it is none.

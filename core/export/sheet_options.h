@@ -21,7 +21,9 @@ void declare_sheet_options(FormatBuilder<T>& f) {
   f.option(&SheetOptions::surroundings, "surroundings").doc("With existing buildings and streets.");
   f.option(&SheetOptions::section, "section")
       .doc(
-          "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
+          "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side through "
+          "the highest "
+          "volume, or "
           "`none`.");
   f.option(&SheetOptions::labels, "labels").doc("With the name and floor area of each storey.");
   declare_form_option(f);

@@ -165,7 +165,10 @@ Result<Products> make_products(std::span<const Order> orders, Proposal proposal,
   for (const Order& order : orders) {
     proposal.shell = shell_of(*order.format, page_folder);
     auto made = order.format->write(proposal, order.options, order.is_folder);
-    if (!made) return made.error().within(order.format->id);
+    if (!made) {
+      products.refused.push_back(made.error().within(order.format->id));
+      continue;
+    }
     if (std::string note = note_on_ending(order); !note.empty()) products.notes.push_back(std::move(note));
     for (const std::string& note : made->notes) products.notes.push_back(order.format->id + ": " + note);
     const std::vector<std::string> others = order.is_folder ? left_over(order, made->files) : std::vector<std::string>{};
@@ -191,9 +194,9 @@ std::vector<std::string> replaced_by(const Products& products) {
   return paths;
 }
 
-Result<void> make_folders(std::span<const Order> orders) {
-  for (const Order& order : orders) {
-    const fs::path folder = order.is_folder ? fs::path(order.out) : fs::path(order.out).parent_path();
+Result<void> make_folders(const Products& products) {
+  for (const Product& product : products.files) {
+    const fs::path folder = fs::path(product.path).parent_path();
     if (folder.empty()) continue;
     std::error_code code;
     fs::create_directories(folder, code);

@@ -54,6 +54,7 @@ Result<Errands::Made> export_of(const State& state, const std::string& file, con
     notes.push_back("In tables only: " + volume.label + ": " + volume.why_shapeless);
   auto products = exporting::make_products(std::span(&order, 1), std::move(*proposal), page_folder);
   if (!products) return products.error();
+  if (!products->refused.empty()) return products->refused.front();
   notes.insert(notes.end(), products->notes.begin(), products->notes.end());
   return Errands::Made{order.out, std::move(products->files.front().content), std::move(notes)};
 }

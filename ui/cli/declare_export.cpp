@@ -30,8 +30,9 @@ void declare_export(CLI::App& app, ExportOptions& o) {
   files_of(c).reads({"scene"}).exports("--out");
   c.footer(
       "Formats and their options:\n" + exporting::formats_text() +
-      "\nAll files are made before the first is written: where one is refused, none is written. A folder ends with `/`, or is "
-      "there already.\n\nExample:\n  behaviourlinks export scenes/start/quarter.json --settle --format csv --out schedule.csv "
+      "\nAll files are made before the first is written. A format that cannot hold the proposal says why, and the others are "
+      "written; where a file may not be written, none is. A folder ends with `/`, or is there already.\n\nExample:\n  "
+      "behaviourlinks export scenes/start/quarter.json --settle --format csv --out schedule.csv "
       "--format dxf --out plans.dxf\n\nExit codes: 0 written; 2 bad input, or nothing that can be written; 3 written, but not "
       "settled; 130 stopped by Ctrl-C.");
 }

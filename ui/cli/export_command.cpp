@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/plural.h"
 #include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/export/option_text.h"
@@ -115,12 +116,19 @@ int export_command(const ExportOptions& options) {
   const auto products = exporting::make_products(*orders, *proposal, page == nullptr ? "" : page);
   if (!products) return fail(options.scene, products.error());
   for (const std::string& note : products->notes) print_line(note, Colour::yellow);
-  if (auto made = exporting::make_folders(*orders); !made) return fail("--out", made.error());
+  for (const Error& error : products->refused) print_error("", error);
+  if (auto made = exporting::make_folders(*products); !made) return fail("--out", made.error());
   std::vector<std::string> paths;
   const auto written = exporting::write_products(*products, paths);
   for (const std::string& path : paths) print_line("written: " + path);
   if (!written) return fail("", written.error());
   if (is_interrupted()) return interrupt_exit_code();
+  if (!products->refused.empty()) {
+    print_line(
+        how_many(products->refused.size(), "format") + " of " + std::to_string(orders->size()) + " cannot hold this proposal",
+        Colour::yellow);
+    return kBadInput;
+  }
   return outcome.is_met ? kDone : kNotMet;
 }
 

@@ -49,7 +49,9 @@ struct DxfFormat {
     f.option(&Options::surroundings, "surroundings").doc("With existing buildings and streets.");
     f.option(&Options::section, "section")
         .doc(
-            "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side, or "
+            "Where the section is cut: X1,Y1,X2,Y2 in metres, one height for a level cut, `auto` along the longest side through "
+            "the highest "
+            "volume, or "
             "`none`.");
     f.option(&Options::text_height, "text_height").unit(Unit::metre).range(0.05, 50).doc("Height of the texts.");
     declare_form_option(f);

@@ -143,6 +143,22 @@ TEST(Section, StandingVolumesAreCutAsRectangles) {
   EXPECT_GE(outside.parts.front().distance, outside.parts.back().distance);
 }
 
+// By itself a section goes through the highest volume, wherever that stands.
+TEST(Section, ByItselfItCutsTheHighestVolume) {
+  Standing made = standing_proposal();
+  for (Building& building : made.proposal.buildings) {
+    const double top = building.top;
+    building.top = 200;
+    const auto line = section_line(made.proposal, "");
+    ASSERT_TRUE(line);
+    const Section section = section_of(made.proposal, *line, true);
+    EXPECT_TRUE(std::any_of(section.parts.begin(), section.parts.end(), [&](const SectionPart& part) {
+      return part.building == &building && !part.cut.empty();
+    })) << building.id;
+    building.top = top;
+  }
+}
+
 TEST(Section, LinesThatAreNoneAreRefused) {
   const Standing made = standing_proposal();
   for (const char* text : {"1,2,3", "1,2,3,4,5", "a,b,c,d", "1,1,1,1", "nan 0 1 1", "1,2,3,1e300"}) {

@@ -71,7 +71,7 @@ TEST(Export, MistakesAreNamedAndWriteNothing) {
       {{"--format", "dxf", "--out", "x", "--option", "section=5000"}, "they lie between "},
       {{"--format", "stl", "--out", "x", "--option", "scael=3"}, "did you mean `scale`?"},
       {{"--format", "stl", "--out", "x", "--option", "scale=0"}, "scale"},
-      {{"--format", "csv", "--out", "x", "--format", "geojson", "--out", "y"}, "where it lies on Earth"},
+      {{"--format", "geojson", "--out", "x"}, "where it lies on Earth"},
       {{"--format", "svg", "--out", "x", "--option", "level=99"}, "there is no level 99"},
       {{"--format", "svg", "--out", "x", "--option", "scale=1"}, "does not fit on the paper at 1:1"},
   };
@@ -84,6 +84,21 @@ TEST(Export, MistakesAreNamedAndWriteNothing) {
     EXPECT_FALSE(std::filesystem::exists(place.path("x"))) << words;
   }
   EXPECT_EQ(place.text("mine.csv"), "my,own\n1,2\n");
+}
+
+// What one format cannot hold keeps no other from being written.
+TEST(Export, AFormatThatCannotHoldTheProposalKeepsNoOtherFromBeingWritten) {
+  const Workplace place;
+  place.write("a.json", moving_scene());
+  const Outcome outcome =
+      place.run({"export", "a.json", "--settle", "--format", "geojson", "--out", "earth/a.geojson", "--format", "csv", "--out",
+                 "a.csv", "--format", "dxf", "--out", "plans/a.dxf", "--option", "section=5000"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("geojson: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("they lie between "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("2 formats of 3 cannot hold this proposal"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(place.text("a.csv").starts_with("row,building,"));
+  for (const char* folder : {"earth", "plans"}) EXPECT_FALSE(std::filesystem::exists(place.path(folder))) << "it has no file";
 }
 
 // As formats of several files do it; what ends in a way that no format has is told.

@@ -259,6 +259,8 @@ std::optional<std::vector<std::string>> ExportDialog::write(std::vector<std::str
   const char* page = std::getenv("BEHAVIOURLINKS_PAGE");
   const auto products = exporting::make_products(wanted, *proposal, page == nullptr ? "" : page);
   if (!products) return refuse(products.error());
+  for (const Error& error : products->refused) told.push_back(error.text());
+  if (products->files.empty()) return std::nullopt;
   const std::vector<std::string> replaced = exporting::replaced_by(*products);
   if (!replaced.empty() && replaced != asked_) {
     asked_ = replaced;
@@ -267,7 +269,7 @@ std::optional<std::vector<std::string>> ExportDialog::write(std::vector<std::str
     return std::nullopt;
   }
   asked_.clear();
-  if (auto made = exporting::make_folders(wanted); !made) return refuse(made.error());
+  if (auto made = exporting::make_folders(*products); !made) return refuse(made.error());
   std::vector<std::string> written;
   const auto done = exporting::write_products(*products, written);
   if (!done) {
