@@ -2,10 +2,13 @@
 #include "core/reading/open_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/base/text.h"
 #include "core/demand/brief_sums.h"
+#include "core/geometry/domain_table.h"
+#include "core/geometry/plan_ring.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/programme.h"
 #include "core/reading/views/solver.h"
@@ -14,7 +17,8 @@ namespace bl::reading {
 
 namespace {
 
-constexpr double kNoGround = 1e-3;  // [m²]
+constexpr double kNoGround = 1e-3;     // [m²]
+constexpr double kSameHeight = 0.001;  // [m]
 
 }  // namespace
 
@@ -47,12 +51,18 @@ std::vector<OpenAccount> open_accounts(const State& state) {
         account.asked += demand::brief_sums(*programme.rows, row).area;
       }
   const auto of_brief = static_cast<std::ptrdiff_t>(accounts.size());
-  for (const auto& [node, ground] : rows<OpenGround>(state))
+  for (const auto& [node, ground] : rows<OpenGround>(state)) {
     for (std::size_t row = 0; row < ground.areas->rows.size(); ++row) {
       OpenAccount& account = account_of(ground.areas->text(row, "use"));
       account.area += ground.areas->number(row, "area");
       account.drawn += ground.areas->number(row, "drawn");
     }
+    if (ground.form != "plan") continue;
+    for (const geometry::NamedRing& ring : geometry::read_rings(*ground.exclusions))
+      if (const std::string& use = ground.exclusions->text(ring.first_row, "use");
+          !use.empty() && ring.top < ground.bottom + ground.height - kSameHeight)
+        account_of(use).roofed += std::abs(geometry::signed_area(ring.corners));
+  }
   std::sort(accounts.begin() + of_brief, accounts.end(),
             [](const OpenAccount& a, const OpenAccount& b) { return a.use < b.use; });
   return accounts;
@@ -66,6 +76,7 @@ OpenAccount sum_of(const std::vector<OpenAccount>& accounts) {
     sum.asked += account.asked;
     sum.area += account.area;
     sum.drawn += account.drawn;
+    sum.roofed += account.roofed;
   }
   return sum;
 }
@@ -76,6 +87,10 @@ std::string why_short(const OpenAccount& account, double tolerance) {
     return "no boundary keeps ground open for it: lay it by `behaviourlinks add SCENE garden --open --use " + account.use +
            " --corners ...`, or as `exclusions` of a boundary with this use";
   const double lost = account.drawn - account.area;
+  if (lost > kNoGround && account.roofed > kNoGround)
+    return "of the " + quantity(account.drawn, Unit::square_metre) + " that are drawn, " +
+           quantity(account.roofed, Unit::square_metre) +
+           " end below the top of the boundary, so that volumes may stand above them: raise the `top` of its `exclusions`";
   if (lost > kNoGround && account.drawn >= account.asked * (1 - tolerance))
     return "of the " + quantity(account.drawn, Unit::square_metre) + " that are drawn, " + quantity(lost, Unit::square_metre) +
            " lie outside of the boundary, below what stays, or on ground that is open already: move them inside";

@@ -17,6 +17,8 @@ struct OpenAccount {
   double area = 0;   ///< that boundaries keep open [m²]
   double drawn = 0;  ///< of its polygons, parts outside of boundaries or on other exclusions included [m²]
 
+  double roofed = 0;  ///< of its polygons that end below the top of their boundary [m²]
+
   double missing() const;
   /// As a share of what is asked for, from 0 to 1.
   double missing_share() const;

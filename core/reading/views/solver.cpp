@@ -51,6 +51,9 @@ void OpenGround::declare(ViewBuilder<OpenGround>& v) {
   v.of("boundary");
   v.reads(&OpenGround::areas, "boundary.open_areas");
   v.reads(&OpenGround::exclusions, "boundary.exclusions");
+  v.reads(&OpenGround::form, "boundary.form");
+  v.reads(&OpenGround::bottom, "boundary.bottom", Unit::metre);
+  v.reads(&OpenGround::height, "boundary.height", Unit::metre);
 }
 BL_VIEW(OpenGround)
 

@@ -58,6 +58,8 @@ struct BoundaryFigures {
 struct OpenGround {
   Shared<Table> areas;       ///< with the columns `use`, `area` and `drawn` [m²]
   Shared<Table> exclusions;  ///< its polygons are those with a use
+  std::string form;
+  double bottom = 0, height = 0;  ///< of a plan [m]
 
   static void declare(ViewBuilder<OpenGround>& v);
   static const ViewDefinition& view();

@@ -47,6 +47,18 @@ TEST(OpenSpace, HasARowOfItsOwnAndIsNoFloorArea) {
   EXPECT_LE(accounts.worst_short, accounts.tolerance);
 }
 
+// Who raises the boundary above its exclusions is told why their ground does not count any more.
+TEST(OpenSpace, GroundThatEndsBelowTheTopOfTheBoundaryIsTold) {
+  std::string text = open_scene("garden", 0, 30);
+  text.replace(text.find(R"("form": "plan")"), 14, R"("form": "plan", "height": 30)");
+  World world = World::from_text(text);
+  const Accounts accounts = settled_accounts(world);
+  EXPECT_NEAR(accounts.open[0].area, 0, 1e-9);
+  EXPECT_EQ(why_short(accounts.open[0], accounts.tolerance),
+            "of the 600 m² that are drawn, 600 m² end below the top of the boundary, so that volumes may stand above them: raise "
+            "the `top` of its `exclusions`");
+}
+
 // Maps and people write uses in small letters where a brief has large ones.
 TEST(OpenSpace, IsTheSameInSmallAndInLargeLetters) {
   World world = World::from_text(open_scene("GARDEN", 0, 30));
