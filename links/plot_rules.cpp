@@ -35,6 +35,7 @@ struct PlotRules {
     All<std::optional<bool>> heights_locked;
     All<std::optional<Shared<Table>>> buildings;
     All<std::optional<Point3>> places;
+    All<std::optional<double>> footings;
   };
   struct Out {
     All<std::optional<double>> limits, height_limits, border_distances, street_distances;
@@ -108,6 +109,12 @@ struct PlotRules {
     l.reads_lock_if_there(&Ends::heights_locked, End::to, "footprint.height_limit");
     l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
     l.reads_if_there(&Ends::places, End::to, "footprint.stands_at", Unit::metre);
+    l.reads_if_there(&Ends::footings, End::to, "footprint.ground", Unit::metre);
+  }
+
+  // From where its height counts [m]: on a terrain above the plot's ground from the ground where it stands.
+  static double ground_at(const Ends& ends, std::size_t i) {
+    return std::max(ends.ground, ends.footings.values[i].value_or(ends.ground));
   }
 
   // One that keeps the largest height by its storeys, or by those of the building that it shares.
@@ -123,7 +130,7 @@ struct PlotRules {
                                      *ends.least_storeys.values[i], ends.storey_heights.values[i],
                                      *ends.height_limits.values[i], *ends.heights_locked.values[i]};
     return Standing{demand::standing_in(own, building),
-                    ends.height_max + ends.ground - demand::ground_below(building, ends.bottoms.values[i]),
+                    ends.height_max + ground_at(ends, i) - demand::ground_below(building, ends.bottoms.values[i]),
                     demand::holder_of(building, ends.ids.values[i]), demand::named_holder(building, ends.ids.values[i])};
   }
 
@@ -179,7 +186,9 @@ struct PlotRules {
     const double limit = answer < 1 ? std::min(own, ends.limits.values[i]) : own;
     return demand::granted_share(ends.demands.values[i], limit) * (1 + in.gain * (answer - 1));
   }
-  static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
+  static double top(const Ends& ends, std::size_t i) {
+    return ends.bottoms.values[i] + ends.heights.values[i] - ground_at(ends, i);
+  }
 
   static constexpr std::size_t kMostHeights = 4;
 

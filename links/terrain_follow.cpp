@@ -1,4 +1,5 @@
 // Keeps nodes at a height above the ground, and volumes that stand on it.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 #include "core/geometry/height_grid.h"
+#include "core/geometry/plates_table.h"
 
 namespace bl {
 
@@ -23,6 +25,7 @@ struct TerrainFollow {
     double west = 0, north = 0, cell = 1, lowest = 0, step = 1;
     Point3 position;
     std::optional<double> footing;
+    std::optional<Shared<Table>> plates;
   };
   struct Out {
     std::optional<Vector3> move;
@@ -34,7 +37,8 @@ struct TerrainFollow {
         .label("Terrain follow")
         .doc(
             "Moves nodes vertically to a height above the ground, a share in every tick. Their position in plan does not "
-            "change. A volume that stands gets its lowest floor there at once.");
+            "change. A volume that stands gets its lowest floor at once at the lowest ground around its footprint, so that it "
+            "reaches into a slope and hangs nowhere above it.");
     l.family(LinkFamily::ground);
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
     l.param(&In::stiffness, "stiffness")
@@ -49,9 +53,12 @@ struct TerrainFollow {
     l.reads(&Ends::step, End::from, "terrain.step", Unit::metre);
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads_if_there(&Ends::footing, End::to, "footprint.ground", Unit::metre);
+    l.reads_if_there(&Ends::plates, End::to, "footprint.plates");
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
     l.proposes_if_there(&Out::footing, End::to, "footprint.ground", Unit::metre);
   }
+
+  static constexpr double kChords = 0.1;  // [m] between arcs of plates and their chords
 
   // The grid is kept for the other nodes of the link in the same tick. Each terrain has a table of its own.
   struct Cache {
@@ -69,13 +76,25 @@ struct TerrainFollow {
         kept.rows.push_back(*text);
   }
 
+  // The lowest ground around the lowest plate; nothing where there is no plate yet.
+  static std::optional<double> below(const Table& plates, const geometry::HeightGrid& grid) {
+    const geometry::StandingBody body = geometry::read_body(plates);
+    if (body.stacks.empty()) return std::nullopt;
+    std::optional<double> lowest;
+    for (const geometry::PlateRing& outline : body.stacks.front().outlines)
+      if (const auto height = grid.lowest_along(geometry::chords_of(outline, body.centre, kChords)))
+        lowest = std::min(lowest.value_or(*height), *height);
+    return lowest;
+  }
+
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Cache own;
     Cache& kept = tick.memo != nullptr ? tick.memo->of<Cache>() : own;
     geometry::HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
     find_rows(ends, kept);
     grid.rows.swap(kept.rows);  // swapped in for the query
-    const auto ground = grid.sample(ends.position.x, ends.position.y);
+    auto ground = grid.sample(ends.position.x, ends.position.y);
+    if (ground && ends.plates) ground = below(**ends.plates, grid).value_or(*ground);
     grid.rows.swap(kept.rows);
     if (!ground && in.needs_ground)
       return Error{ErrorCode::not_found, "to",

@@ -22,6 +22,7 @@ struct ExistingBuilding {
     std::vector<Point3> outline = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
     Table holes;
     double base = 0, height = 9.6;
+    bool is_above_sea = false;
     Source height_source = Source::assumed;
     double storey_height = 3.2;
     std::string use, origin;
@@ -56,6 +57,10 @@ struct ExistingBuilding {
         .soft(-20, 50)
         .combine(CombineRule::blend)
         .doc("Height of the underside above the origin.");
+    t.in(&In::is_above_sea, "is_above_sea")
+        .doc(
+            "The source gave heights above the sea. When off, they count from the ground: an import of a terrain, or onto one, "
+            "adds the height of the ground to the base.");
     t.in(&In::height, "height")
         .unit(Unit::metre)
         .range(0.01, 1e5)

@@ -28,6 +28,7 @@ struct Plot {
     std::string id;
     Table plates;
     Point3 stands_at;
+    double ground = 0;
   };
   struct Sets {
     std::vector<Member> volumes;
@@ -63,7 +64,9 @@ struct Plot {
         .range(0, 10000)
         .soft(3, 200)
         .combine(CombineRule::min)
-        .doc("The largest height above the ground allowed.");
+        .doc(
+            "The largest height above the ground allowed. For a volume that stands on ground above that of the plot, as on a "
+            "slope, it counts from there.");
     t.in(&In::setback, "setback")
         .unit(Unit::metre)
         .range(0, 1000)
@@ -82,6 +85,7 @@ struct Plot {
     auto standing = t.set("volumes", &Sets::standing);  // those of the volumes that have plates
     standing.reads(&Standing::id, "node.id").reads(&Standing::plates, "footprint.plates");
     standing.reads(&Standing::stands_at, "footprint.stands_at", Unit::metre);
+    standing.reads(&Standing::ground, "footprint.ground", Unit::metre);
   }
 
   static void declare_results(TypificationBuilder<Plot>& t) {
@@ -97,7 +101,9 @@ struct Plot {
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).soft(0, 1).doc("Ground space index: built ground over the area of the plot.");
     t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
     t.out(&Out::layers, "layers").unit(Unit::ratio).doc("Mean number of storeys, FSI / GSI; 0 where no ground is built on.");
-    t.out(&Out::top, "top").unit(Unit::metre).doc("Height of the highest volume above the ground.");
+    t.out(&Out::top, "top")
+        .unit(Unit::metre)
+        .doc("Height of the highest volume above the ground, or above that on which it stands where this is higher.");
     t.out(&Out::floor_overshoot, "floor_overshoot").unit(Unit::square_metre).doc("Floor area beyond the largest FSI.");
     t.out(&Out::footprint_overshoot, "footprint_overshoot").unit(Unit::square_metre).doc("Built ground beyond the largest GSI.");
     t.out(&Out::height_overshoot, "height_overshoot")
@@ -165,7 +171,8 @@ struct Plot {
       out.footprint += member.footprint * geometry::built_share(standing != nullptr, member.stands_on, member.bottom,
                                                                 member.storey_height, in.ground);
       if (standing == nullptr) tell_height(in, member, out.message);
-      out.top = std::max(out.top, member.bottom + member.height - in.ground);
+      const double ground = standing == nullptr ? in.ground : std::max(in.ground, standing->ground);
+      out.top = std::max(out.top, member.bottom + member.height - ground);
       if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, standing, member));
     }
     if (out.setback_overshoot < kRounding) out.setback_overshoot = 0;

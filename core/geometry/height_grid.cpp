@@ -46,6 +46,14 @@ std::optional<double> HeightGrid::sample(double x, double y) const {
   return sum / weight;
 }
 
+std::optional<double> HeightGrid::lowest_along(std::span<const Point3> outline) const {
+  std::optional<double> least;
+  along(outline, cell, [&](const Point3& place) {
+    if (const auto height = sample(place.x, place.y)) least = std::min(least.value_or(*height), *height);
+  });
+  return least;
+}
+
 std::string height_row(std::span<const double> heights, double lowest, double step) {
   std::string row;
   row.reserve(3 * heights.size());

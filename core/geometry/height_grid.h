@@ -1,12 +1,16 @@
 // Heights on a regular grid as text: three characters for each height, so that any height is found without reading the others.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/vector.h"
 
 namespace bl::geometry {
 
@@ -26,7 +30,19 @@ struct HeightGrid {
   /// Bilinear between the four cells around the place. Nothing outside the centres of the outermost cells, and where cells that
   /// have a height weigh less than half.
   std::optional<double> sample(double x, double y) const;
+  /// The lowest height along an outline [m]; nothing where none of its places has one.
+  std::optional<double> lowest_along(std::span<const Point3> outline) const;
 };
+
+/// Every place of an outline at which a grid is looked at: corners, and between them four times in each of its cells.
+template <class Visit>
+void along(std::span<const Point3> outline, double cell, Visit visit) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const int steps = static_cast<int>(std::clamp(std::ceil(4 * distance(a, b) / cell), 1.0, 1e4));
+    for (int k = 0; k < steps; ++k) visit(a + (b - a) * (static_cast<double>(k) / steps));
+  }
+}
 
 /// A row of heights as text; what is not finite becomes kNothing, what lies beyond the range its nearest end.
 std::string height_row(std::span<const double> heights, double lowest, double step);

@@ -42,6 +42,8 @@ class Joiner {
   std::optional<std::size_t> row_called(std::size_t i, const std::string& name, ProgrammeColumn column);
   void join(std::size_t i, std::string& name, ProgrammeColumn column);
   void look_for_circles();
+  void give_to_building(ProgrammeRow& row, std::optional<double>& length, std::optional<double> ProgrammeRow::*which,
+                        const char* label);
   void leave_to_building(ProgrammeRow& row);
   std::size_t row_of(const std::string& use) const {
     const auto found = index_.find(use);
@@ -144,13 +146,28 @@ void Joiner::look_for_circles() {
   }
 }
 
+// A building has one footprint: what a row says of it counts where the row whose building it shares says nothing.
+void Joiner::give_to_building(ProgrammeRow& row, std::optional<double>& length, std::optional<double> ProgrammeRow::*which,
+                              const char* label) {
+  if (!length) return;
+  ProgrammeRow* host = &import_.rows[row_of(row.shares)];
+  while (!host->shares.empty()) host = &import_.rows[row_of(host->shares)];
+  const std::string begin = std::string("the ") + label + " of `" + row.use + "`";
+  if (!(host->*which)) {
+    host->*which = length;
+    note(row, begin + ", " + shortest(*length) + " m, holds for the building of `" + host->use + "` that it shares.");
+  } else if (host->*which != length) {
+    note(row, begin + " was left out: it shares the building of `" + host->use + "`, which has a " + label + " of " +
+                  shortest(*(host->*which)) + " m.");
+  }
+  length.reset();
+}
+
 // What a row says of its own footprint or ground has no place where another row decides.
 void Joiner::leave_to_building(ProgrammeRow& row) {
-  if (!row.shares.empty() && (row.depth || row.distance)) {
-    note(row, "the depth and the distance of `" + row.use + "` were left out: it shares the building of `" + row.shares +
-                  "`, whose row gives both.");
-    row.depth.reset();
-    row.distance.reset();
+  if (!row.shares.empty()) {
+    give_to_building(row, row.depth, &ProgrammeRow::depth, "depth");
+    give_to_building(row, row.distance, &ProgrammeRow::distance, "distance");
   }
   // The set-back that comes of it would hold from the edges of the roof, too, and nothing be left of a slim tower.
   if (!row.on.empty() && row.distance) {

@@ -128,6 +128,17 @@ class Planner {
         BuildingPart& host = plan_[*plan_[v].host];
         host.cellar_storeys = std::max(host.cellar_storeys, std::exchange(plan_[v].cellar_storeys, 0));
       }
+    for (std::size_t v = 0; v < plan_.size(); ++v)
+      if (!plan_[v].host) plan_[v].depth = depth_of(v);
+  }
+
+  double depth_of(std::size_t host) const {
+    if (const auto& said = rows_[volumes_[host].row].depth) return *said;
+    double least = 0;
+    for (const std::size_t v : sharers_[host])
+      if (const UseRates* rates = rates_of(rows_[volumes_[v].row]); rates != nullptr && rates->building_depth > 0)
+        least = least > 0 ? std::min(least, rates->building_depth) : rates->building_depth;
+    return least;
   }
 
   // A row below the ground becomes storeys under the buildings with the largest footprints, or under those that it names.
@@ -188,6 +199,11 @@ class Planner {
 };
 
 }  // namespace
+
+const UseRates* rates_of(const importing::ProgrammeRow& row) {
+  const UseRates* rates = use_rates(row.use);
+  return rates != nullptr && rates->is_open == row.is_open ? rates : nullptr;
+}
 
 std::size_t root_of(const std::vector<BuildingPart>& plan, std::size_t volume) {
   while (plan[volume].host || plan[volume].base) volume = plan[volume].host ? *plan[volume].host : *plan[volume].base;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/making/new_scene.h"
+#include "core/making/use_rates.h"
 
 namespace bl::making {
 
@@ -18,6 +19,7 @@ struct BuildingPart {
   int order = 0;                 ///< among those that share a footprint
   int cellar_storeys = 0;
   double footprint = 0;  ///< estimate of the building's [m²]
+  double depth = 0;      ///< of a building, at its host: by its row, else the least that daylight allows its uses [m]; 0: any
   Vector3 offset;        ///< from the position of its base [m]
 };
 
@@ -25,6 +27,9 @@ struct BuildingPart {
 /// became of rows that lie below the ground.
 std::vector<BuildingPart> plan_buildings(const SceneParts& parts, const std::vector<NewVolume>& volumes, double ground,
                                          const Vector3& along, std::vector<std::string>& notes);
+
+/// Figures of built uses are not those of open space of the same name, and the other way round; nullptr where none are known.
+const UseRates* rates_of(const importing::ProgrammeRow& row);
 
 /// The volume with ground of its own under a volume: itself, or what carries or holds it.
 std::size_t root_of(const std::vector<BuildingPart>& plan, std::size_t volume);

@@ -271,9 +271,8 @@ class Import {
                              std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
                                          [](const auto& entry) { return entry.second.types.contains("terrain"); });
     if (has_terrain && from_ground_ > 0)
-      result_.notes.push_back(how_many(from_ground_, "building or piece of street", "buildings and pieces of street") +
-                              by_number(from_ground_, " has heights above the ground only: it stands",
-                                        " have heights above the ground only: they stand") +
+      result_.notes.push_back(how_many(from_ground_, "piece of street", "pieces of street") +
+                              by_number(from_ground_, " has no height: it is drawn", " have no height: they are drawn") +
                               " at 0, and the terrain, whose heights count from the sea, lies above or below.");
   }
 
@@ -313,7 +312,6 @@ class Import {
     if (!told(file, context)) return;
     if (!o_.kind.empty() && format != Format::geojson)
       result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
-    for (const importing::ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
@@ -367,7 +365,7 @@ class Import {
   bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
   bool has_terrain_ = false;          // some file was read as one
   NodeMaking making_;
-  std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
+  std::size_t from_ground_ = 0;  // streets
   ImportedScene result_;
 };
 

@@ -51,7 +51,8 @@ void name_all(importing::ImportReport& report, const std::string& id) {
 
 }  // namespace
 
-ContextNodes::ContextNodes(const Scene& scene, const Registry& registry) : registry_(&registry), earlier_(scene, registry) {
+ContextNodes::ContextNodes(const Scene& scene, const Registry& registry)
+    : registry_(&registry), terrains_(terrains_of(scene, registry)), earlier_(scene, registry) {
   for (const auto& [id, node] : scene.nodes) taken_.insert(id);
 }
 
@@ -213,14 +214,18 @@ std::string ContextNodes::clear_building(const importing::ContextBuilding& build
   return id;
 }
 
-std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(const importing::ContextBuilding& building,
+std::pair<std::string, EarlierImports::Fate> ContextNodes::add_building(importing::ContextBuilding building,
                                                                         const NodeMaking& making) {
+  // On a terrain of the scene it stands on its lowest ground.
+  if (const auto ground = building.is_above_sea ? std::nullopt : lowest_along(terrains_, building.outer))
+    building.base += *ground;
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
       ports["holes"].push_back(
           {{"name", "court " + std::to_string(h + 1)}, {"x", tidy_length(corner.x)}, {"y", tidy_length(corner.y)}});
   ports["base"] = tidy_length(building.base);
+  if (building.is_above_sea) ports["is_above_sea"] = true;
   ports["height"] = std::max(0.01, tidy_length(building.height));
   ports["height_source"] = std::string(name_of(building.height_source));
   if (building.storey_height > 0) ports["storey_height"] = tidy_length(building.storey_height);

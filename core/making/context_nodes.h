@@ -12,6 +12,7 @@
 #include "core/import/data_layer.h"
 #include "core/import/terrain_grid.h"
 #include "core/making/earlier_imports.h"
+#include "core/making/scene_ground.h"
 #include "core/making/site_buildings.h"
 #include "core/session/commands.h"
 
@@ -71,7 +72,7 @@ class ContextNodes {
   std::string clear_building(const importing::ContextBuilding& building, std::size_t number, SiteBuildings& sites);
   void add_buildings(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites,
                      importing::ImportReport& report, Unused& unused);
-  std::pair<std::string, EarlierImports::Fate> add_building(const importing::ContextBuilding& building, const NodeMaking& making);
+  std::pair<std::string, EarlierImports::Fate> add_building(importing::ContextBuilding building, const NodeMaking& making);
   void add_streets(const importing::Context& context, const NodeMaking& making, importing::ImportReport& report, Unused& unused);
   std::string add_junction(const importing::ContextJunction& junction, const Json& turns);
   void add_street(const std::string& id, const importing::ContextStreet& piece, const std::string& start, const std::string& end,
@@ -83,6 +84,7 @@ class ContextNodes {
   void reach(const Point3& point);
 
   const Registry* registry_;
+  std::vector<SceneTerrain> terrains_;  // of the scene before
   EarlierImports earlier_;
   bool is_again_ = false;
   std::set<std::string> taken_;

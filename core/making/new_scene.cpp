@@ -62,12 +62,6 @@ double block_angle(const geometry::Ring& plan) {
   return std::round(angle * 1000) / 1000 + 0.0;
 }
 
-// Figures of built uses are not those of open space of the same name, and the other way round.
-const UseRates* rates_of(const importing::ProgrammeRow& row) {
-  const UseRates* rates = use_rates(row.use);
-  return rates != nullptr && rates->is_open == row.is_open ? rates : nullptr;
-}
-
 class Builder {
  public:
   Builder(const SceneParts& parts, const std::vector<BuildingPart>& buildings)
@@ -226,9 +220,7 @@ class Builder {
     if (building.host) return footprint;
     if (angle_ != 0) footprint["angle"] = angle_;
     if (building.cellar_storeys != 0) footprint["cellar_storeys"] = building.cellar_storeys;
-    const UseRates* rates = rates_of(row);
-    const double depth = row.depth.value_or(rates == nullptr ? 0 : rates->building_depth);
-    if (depth > 0) {
+    if (const double depth = building.depth; depth > 0) {
       footprint["depth"] = depth;
       // A bar of that depth, until it would be so long that a courtyard is the better form. A square of the depth d around a
       // courtyard with the plate A has sides of A / (4 d) + d, and its courtyard has sides of A / (4 d) - d.

@@ -6,13 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/mathematics.h"
 #include "core/base/plural.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/geometry/plan_ring.h"
 #include "core/making/addition_checks.h"
+#include "core/making/garden_outline.h"
 #include "core/making/open_rows.h"
+#include "core/making/room_left.h"
+#include "core/making/scene_ground.h"
 #include "core/making/site.h"
 #include "core/making/use_rates.h"
 #include "core/session/commands.h"
@@ -22,11 +24,11 @@ namespace bl::making {
 namespace {
 
 constexpr double kHighestRule = 10000;  // [m]
-constexpr double kHalfTurn = 3.14159265358979323846;
 // A garden whose corners leave out less of its rectangle is said to be one.
 constexpr double kRectangle = 0.02;  // [ratio]
 // A garden of which less lies in a boundary touches it only.
-constexpr double kTouch = 1e-6;  // [ratio]
+constexpr double kTouch = 1e-6;       // [ratio]
+constexpr double kLeastShared = 0.5;  // [m²] with what is left out already, to be told
 
 Error refused(const std::string& place, const std::string& sentence) { return {ErrorCode::out_of_range, place, sentence}; }
 
@@ -230,9 +232,11 @@ Result<void> Adding::leave_out(const std::string& name, const std::string& use, 
     reaches_any = true;
     const std::string laid = has_taken_place || site.leaves_out(name) ? "" : laid_by_new(scene_, site, use, corners);
     has_taken_place = has_taken_place || !laid.empty();
-    const bool had_some =
-        site.replace([&](const std::string& other) { return other == name || (!laid.empty() && other == laid); },
-                     {{name, use, corners, site.bottom, site.top}});
+    const auto is_old = [&](const std::string& other) { return other == name || (!laid.empty() && other == laid); };
+    const bool had_some = site.replace(is_old, {});
+    const double before = ground_of(site, false);
+    (void)site.replace(is_old, {{name, use, corners, site.bottom, site.top}});
+    const double taken = std::min(common, before - ground_of(site, false));
     const PortDefinition& port = *registry_.typification("boundary")->find_port("exclusions");
     set(site.id, "boundary.exclusions", value_to_json(Shared<Table>(site.rows), port));
     say("The boundary `" + site.id + "` leaves out " +
@@ -240,59 +244,16 @@ Result<void> Adding::leave_out(const std::string& name, const std::string& use, 
              ? "its " + fixed(whole, 1) + " m²"
              : "the " + fixed(common, 1) + " m² of it that lie inside, of " + fixed(whole, 1) + " m²") +
         ": open space, which plots count as not built." +
+        (common - taken > kLeastShared
+             ? " Of these, " + fixed(common - taken, 1) +
+                   " m² were left out before, as a street or another open space, and count there: move it where it has all."
+             : "") +
         (!laid.empty() ? " It takes the place of the rectangle `" + laid + "`, which `new` had laid for `" + use + "`."
          : had_some    ? " What it left out as `" + name + "` before is replaced."
                        : ""));
   }
   if (!reaches_any) say("No boundary reaches it, so that none leaves its ground out.");
   return {};
-}
-
-Result<std::vector<Point3>> read_corners(const std::vector<std::string>& texts) {
-  std::vector<Point3> corners;
-  for (const std::string& text : texts) {
-    const std::size_t comma = text.find(',');
-    const auto x = parse_number(text.substr(0, comma)),
-               y = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
-    if (!x || !y || std::abs(*x) > 1e8 || std::abs(*y) > 1e8)
-      return Error{ErrorCode::parse, "--corners", "expects corners such as 10,20 in metres of the scene, found `" + text + "`"};
-    corners.push_back({*x, *y, 0});
-  }
-  if (corners.size() < 3)
-    return Error{ErrorCode::missing, "--corners", "a garden needs 3 corners or more, found " + std::to_string(corners.size())};
-  if (const auto crossing = geometry::find_self_crossing(corners))
-    return Error{ErrorCode::geometry, "--corners",
-                 "the outline meets itself at (" + fixed(crossing->where.x, 2) + ", " + fixed(crossing->where.y, 2) +
-                     "): name the corners in order around it"};
-  return corners;
-}
-
-// The rectangle along the longest side that holds all corners.
-struct Rectangle {
-  Point3 middle;
-  double width = 0, depth = 0;  // [m]
-  double rotation = 0;          // [degree]
-  double beyond = 0;            // [ratio] of it that lies outside of the corners
-};
-Rectangle around(const std::vector<Point3>& corners) {
-  Vector3 axis{1, 0, 0};
-  double longest = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector3 side = corners[(i + 1) % corners.size()] - corners[i];
-    if (norm(side) > longest + 1e-9) longest = norm(side), axis = side / norm(side);
-  }
-  // To the east, so that equal gardens have equal angles.
-  if (axis.x < 0 || (axis.x == 0 && axis.y < 0)) axis = -1 * axis;
-  const Vector3 across{-axis.y, axis.x, 0};
-  double low_u = INFINITY, high_u = -INFINITY, low_v = INFINITY, high_v = -INFINITY;
-  for (const Point3& p : corners) {
-    low_u = std::min(low_u, dot(p, axis)), high_u = std::max(high_u, dot(p, axis));
-    low_v = std::min(low_v, dot(p, across)), high_v = std::max(high_v, dot(p, across));
-  }
-  Rectangle box{axis * ((low_u + high_u) / 2) + across * ((low_v + high_v) / 2), high_u - low_u, high_v - low_v, 0, 0};
-  box.rotation = mathematics::arc_tangent(axis.y, axis.x) * 180 / kHalfTurn;
-  box.beyond = 1 - std::abs(geometry::signed_area(corners)) / (box.width * box.depth);
-  return box;
 }
 
 double to_millimetres(double value) { return std::round(value * 1000) / 1000 + 0.0; }
@@ -351,6 +312,8 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
                    "`" + id + "` is neither a plot nor a boundary with a plan, which would become one"};
     ports["polygon"] = Json::array();
     for (const Point3& corner : plan) ports["polygon"].push_back({corner.x, corner.y, 0.0});
+    for (const Site& site : sites_of(scene, registry))
+      if (site.id == id && site.bottom != 0) ports["ground"] = site.bottom;
     adding.role(id, "plot", ports);
     adding.say("The boundary `" + id + "` is a plot as well now.");
   }
@@ -418,8 +381,9 @@ Result<Addition> add_garden(const Scene& scene, const Registry& registry, const 
     }
     const Rectangle box = around(corners);
     if (!(box.depth > 0.01)) return Error{ErrorCode::geometry, "--corners", "the garden has no area"};
+    const double ground = ground_at(scene, registry, box.middle);
     adding.node(id, {{"name", "Garden"},
-                     {"position", {to_millimetres(box.middle.x), to_millimetres(box.middle.y), 0.0}},
+                     {"position", {to_millimetres(box.middle.x), to_millimetres(box.middle.y), to_millimetres(ground)}},
                      {"types",
                       {{"shadow_receiver",
                         {{"width", to_millimetres(box.width)},

@@ -82,6 +82,14 @@ std::vector<Site> sites_of(const Scene& scene, const Registry& registry) {
   return sites;
 }
 
+bool is_on(const Site& site, const Point3& place) {
+  return std::any_of(site.grounds.begin(), site.grounds.end(), [&](const std::vector<geometry::Ring>& rings) {
+    std::size_t around = 0;
+    for (const geometry::Ring& ring : rings) around += geometry::ring_contains(ring, place) ? 1 : 0;
+    return around % 2 == 1;
+  });
+}
+
 double area_on(const std::vector<geometry::Ring>& ground, const importing::PlanShape& shape) {
   const importing::PlanBox box = importing::plan_box(*shape.front()), other = importing::plan_box(ground.front());
   const bool is_apart = box.west >= other.east || box.east <= other.west || box.south >= other.north || box.north <= other.south;

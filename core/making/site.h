@@ -41,6 +41,9 @@ struct Site {
 /// All boundaries whose outline is known, with whatever form: of a hull or a mesh the ground is all that lies under it.
 std::vector<Site> sites_of(const Scene& scene, const Registry& registry);
 
+/// Does a place lie on the ground of a site, whatever its height is?
+bool is_on(const Site& site, const Point3& place);
+
 /// What of the shape lies on a ground [m²].
 double area_on(const std::vector<geometry::Ring>& ground, const importing::PlanShape& shape);
 

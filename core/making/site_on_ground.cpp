@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -13,8 +14,9 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/geometry/domain_table.h"
-#include "core/geometry/height_grid.h"
+#include "core/making/earlier_imports.h"
 #include "core/making/named_list.h"
+#include "core/making/scene_ground.h"
 #include "core/making/site.h"
 #include "core/making/tidy_length.h"
 #include "core/session/commands.h"
@@ -25,35 +27,6 @@ namespace {
 
 constexpr double kSameHeight = 0.01;   // [m]
 constexpr double kLeastCovered = 0.5;  // [ratio] of a site; with less the terrain does not say how the site lies
-constexpr double kOneStorey = 3;       // [m]
-
-// A terrain of the scene; the rows of its grid stay in the scene.
-struct Ground {
-  std::string id;
-  geometry::HeightGrid grid;
-};
-
-std::optional<Ground> ground_of(const Scene& scene, const Registry& registry, const std::string& id) {
-  const TypificationDefinition* type = registry.typification("terrain");
-  const NodeRecord& node = scene.nodes.find(id)->second;
-  const auto* rows = std::get_if<Shared<Table>>(&set_value(scene, node, *type, *type->find_port("rows")));
-  if (rows == nullptr) return std::nullopt;
-  const auto number = [&](const char* port) { return as_number(set_value(scene, node, *type, *type->find_port(port))); };
-  Ground ground{id, {number("west"), number("north"), number("cell"), number("lowest"), number("step"), {}}};
-  const std::size_t column = (*rows)->column("heights");
-  for (const TableRow& row : (*rows)->rows)
-    if (const auto* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr)
-      ground.grid.rows.push_back(*text);
-  return ground.grid.columns() > 0 && ground.grid.cell > 0 ? std::optional(std::move(ground)) : std::nullopt;
-}
-
-bool is_inside(const Site& site, const Point3& place) {
-  return std::any_of(site.grounds.begin(), site.grounds.end(), [&](const std::vector<geometry::Ring>& rings) {
-    std::size_t around = 0;
-    for (const geometry::Ring& ring : rings) around += geometry::ring_contains(ring, place) ? 1 : 0;
-    return around % 2 == 1;
-  });
-}
 
 // The heights of the ground below a site [m], and for how much of it the terrain has some.
 struct Below {
@@ -75,16 +48,12 @@ Below below(const Site& site, const geometry::HeightGrid& grid) {
   Below found;
   double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
   for (const std::vector<geometry::Ring>& rings : site.grounds)
-    for (const geometry::Ring& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Point3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    for (const geometry::Ring& ring : rings) {
+      for (const Point3& a : ring) {
         west = std::min(west, a.x), east = std::max(east, a.x), south = std::min(south, a.y), north = std::max(north, a.y);
-        const int steps = static_cast<int>(std::clamp(std::ceil(4 * distance(a, b) / grid.cell), 1.0, 1e4));
-        for (int k = 0; k < steps; ++k) {
-          const Point3 place = a + (b - a) * (static_cast<double>(k) / steps);
-          found.add(grid.sample(place.x, place.y));
-        }
       }
+      geometry::along(ring, grid.cell, [&](const Point3& place) { found.add(grid.sample(place.x, place.y)); });
+    }
   const auto index = [](double value, std::size_t most) {
     return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(most)));
   };
@@ -95,7 +64,7 @@ Below below(const Site& site, const geometry::HeightGrid& grid) {
     for (std::size_t column = index((west - grid.west) / grid.cell, last_column); column <= last_column; ++column) {
       const double x = grid.west + static_cast<double>(column) * grid.cell;
       if (x > east) break;
-      if (is_inside(site, {x, y, 0})) found.add(grid.at(row, column));
+      if (is_on(site, {x, y, 0})) found.add(grid.at(row, column));
     }
   }
   return found;
@@ -107,18 +76,19 @@ class Standing {
       : before_(before), scene_(after), registry_(registry) {}
 
   SitesOnGround run() {
-    std::vector<Ground> grounds;
-    for (const auto& [id, node] : scene_.nodes)
-      if (node.types.contains("terrain"))
-        if (auto ground = ground_of(scene_, registry_, id)) grounds.push_back(std::move(*ground));
+    old_grounds_ = terrains_of(before_, registry_);
+    const std::vector<SceneTerrain> grounds = terrains_of(scene_, registry_);
+    lift_buildings(grounds);
     const std::vector<Site> sites = sites_of(scene_, registry_);
     is_alone_ = sites.size() == 1;
     for (const Site& site : sites) {
-      const Ground* best = nullptr;
+      const SceneTerrain* best = nullptr;
       Below most;
-      for (const Ground& ground : grounds)
+      for (const SceneTerrain& ground : grounds)
         if (const Below found = below(site, ground.grid); found.covered() > most.covered()) best = &ground, most = found;
       if (best != nullptr) stand(site, *best, most);
+      else tell_beside(site, grounds);
+      tell_unused(site, grounds);
     }
     return std::move(made_);
   }
@@ -136,12 +106,71 @@ class Standing {
     set(node, std::string("boundary.") + port, value_to_json(Shared<Table>(std::move(table)), definition));
   }
 
-  void stand(const Site& site, const Ground& ground, const Below& found) {
+  // Buildings whose heights count from the ground, and which people have left as an import has set them.
+  void lift_buildings(const std::vector<SceneTerrain>& grounds) {
+    std::size_t count = 0;
+    for (const auto& [id, node] : scene_.nodes) {
+      const auto types = node.types.find("imported");
+      if (types == node.types.end() || !node.types.contains("existing_building")) continue;
+      if (std::get<bool>(value(node, "existing_building", "is_above_sea"))) continue;
+      const auto outline = std::get<Shared<std::vector<Point3>>>(value(node, "existing_building", "outline"));
+      const auto ground = lowest_along(grounds, *outline);
+      if (!ground) continue;
+      const double rise = *ground - lowest_along(old_grounds_, *outline).value_or(0);
+      if (std::abs(rise) < kSameHeight) continue;
+      NodeRecord lifted = node;
+      Point3 place = std::get<Vector3>(value(node, "node", "position"));
+      const double base = as_number(value(node, "existing_building", "base"));
+      place.z = tidy_length(place.z + rise);
+      lifted.types["node"]["position"] = place;
+      lifted.types["existing_building"]["base"] = tidy_length(base + rise);
+      set_as_imported(lifted, node, registry_);
+      const Value& read = lifted.types["imported"]["as_read"];
+      // Where people have changed it already, they may have set where it begins.
+      if (read == types->second.at("as_read") && base != 0) continue;
+      set(id, "existing_building.base", tidy_length(base + rise));
+      set(id, "node.position", {place.x, place.y, place.z});
+      set(id, "imported.as_read", std::get<std::string>(read));
+      lifted_.insert(id);
+      ++count;
+    }
+    if (count > 0)
+      made_.notes.push_back(
+          how_many(count, "building") + by_number(count, " of the surroundings has", " of the surroundings have") +
+          " heights above the ground: " + by_number(count, "it stands", "each stands") + " on its lowest ground now.");
+  }
+
+  // A further terrain below a site whose volumes follow another one.
+  void tell_unused(const Site& site, const std::vector<SceneTerrain>& grounds) {
+    for (const auto& [id, link] : scene_.links)
+      for (const SceneTerrain& ground : grounds) {
+        const NodeRecord& node = scene_.nodes.find(ground.id)->second;
+        if (link.kind != "terrain_follow" || before_.nodes.contains(ground.id) ||
+            selects(registry_, link.from, ground.id, node) || !(below(site, ground.grid).covered() > 0))
+          continue;
+        made_.warnings.push_back("The terrain `" + ground.id + "` lies below the site `" + site.id +
+                                 "` too, and its volumes "
+                                 "stand on another one, by the link `" +
+                                 id + "`: connect that link to `" + ground.id + "`, or remove one of the terrains.");
+      }
+  }
+
+  void tell_beside(const Site& site, const std::vector<SceneTerrain>& grounds) {
+    for (const SceneTerrain& ground : grounds)
+      if (!before_.nodes.contains(ground.id))
+        made_.warnings.push_back("The terrain `" + ground.id + "` has no height anywhere on the site `" + site.id +
+                                 "`, which stays at " + fixed(site.bottom, 1) +
+                                 " m: import one that covers the site, with a larger --radius or another file.");
+  }
+
+  void stand(const Site& site, const SceneTerrain& ground, const Below& found) {
     const NodeRecord& node = scene_.nodes.find(site.id)->second;
-    // Down to a centimetre; whole ones stay, whatever the last bits of the grid are.
-    const double lowest = tidy_length(std::floor(found.lowest * 100 + 1e-3) / 100);
+    const double lowest = floor_of(found.lowest);
     const bool is_plan = std::get<std::string>(value(node, "boundary", "form")) == "plan";
-    const bool is_new = !before_.nodes.contains(ground.id), is_unsaid = !node.types.at("boundary").contains("bottom");
+    const SceneTerrain* old = old_ground(site, ground, lowest);
+    // What an import has set to the ground that a terrain had goes with the terrain.
+    const bool is_new = !before_.nodes.contains(ground.id) || old != nullptr;
+    const bool is_unsaid = !node.types.at("boundary").contains("bottom") || old != nullptr;
     const bool is_apart = site.bottom > found.highest + kSameHeight || site.bottom < lowest - kSameHeight;
     const std::string heights = "The ground below the site `" + site.id + "` lies between " + fixed(found.lowest, 1) + " and " +
                                 fixed(found.highest, 1) + " m, the site at " + fixed(site.bottom, 1) + " m";
@@ -158,7 +187,7 @@ class Standing {
     }
     if (!is_new) return;
     std::string sentence;
-    if (is_unsaid && std::abs(lowest - site.bottom) > kSameHeight) sentence = lift(site, node, ground, found, lowest);
+    if (is_unsaid && std::abs(lowest - site.bottom) > kSameHeight) sentence = lift(site, node, {ground, old}, found, lowest);
     const std::string link = add_link(ground);
     if (!link.empty())
       sentence += (sentence.empty() ? heights + ". The link `" : " The link `") + link + "` sets all volumes that stand on it.";
@@ -169,6 +198,29 @@ class Standing {
                                "` is off.");
   }
 
+  // A terrain, and as it was before.
+  struct Change {
+    const SceneTerrain& ground;
+    const SceneTerrain* old;
+    // How much higher the ground is now at a place; `lowest` and `bottom`: of the site, where the terrains say nothing.
+    double at(const Point3& place, double lowest, double bottom) const {
+      const auto before = old == nullptr ? std::optional<double>() : old->grid.sample(place.x, place.y);
+      return ground.grid.sample(place.x, place.y).value_or(lowest) - before.value_or(bottom);
+    }
+  };
+
+  // The terrain as it was, where the site began at its lowest ground and that is another one now.
+  const SceneTerrain* old_ground(const Site& site, const SceneTerrain& ground, double lowest) const {
+    for (const SceneTerrain& old : old_grounds_)
+      if (old.id == ground.id && std::abs(lowest - site.bottom) > kSameHeight &&
+          std::abs(floor_of(below(site, old.grid).lowest) - site.bottom) < kSameHeight)
+        return &old;
+    return nullptr;
+  }
+
+  // Down to a centimetre; whole ones stay, whatever the last bits of the grid are.
+  static double floor_of(double lowest) { return tidy_length(std::floor(lowest * 100 + 1e-3) / 100); }
+
   static std::string percent(double ratio) { return fixed(std::floor(100 * ratio), 0) + " %"; }
   std::string remedy(const Below& found, bool is_plan, double lowest) const {
     if (found.covered() < kLeastCovered) return "Import a terrain that covers the site, with a larger --radius.";
@@ -177,43 +229,51 @@ class Standing {
   }
 
   // The sentence about it.
-  std::string lift(const Site& site, const NodeRecord& node, const Ground& ground, const Below& found, double lowest) {
+  std::string lift(const Site& site, const NodeRecord& node, const Change& change, const Below& found, double lowest) {
     const double rise = lowest - site.bottom, height = as_number(value(node, "boundary", "height"));
+    // Uphill there is as much room above the ground as there was.
+    const double more =
+        tidy_length(relief_of(found) - (change.old == nullptr ? 0 : relief_of(below(site, change.old->grid))));
     set(site.id, "boundary.bottom", lowest);
-    lift_exclusions(site, rise, lowest);
-    lift_tables(site.id, node, rise);
-    lift_nodes(site, ground, rise, lowest);
-    if (const double above = lowest + height - found.highest; above < kOneStorey)
-      made_.warnings.push_back("The site `" + site.id + "` ends " + fixed(std::abs(above), 1) + " m " +
-                               (above < 0 ? "below" : "above") + " its highest ground: raise its `height` of " +
-                               shortest(height) + " m, so that volumes fit there.");
+    if (more != 0) set(site.id, "boundary.height", tidy_length(height + more));
+    lift_exclusions(site, rise, more, lowest);
+    lift_tables(site.id, node, rise, more);
+    lift_nodes(site, change, rise, lowest);
     return "The site `" + site.id + "` begins at " + fixed(lowest, 2) + " m now, its lowest ground, instead of " +
-           shortest(site.bottom) + " m, and keeps its height of " + shortest(height) + " m; its highest ground lies at " +
-           fixed(found.highest, 2) + " m.";
+           shortest(site.bottom) + " m, and " +
+           (more == 0 ? "keeps its height of " + shortest(height) + " m; its"
+                      : "its height is " + shortest(tidy_length(height + more)) + " m instead of " + shortest(height) +
+                            " m, because its") +
+           " ground rises up to " + fixed(found.highest, 2) + " m.";
+  }
+
+  // [m], in whole centimetres
+  static double relief_of(const Below& found) {
+    return found.known == 0 ? 0 : tidy_length(std::ceil(found.highest * 100 - 1e-3) / 100) - floor_of(found.lowest);
   }
 
   // What reaches over the whole height of the site still does; what ends below the ground counted from it, all else from the sea.
-  void lift_exclusions(const Site& site, double rise, double lowest) {
+  void lift_exclusions(const Site& site, double rise, double more, double lowest) {
     Table rows = site.rows;
     const std::size_t name = rows.column("name"), bottom = rows.column("bottom"), top = rows.column("top");
     for (const geometry::NamedRing& ring : geometry::read_rings(site.rows)) {
-      const bool is_whole = ring.bottom <= site.bottom && std::abs(ring.top - site.top) < kSameHeight;
+      const bool is_whole = ring.bottom <= site.bottom && ring.top > site.top - kSameHeight;
       if (!is_whole && ring.top > lowest) continue;
       for (TableRow& row : rows.rows)
         if (std::get<std::string>(row[name]) == ring.name) {
           row[bottom] = tidy_length(ring.bottom + rise);
-          row[top] = tidy_length(ring.top + rise);
+          row[top] = tidy_length(ring.top + rise + (is_whole ? more : 0));
         }
     }
     if (rows != site.rows) set_table(site.id, "exclusions", std::move(rows));
   }
 
-  void lift_tables(const std::string& id, const NodeRecord& node, double rise) {
+  void lift_tables(const std::string& id, const NodeRecord& node, double rise, double more) {
     const auto rows_of = [&](const char* port) { return *std::get<Shared<Table>>(value(node, "boundary", port)); };
     if (Table steps = rows_of("steps"); !steps.rows.empty()) {
       const std::size_t top = steps.column("top");
       for (const geometry::NamedRing& ring : geometry::read_rings(steps))
-        steps.rows[ring.first_row][top] = tidy_length(ring.top + rise);
+        steps.rows[ring.first_row][top] = tidy_length(ring.top + rise + more);
       set_table(id, "steps", std::move(steps));
     }
     if (Table planes = rows_of("setbacks"); !planes.rows.empty()) {
@@ -228,13 +288,13 @@ class Standing {
   }
 
   // Plots count heights from their ground; rounded volumes and places whose sun counts have heights of their own.
-  void lift_nodes(const Site& site, const Ground& ground, double rise, double lowest) {
+  void lift_nodes(const Site& site, const Change& change, double rise, double lowest) {
     std::size_t sunk = 0;
     for (const auto& [id, node] : scene_.nodes) {
       const Point3 place = std::get<Vector3>(value(node, "node", "position"));
       const bool is_rounded = node.types.contains("smart_volume") && !node.types.contains("footprint");
       const bool is_imported = node.types.contains("imported");
-      if (node.types.contains("existing_building"))
+      if (node.types.contains("existing_building") && !lifted_.contains(id))
         sunk +=
             as_number(value(node, "existing_building", "base")) + as_number(value(node, "existing_building", "height")) <= lowest
                 ? 1
@@ -247,15 +307,16 @@ class Standing {
           set(id, "plot.ground", lowest);
       }
       if (is_imported || !(is_rounded || node.types.contains("shadow_receiver"))) continue;
-      if (!is_inside(site, place) && !(is_rounded && is_alone_)) continue;
-      const double up = is_rounded ? rise : ground.grid.sample(place.x, place.y).value_or(lowest) - site.bottom;
+      if (!is_on(site, place) && !(is_rounded && is_alone_)) continue;
+      const double up = is_rounded ? rise : change.at(place, lowest, site.bottom);
       set(id, "node.position", {tidy_length(place.x), tidy_length(place.y), tidy_length(place.z + up)});
     }
     if (sunk > 0)
-      made_.warnings.push_back(
-          how_many(sunk, "building") + by_number(sunk, " of the surroundings ends", " of the surroundings end") +
-          " below the ground of the site, because " + by_number(sunk, "its heights count", "their heights count") +
-          " from the ground: their shadows do not reach the site until `base` is the height of their ground.");
+      made_.warnings.push_back(how_many(sunk, "building") +
+                               by_number(sunk, " of the surroundings ends", " of the surroundings end") +
+                               " below the ground of the site, and the terrain does not reach " + by_number(sunk, "it", "them") +
+                               ", or people have set where " + by_number(sunk, "it begins", "they begin") +
+                               ": set `base` to the height of the ground there, or no shadow reaches the site.");
   }
 
   bool has_link() const {
@@ -264,7 +325,7 @@ class Standing {
   }
 
   // One for all volumes of the scene; its id; empty where there is one already, or no volume stands.
-  std::string add_link(const Ground& ground) {
+  std::string add_link(const SceneTerrain& ground) {
     const bool is_any = std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
                                     [](const auto& entry) { return entry.second.types.contains("footprint"); });
     if (!is_any || is_linked_ || has_link()) return "";
@@ -279,6 +340,8 @@ class Standing {
   const Scene &before_, &scene_;
   const Registry& registry_;
   bool is_alone_ = false, is_linked_ = false;
+  std::set<std::string> lifted_;           // buildings
+  std::vector<SceneTerrain> old_grounds_;  // of the scene before
   SitesOnGround made_;
 };
 

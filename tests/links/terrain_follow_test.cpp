@@ -57,7 +57,29 @@ TEST(TerrainFollow, VolumesStandOnASlopeFromTheFirstTickOn) {
     EXPECT_NEAR(world.number(node, "smart_volume.bottom"), world.number(node, "footprint.ground"), 1e-12) << node;
     EXPECT_NEAR(world.point(node, "node.position").z, 0, 1e-12) << "it is not moved";
   }
-  EXPECT_GT(world.number("high", "smart_volume.bottom"), world.number("low", "smart_volume.bottom"));
+  // 1 m in 10 m: 94 m² reach 5 m downhill from the position, and hang nowhere above the slope.
+  EXPECT_NEAR(world.number("low", "smart_volume.bottom"), 4 - 0.5, 0.06);
+  EXPECT_NEAR(world.number("high", "smart_volume.bottom"), 8 - 0.5, 0.06);
+}
+
+// The largest height counts from where each stands: uphill nobody loses storeys to the ground.
+TEST(TerrainFollow, TheHeightOfARuleCountsFromTheGroundOfEachVolume) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "hill", "types": {"terrain": {"rows": [{"heights": "AAAAH0APoAXcAfQAnEAu4A2s"}, {"heights": "AAAAH0APoAXcAfQAnEAu4A2s"},
+     {"heights": "AAAAH0APoAXcAfQAnEAu4A2s"}, {"heights": "AAAAH0APoAXcAfQAnEAu4A2s"}, {"heights": "AAAAH0APoAXcAfQAnEAu4A2s"},
+     {"heights": "AAAAH0APoAXcAfQAnEAu4A2s"}], "west": -10, "north": 45}}},
+    {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [60, 0, 0], [60, 40, 0], [0, 40, 0]], "height": 60},
+     "plot": {"polygon": [[0, 0, 0], [60, 0, 0], [60, 40, 0], [0, 40, 0]], "height_max": 10}}},
+    {"id": "solver", "types": {"standing_solver": {}}},
+    {"id": "low", "position": [10, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"storeys": 4}}},
+    {"id": "high", "position": [25, 20, 0], "types": {"smart_volume": {"demand": 900}, "footprint": {"storeys": 4}}}], "links": [
+    {"id": "rules", "kind": "plot_rules", "from": "site", "to": {"typification": "smart_volume"}},
+    {"id": "on", "kind": "terrain_follow", "from": "hill", "to": {"typification": "footprint"}}]})");
+  world.tick(60);
+  EXPECT_GT(world.number("high", "smart_volume.bottom"), 4 + world.number("low", "smart_volume.bottom"));
+  for (const char* node : {"low", "high"}) EXPECT_EQ(world.number(node, "footprint.storeys_held"), 3) << node;
+  EXPECT_NEAR(world.number("site", "plot.top"), 9.6, 1e-9);
+  EXPECT_EQ(world.number("site", "plot.overshoot"), 0);
 }
 
 TEST(TerrainFollow, SceneStandsFiveMetresAboveTheSlope) {

@@ -145,6 +145,15 @@ TEST_F(Add, AnOpenGardenTakesGroundThatCountsAsNotBuilt) {
   EXPECT_EQ(add({"garden", "--id", "garden", "--open"}).code, 2);
 }
 
+// What lies on another open space counts there.
+TEST_F(Add, AnOpenGardenOnAnotherOneSaysWhatItDoesNotGet) {
+  ASSERT_EQ(add({"garden", "--corners", "0,0", "20,0", "20,10", "0,10", "--open"}).code, 0);
+  const Outcome second = add({"garden", "--corners", "15,0", "35,0", "35,10", "15,10", "--open"});
+  EXPECT_NE(second.out.find("Of these, 50.0 m² were left out before, as a street or another open space, and count there"),
+            std::string::npos)
+      << second.out;
+}
+
 // A garden is left out wherever it lies in a boundary, whatever its corners and the boundary's form are.
 TEST_F(Add, AnOpenGardenIsLeftOutWhereverItReachesIn) {
   const auto ground = [&] {

@@ -39,6 +39,20 @@ class BuildingBrief : public testing::Test {
   Workplace place;
 };
 
+// A building has one footprint: its depth is that of the row which gives one.
+TEST_F(BuildingBrief, TheDepthOfARowThatSharesHoldsForTheBuilding) {
+  const Outcome made = make("use,floor_area_m2,storeys,shares,depth\nshops,1200,1,,\nflats,3600,3,shops,12\n");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(footprint("shops")["depth"], 12) << made.err;
+  EXPECT_NE((made.out + made.err).find("the depth of `flats`, 12 m, holds for the building of `shops` that it shares"),
+            std::string::npos)
+      << made.out << made.err;
+  const Outcome other = make("use,floor_area_m2,storeys,shares,depth\nshops,1200,1,,20\nflats,3600,3,shops,12\n");
+  EXPECT_EQ(footprint("shops")["depth"], 20);
+  EXPECT_NE((other.out + other.err).find("it shares the building of `shops`, which has a depth of 20 m"), std::string::npos)
+      << other.out << other.err;
+}
+
 TEST_F(BuildingBrief, ShopsBelowFlatsShareAFootprintInTheOrderOfRows) {
   const Outcome made = make(
       "use,floor_area_m2,count,storey_height_m,storeys,shares\nshops,600,2,4,1,\noffices,600,2,3.5,1,shops\n"

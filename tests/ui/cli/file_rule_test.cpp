@@ -238,8 +238,8 @@ std::vector<FileOption> file_options(const std::string& help) {
 TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
   const std::set<std::string> in_place = {"run --save", "script --out", "import --out", "place --out"};
   int pairs = 0;
-  std::vector<std::string> tasks = {"run", "new", "check", "docs", "schema", "replay", "erase", "minutes", "cells",
-                                    "fit", "assign", "import", "script", "compare", "place"};
+  std::vector<std::string> tasks = {"run",   "new", "check",  "docs",   "schema", "replay",  "erase", "minutes",
+                                    "cells", "fit", "assign", "import", "script", "compare", "place"};
   if (!kIsSanitized) tasks.push_back("bench");  // a build with sanitizers has none
   for (const std::string& task : tasks) {
     const bool is_bench = task == "bench";

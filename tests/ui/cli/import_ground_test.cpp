@@ -1,4 +1,7 @@
 // `import` of a terrain below a site: the site and its volumes stand on it, once; and what is told where they cannot.
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/ui/cli/program.h"
@@ -8,10 +11,10 @@ namespace bl::test {
 namespace {
 
 // A plane that rises to the east: 67 m at the western border of the site, 71 m at the eastern one.
-std::string plane_rows(int columns) {
+std::string plane_rows(int columns, int lowest = 66) {
   std::string text = "ncols " + std::to_string(columns) + "\nnrows 5\nxllcorner 84950\nyllcorner 446940\ncellsize 50\n";
   for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < columns; ++column) text += std::to_string(66 + 2 * column) + " ";
+    for (int column = 0; column < columns; ++column) text += std::to_string(lowest + 2 * column) + " ";
     text += "\n";
   }
   return text;
@@ -54,14 +57,15 @@ class ImportGround : public testing::Test {
 
 TEST_F(ImportGround, TheSiteIsLiftedAndVolumesStandOnTheSlope) {
   const Outcome done = import("hill.asc", "scene.json", "a.json");
-  EXPECT_NE(done.out.find("now, its lowest ground, instead of 0 m, and keeps its height of 25 m"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("now, its lowest ground, instead of 0 m, and its height is 29 m instead of 25 m"), std::string::npos)
+      << done.out;
   EXPECT_NE(done.out.find("The link `on_ground` sets all volumes"), std::string::npos) << done.out;
   const nlohmann::json boundary = ground_part(place.json("a.json"), "site")["boundary"];
   EXPECT_NEAR(boundary.value("bottom", 0.0), 67, 0.0101);
-  EXPECT_EQ(boundary["height"], 25);
+  EXPECT_NEAR(boundary.value("height", 0.0), 25 + 4, 0.0201) << "25 m above the highest ground";
   ASSERT_FALSE(boundary["exclusions"].empty()) << "the garden";
   EXPECT_NEAR(boundary["exclusions"][0].value("bottom", 0.0), 67, 0.0101) << "open over the whole height, as before";
-  EXPECT_NEAR(boundary["exclusions"][0].value("top", 0.0), 67 + 25, 0.0101);
+  EXPECT_NEAR(boundary["exclusions"][0].value("top", 0.0), 67 + boundary.value("height", 0.0), 1e-9);
   const nlohmann::json state = state_after_run("a.json");
   for (const char* volume : {"housing_1", "housing_2", "housing_3"}) {
     ASSERT_TRUE(state.contains(volume)) << state.dump();
@@ -71,6 +75,91 @@ TEST_F(ImportGround, TheSiteIsLiftedAndVolumesStandOnTheSlope) {
     EXPECT_NEAR(bottom, state[volume].value("footprint.ground", 0.0), 1e-9) << volume;
     EXPECT_NEAR(state[volume].value("smart_volume.floor_area", 0.0), 1200, 12) << volume;
   }
+}
+
+// Rules and gardens that come after the terrain count from the ground as those that were there before it.
+TEST_F(ImportGround, WhatIsAddedAfterTheTerrainLiesOnIt) {
+  (void)import("hill.asc", "scene.json", "a.json");
+  ASSERT_EQ(place.run({"add", "a.json", "rules", "--height", "15"}).code, 0);
+  ASSERT_EQ(place.run({"add", "a.json", "garden", "--corners", "-40,-20", "-20,-20", "-20,0", "-40,0"}).code, 0);
+  const nlohmann::json scene = place.json("a.json");
+  EXPECT_NEAR(ground_part(scene, "site")["plot"].value("ground", 0.0), 67, 0.0101);
+  const double middle = 0.5 * (67 + 71);
+  for (const auto& one : scene["nodes"])
+    if (one["id"] == "garden") {
+      EXPECT_NEAR(one["position"][2].get<double>(), middle + 4 * (one["position"][0].get<double>()) / 100, 0.02);
+    }
+  const nlohmann::json state = state_after_run("a.json");
+  EXPECT_LE(state["site"].value("plot.top", 99.0), 15 + 1e-9);
+}
+
+// Maps give heights above the ground. Whichever comes first, buildings stand on the terrain, and an import of the map again
+// changes nothing.
+TEST_F(ImportGround, BuildingsOfMapsStandOnTheTerrainInEitherOrder) {
+  place.write("houses.geojson",
+              R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+      {"type": "Feature", "id": "a", "properties": {"building": "yes", "height": 9}, "geometry": {"type": "Polygon", "coordinates":
+      [[[85110,447000],[85120,447000],[85120,447010],[85110,447010],[85110,447000]]]}},
+      {"type": "Feature", "id": "b", "properties": {"building": "yes", "height": 9}, "geometry": {"type": "Polygon", "coordinates":
+      [[[84990,447000],[84980,447000],[84980,447010],[84990,447010],[84990,447000]]]}}]})");
+  (void)import("hill.asc", "scene.json", "a.json");
+  (void)import("houses.geojson", "a.json", "hill_first.json");
+  (void)import("houses.geojson", "scene.json", "b.json");
+  const Outcome later = import("hill.asc", "b.json", "houses_first.json");
+  EXPECT_NE(later.out.find("2 buildings of the surroundings have heights above the ground: each stands on its lowest ground now"),
+            std::string::npos)
+      << later.out;
+  for (const char* file : {"hill_first.json", "houses_first.json"}) {
+    std::vector<double> bases;
+    const nlohmann::json scene = place.json(file);
+    for (const auto& one : scene["nodes"])
+      if (one["types"].contains("existing_building")) {
+        bases.push_back(one["types"]["existing_building"].value("base", 0.0));
+        EXPECT_NEAR(one["position"][2].get<double>(), bases.back(), 1e-9);
+      }
+    ASSERT_EQ(bases.size(), 2u) << file;
+    std::sort(bases.begin(), bases.end());
+    EXPECT_NEAR(bases[0], 67 - 0.8, 0.011) << file;
+    EXPECT_NEAR(bases[1], 71 + 0.4, 0.011) << file;
+  }
+  const Outcome again = import("houses.geojson", "houses_first.json", "again.json");
+  EXPECT_EQ(place.text("houses_first.json"), place.text("again.json")) << again.out;
+}
+
+// A better terrain of the same name lifts what stood on the one before; what is set apart from it stays, as before.
+TEST_F(ImportGround, AnUpdatedTerrainTakesTheSiteWithIt) {
+  (void)import("hill.asc", "scene.json", "a.json");
+  ASSERT_EQ(place.run({"add", "a.json", "garden", "--corners", "-40,-20", "-20,-20", "-20,0", "-40,0"}).code, 0);
+  const auto garden_height = [&](const char* file) {
+    const nlohmann::json scene = place.json(file);
+    for (const auto& one : scene["nodes"])
+      if (one["id"] == "garden") return one["position"][2].get<double>();
+    return 0.0;
+  };
+  const double before = garden_height("a.json");
+  place.write("hill.asc", plane_rows(5, 76));
+  const Outcome again = import("hill.asc", "a.json", "b.json");
+  EXPECT_NE(again.out.find("begins at 77.00 m now, its lowest ground, instead of 67 m, and keeps its height of 29 m"),
+            std::string::npos)
+      << again.out;
+  EXPECT_EQ(again.out.find("which somebody has set"), std::string::npos) << again.out;
+  EXPECT_NEAR(ground_part(place.json("b.json"), "site")["boundary"].value("bottom", 0.0), 77, 0.0101);
+  EXPECT_NEAR(garden_height("b.json"), before + 10, 0.011);
+}
+
+TEST_F(ImportGround, AFurtherTerrainThatNobodyFollowsIsTold) {
+  (void)import("hill.asc", "scene.json", "a.json");
+  place.write("other.asc", "ncols 4\nnrows 3\nxllcorner 84940\nyllcorner 446950\ncellsize 60\n1 2 3 4\n1 2 3 4\n1 2 3 4\n");
+  const Outcome done = import("other.asc", "a.json", "b.json");
+  EXPECT_NE(done.out.find("lies below the site `site` too, and its volumes stand on another one, by the link `on_ground`"),
+            std::string::npos)
+      << done.out;
+}
+
+TEST_F(ImportGround, ATerrainBesideTheSiteIsTold) {
+  place.write("far.asc", "ncols 3\nnrows 2\nxllcorner 85400\nyllcorner 447000\ncellsize 50\n1 2 3\n4 5 6\n");
+  const Outcome done = import("far.asc", "scene.json", "a.json");
+  EXPECT_NE(done.out.find("has no height anywhere on the site `site`, which stays at 0.0 m"), std::string::npos) << done.out;
 }
 
 TEST_F(ImportGround, AgainNothingChangesAndWhatPeopleDidStays) {

@@ -10,7 +10,8 @@ namespace {
 
 // A scene at the place of the photograph; `more` are further nodes.
 std::string scene_with(const std::string& more) {
-  return R"({"format": "behaviourlinks", "version": 1, "settings": {"latitude": -33.505, "longitude": 18.25}, "nodes": [{"id": "a"})" + more + "]}";
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {"latitude": -33.505, "longitude": 18.25}, "nodes": [{"id": "a"})" +
+         more + "]}";
 }
 
 class Place : public ::testing::Test {
