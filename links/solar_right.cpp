@@ -146,6 +146,8 @@ struct SolarRight {
   }
 
   static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
+  static constexpr double kSeen = 18;      // [s] that a sentence shows: 0.01 h
+  static std::string hours(double seconds) { return fixed(seconds / 3600, 2) + " h"; }
 
   // The sun missing beyond the tolerance, as a share of the required sun. Sun that no caster takes is not counted.
   static double shortage(const In& in, const Ends& ends) {
@@ -225,10 +227,10 @@ struct SolarRight {
     std::vector<std::size_t> who;
     for (std::size_t i = 0; i < shares.size(); ++i)
       if (shares[i] > kLittle) who.push_back(i);
-    const std::string found = "`" + ends.receiver + "` is short of " + fixed(ends.deficit / 3600, 2) + " h of sun";
+    const std::string found = "`" + ends.receiver + "` is short of " + hours(ends.deficit) + " of sun";
     const std::string held_up = why_held(in, ends, who);
-    const std::string possible = " and can have " + fixed((ends.required - ends.deficit) / 3600, 2) + " h of the " +
-                                 fixed(ends.required / 3600, 2) + " h, ";
+    const std::string possible =
+        " and can have " + hours(ends.required - ends.deficit) + " of the " + hours(ends.required) + ", ";
     const std::string said = held_up.empty() ? found : "cannot be met: " + found + possible + held_up;
     remark(tick, held_up.empty() ? LinkRemark::at_work : LinkRemark::unmet, {ErrorCode::infeasible, "from", said});
   }
@@ -272,13 +274,20 @@ struct SolarRight {
     if (const double beyond = ends.required - ends.possible; is_kept && ends.deficit > 0 && beyond > in.tolerance * ends.required)
       remark(tick, LinkRemark::unmet,
              {ErrorCode::infeasible, "from",
-              "cannot be met: `" + ends.receiver + "` can have " + fixed(ends.possible / 3600, 2) + " h of its " +
-                  fixed(ends.required / 3600, 2) +
-                  " h of sun where nobody takes any; lower `required_sun`, or choose another period at the sun"});
+              "cannot be met: `" + ends.receiver + "` can have " + hours(ends.possible) + " of its " + hours(ends.required) +
+                  " of sun where nobody takes any; lower `required_sun`, or choose another period at the sun"});
     if (!held_back.empty()) out.held_back = std::move(held_back);
     if (is_kept && !lost.empty())
-      remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", so that `" + ends.receiver + "` keeps its sun"});
+      remark(tick, LinkRemark::short_of, {ErrorCode::infeasible, "to", lost + ", " + what_for(in, ends)});
     return out;
+  }
+
+  // What lost storeys bring: all of the sun, or all but what the tolerance lets it lack.
+  static std::string what_for(const In& in, const Ends& ends) {
+    if (ends.deficit < kSeen) return "so that `" + ends.receiver + "` keeps its sun";
+    return "for the sun of `" + ends.receiver + "`, which lacks " + hours(ends.deficit) + " of its " + hours(ends.required) +
+           " nevertheless: `tolerance` and `play` let it lack " + hours((1 + in.play) * in.tolerance * ends.required) +
+           " in the mean of its points";
   }
 
   // What the link holds for this receiver: of several receivers the tightest word counts, and one that has taken nothing would

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/plural.h"
 #include "core/base/text.h"
 
 namespace bl::demand {
@@ -72,7 +73,13 @@ std::string held_at_least(const std::string& id, const StandingVolume& volume, d
   const double least = least_storeys(volume, share);
   // Who asks for so many is no secret of the rule.
   const bool by_share = least > std::max(1, volume.least);
-  return "held by `" + id + "`, which keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys") +
+  // Where others leave it fewer already, it keeps what there is.
+  const auto had = static_cast<std::size_t>(std::max(0, volume.built));
+  const std::string keeps = had > 0 && static_cast<double>(had) < least
+                                ? "has " + how_many(had, "storey") + (had == 1 ? ", which is not" : ", none of which is") +
+                                      " taken, because it may keep " + shortest(least)
+                                : "keeps at least " + shortest(least) + (least == 1 ? " storey" : " storeys");
+  return "held by `" + id + "`, which " + keeps +
          (by_share ? " (`least`: " + shortest(std::round(1000 * share) / 10) + " % of " + std::to_string(volume.wished) + ")"
           : volume.least > 1 ? " (`storeys_min`)"
                              : "");
@@ -82,8 +89,12 @@ std::string way_to_fewer(const StandingVolume& volume, double share) {
   if (volume.is_locked) return "unlock the height limit";
   const double least = least_storeys(volume, share);
   if (least <= 1) return "lower `storey_height`";
+  const bool is_fewer = volume.built < least;  // fewer that are wished would do
   const bool by_people = volume.least >= least, by_share = std::ceil(share * volume.wished - kWhole) >= least;
-  return by_people && by_share ? "lower `storeys_min` and `least`" : by_people ? "lower `storeys_min`" : "lower `least`";
+  return by_people && by_share ? "lower `storeys_min` and `least`"
+         : by_people           ? "lower `storeys_min`"
+         : is_fewer            ? "lower `storeys` or `least`"
+                               : "lower `least`";
 }
 
 }  // namespace bl::demand

@@ -45,7 +45,7 @@ std::optional<double> limit_at(const StandingVolume& volume, double height, doub
 /// "6 of 8 storeys, because it may be no higher than 19.90 m"; where the limit leaves room for another storey, at which height it
 /// comes back at the latest.
 std::string storeys_left(const StandingVolume& volume, double limit);
-/// "held by `tower`, which keeps at least 3 storeys", or that its limit is locked.
+/// "held by `tower`, which keeps at least 3 storeys", or that its limit is locked; or how many it has, where these are fewer.
 std::string held_at_least(const std::string& id, const StandingVolume& volume, double share);
 /// What would let it have fewer or lower storeys: "lower `storeys_min`", where that is what insists on them.
 std::string way_to_fewer(const StandingVolume& volume, double share);

@@ -52,20 +52,24 @@ std::string missing_text(const StandingWish& wish, const StandingResult& result,
 
 namespace {
 
-// Of a footprint that streets, water or its neighbours part.
+// Of a footprint that streets, water or its neighbours part. Slivers are no pieces: borders that nearly meet leave them beside a
+// footprint that stands in one.
 std::string pieces_text(const StandingBody& body, const std::string& name) {
   if (body.stacks.empty() || body.stacks.front().outlines.size() < 2) return "";
   constexpr double kChords = 0.01;  // [m] between arcs and their chords
+  constexpr double kSliver = 1;     // [m²]
   double least = 0, most = 0;
-  const std::vector<PlateFace> pieces = faces_of(body.stacks.front(), body.centre, kChords);
-  for (const PlateFace& piece : pieces) {
+  std::size_t pieces = 0;
+  for (const PlateFace& piece : faces_of(body.stacks.front(), body.centre, kChords)) {
     const double area = area_of(std::span(&piece, 1));
-    least = least == 0 ? area : std::min(least, area);
+    if (area < kSliver) continue;
+    least = pieces == 0 ? area : std::min(least, area);
     most = std::max(most, area);
+    ++pieces;
   }
-  if (pieces.size() < 2) return "";
-  return "; `" + name + "` stands in " + std::to_string(pieces.size()) + " pieces of " + fixed(least, 0) + " to " +
-         fixed(most, 0) + " m²: something that stays open parts its footprint; move it to where it fits in " +
+  if (pieces < 2) return "";
+  return "; `" + name + "` stands in " + std::to_string(pieces) + " pieces of " + fixed(least, 0) + " to " + fixed(most, 0) +
+         " m²: something that stays open parts its footprint; move it to where it fits in " +
          "one, by hand or by `run SCENE --set " + name + "/node.position='[x,y,0]' --save SCENE`";
 }
 

@@ -13,6 +13,7 @@
 #include "core/reading/plot_problems.h"
 #include "core/reading/report_model.h"
 #include "core/reading/storeys.h"
+#include "core/reading/sun_problems.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/solver.h"
 
@@ -256,6 +257,10 @@ std::vector<ProblemRow> failures_of(const State& state, const std::vector<std::u
   for (const auto& [node, figures] : reading::rows<StandingFigures>(state))
     if (!figures.message.empty()) add({"node " + plan.nodes[node].name, figures.message, plan.nodes[node].id, "", true});
   for (ProblemRow& row : rule_problems(state)) add(std::move(row));
+  for (SunShortage& shortage : sun_shortages(state)) {
+    const NodePlan& node = plan.nodes[shortage.receiver];
+    add({"node " + node.name, std::move(shortage.text), node.id, "", true});
+  }
   for (const std::uint32_t l : links) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
     add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});

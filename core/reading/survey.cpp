@@ -8,6 +8,7 @@
 #include "core/geometry/fit_text.h"
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
+#include "core/reading/sun_problems.h"
 
 namespace bl::reading {
 
@@ -113,6 +114,8 @@ std::vector<Error> problems_of(const State& state) {
 std::vector<Error> rule_errors(const State& state) {
   std::vector<Error> errors;
   for (const ProblemRow& row : rule_problems(state)) errors.push_back({ErrorCode::infeasible, "nodes/" + row.node, row.message});
+  for (SunShortage& shortage : sun_shortages(state))
+    errors.push_back({ErrorCode::infeasible, "nodes/" + state.plan->nodes[shortage.receiver].id, std::move(shortage.text)});
   return errors;
 }
 

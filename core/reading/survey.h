@@ -72,7 +72,7 @@ Survey survey_of(const State& state);
 std::string solver_message(const State& state);
 /// Errors of nodes and links.
 std::vector<Error> problems_of(const State& state);
-/// Broken rules of plots with their places, as rule_problems() has them.
+/// Broken rules of plots with their places, as rule_problems() has them; then receivers that are short of sun.
 std::vector<Error> rule_errors(const State& state);
 
 }  // namespace bl::reading

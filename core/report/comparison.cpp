@@ -16,6 +16,7 @@
 #include "core/reading/report_model.h"
 #include "core/reading/storeys.h"
 #include "core/reading/survey.h"
+#include "core/report/setting_difference.h"
 
 namespace bl::report {
 
@@ -209,23 +210,16 @@ class Walk {
     }
   }
 
-  static std::string text_of(const PortValues& values, const PortDefinition& port) {
+  static const Value& value_in(const PortValues& values, const PortDefinition& port) {
     const auto found = values.find(port.id);
-    return shortened(write_json_line(value_to_json(found == values.end() ? port.default_value : found->second, port)));
-  }
-  static std::string shortened(std::string text) {
-    constexpr std::size_t kMost = 60;
-    if (text.size() <= kMost) return text;
-    std::size_t end = kMost;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    return text.substr(0, end) + " ...";
+    return found == values.end() ? port.default_value : found->second;
   }
 
   void differing_ports(const std::string& place, const TypeDefinition& type, const PortValues& a, const PortValues& b) {
     for (const PortDefinition& port : type.ports) {
       if (port.is_computed) continue;
-      const std::string first = text_of(a, port), second = text_of(b, port);
-      if (first != second) result_.inputs.push_back(place + port.id + ": " + first + " -> " + second);
+      if (const std::string what = setting_difference(value_in(a, port), value_in(b, port), port); !what.empty())
+        result_.inputs.push_back(place + port.id + ": " + what);
     }
   }
 
@@ -315,11 +309,11 @@ class Walk {
   void differing_link(const std::string& id, const LinkRecord& a, const LinkRecord& b) {
     const std::string place = "links/" + id + "/";
     const auto say = [&](const std::string& what, const std::string& first, const std::string& second) {
-      if (first != second) result_.inputs.push_back(place + what + ": " + first + " -> " + second);
+      if (first != second) result_.inputs.push_back(place + what + ": " + text_difference(first, second));
     };
     say("kind", a.kind, b.kind);
-    say("from", shortened(write_json_line(selection_to_json(a.from))), shortened(write_json_line(selection_to_json(b.from))));
-    say("to", shortened(write_json_line(selection_to_json(a.to))), shortened(write_json_line(selection_to_json(b.to))));
+    say("from", write_json_line(selection_to_json(a.from)), write_json_line(selection_to_json(b.from)));
+    say("to", write_json_line(selection_to_json(a.to)), write_json_line(selection_to_json(b.to)));
     say("strength", shortest(a.strength), shortest(b.strength));
     say("enabled", a.is_enabled ? "yes" : "no", b.is_enabled ? "yes" : "no");
     say("muted", a.is_muted ? "yes" : "no", b.is_muted ? "yes" : "no");

@@ -13,6 +13,7 @@
 #include "core/making/script_file.h"
 #include "core/making/use_rates.h"
 #include "core/reading/report_model.h"
+#include "core/reading/sun_problems.h"
 #include "core/reading/survey.h"
 #include "core/report/report.h"
 #include "core/session/session.h"
@@ -160,6 +161,12 @@ class Run {
            : count == 1 ? "; a rule of a plot is broken"
                         : "; " + std::to_string(count) + " rules of plots are broken";
   }
+  static std::string sun_missed(const State& state) {
+    const auto all = reading::sun_shortages(state);
+    return all.empty()       ? ""
+           : all.size() == 1 ? "; `" + state.plan->nodes[all.front().receiver].id + "` is short of sun"
+                             : "; " + std::to_string(all.size()) + " receivers are short of sun";
+  }
 
   std::string outcome(const reading::Survey& survey) const {
     const State& state = *session_->state();
@@ -172,7 +179,7 @@ class Run {
     if (state.tick == 0) return stopped + "not settled: " + std::string(kNothingComputed);
     if (state.is_settled())
       return stopped + "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
-             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash) + rules_broken(state);
+             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash) + rules_broken(state) + sun_missed(state);
     return "not settled: " + stopped + why_not_settled(state, before_.get(), watch_);
   }
 

@@ -49,10 +49,26 @@ TEST(StoreyLimit, NeverFallsBelowTheLeast) {
   EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys (`storeys_min`)");
   EXPECT_EQ(way_to_fewer(volume, 0.2), "lower `storeys_min` and `least`");
   EXPECT_EQ(way_to_fewer(volume, 0.1), "lower `storeys_min`");
+  volume.built = 4;
   EXPECT_EQ(way_to_fewer(volume, 0.4), "lower `least`");
   volume.least = 1;
   EXPECT_EQ(held_at_least("tower", volume, 0.2), "held by `tower`, which keeps at least 2 storeys (`least`: 20 % of 8)");
   EXPECT_EQ(way_to_fewer(volume, 0.1), "lower `storey_height`") << "one storey is the least of all";
+}
+
+// A boundary that is lower than the least storeys leaves fewer of them: who has twelve does not keep a hundred.
+TEST(StoreyLimit, WhoHasFewerThanTheLeastIsToldWithThese) {
+  StandingVolume volume{12, 500, 1, 3.3, 330, false};
+  ASSERT_TRUE(is_at_least(volume, 0.2));
+  EXPECT_EQ(held_at_least("tower", volume, 0.2),
+            "held by `tower`, which has 12 storeys, none of which is taken, because it may keep 100 (`least`: 20 % of 500)");
+  EXPECT_EQ(way_to_fewer(volume, 0.2), "lower `storeys` or `least`");
+  volume.least = 200;
+  EXPECT_EQ(held_at_least("tower", volume, 0.2),
+            "held by `tower`, which has 12 storeys, none of which is taken, because it may keep 200 (`storeys_min`)");
+  EXPECT_EQ(way_to_fewer(volume, 0.2), "lower `storeys_min`");
+  volume.built = 1;
+  EXPECT_NE(held_at_least("tower", volume, 0.2).find("which has 1 storey, which is not taken, because"), std::string::npos);
 }
 
 TEST(StoreyLimit, RestsWhereItTakesStoreysAndGoesWhereItTakesNone) {

@@ -310,6 +310,23 @@ TEST(StandingTick, ADepthLargerThanTheGroundIsTold) {
   EXPECT_EQ(text(), "");
 }
 
+// What a street leaves of a bar beyond it is no piece of a building: a quarter of a square metre is not told, and not counted.
+TEST(StandingTick, SliversAreNoPieces) {
+  const std::vector<Point3> ring{{0, 0, 0}, {100, 0, 0}, {100, 50, 0}, {0, 50, 0}};
+  const auto told = [&](const std::vector<double>& streets) {
+    std::vector<PlanSolid> parts;
+    for (const double x : streets) parts.push_back({{{x, -5, 0}, {x + 1, -5, 0}, {x + 1, 55, 0}, {x, 55, 0}}, 0, 30});
+    const Domain parted = site_domain({ring, {}, 0, 30, {}, parts}).value();
+    std::vector<StandingWish> wishes{wish(FootprintForm::cell, {50, 25, 0}, 2, 9000)};
+    StandingTick::Cache kept;
+    const auto outcome = run(parted, wishes, kept);
+    return other_storeys_text(wishes, outcome.results, kept.results, parted, 1e-6, std::vector<std::string>{"bar"});
+  };
+  EXPECT_EQ(told({98.995}), "") << "beyond the street lies a strip of half a centimetre by fifty metres";
+  const std::string two = told({50, 98.995});
+  EXPECT_NE(two.find("`bar` stands in 2 pieces of 2400 to 2500 m²"), std::string::npos) << two;
+}
+
 // The sides of a boundary lean inwards by 45°: a cell as large as its ground reaches out of it everywhere.
 TEST(StandingTick, ALeaningBoundaryIsReachedOutOf) {
   const std::vector<Point3> corners{{0, 0, 0},    {40, 0, 0},   {40, 40, 0},  {0, 40, 0},

@@ -1,5 +1,7 @@
 // `compare`: what people set differently, what became of it, and scenes that cannot be compared.
 #include <cctype>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,97 @@ TEST(Compare, BothDrawingsHaveTheSameScaleAndWindow) {
   const std::string plot = after("first-plot", " d=\"", first);
   EXPECT_GT(plot.size(), 20u);
   EXPECT_EQ(plot, after("second-plot", " d=\"", second)) << "the same ground lies at the same place";
+}
+
+// A programme of many rows, as people have it: the row that differs stands far behind what a line has room for.
+std::string scene_of_brief(const std::vector<std::string>& rows) {
+  std::string text;
+  for (const std::string& row : rows) text += (text.empty() ? "" : ", ") + row;
+  return scene_text(volume_text("east", "[8, 0, 8]") + R"(, {"id": "brief", "types": {"programme": {"rows": [)" + text + "]}}}");
+}
+
+std::string brief_row(const std::string& use, int area, int count = 1) {
+  return R"({"use": ")" + use + R"(", "floor_area": )" + std::to_string(area) + R"(, "count": )" + std::to_string(count) + "}";
+}
+
+// What `compare` lists as set differently.
+std::string set_differently(const Workplace& place, const std::string& before, const std::string& after) {
+  place.write("a.json", before);
+  place.write("b.json", after);
+  const Outcome outcome = place.run({"compare", "a.json", "b.json", "--ticks", "1"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string title = "Set differently:\n";
+  const std::size_t begin = outcome.out.find(title);
+  if (begin == std::string::npos) return outcome.out;
+  return outcome.out.substr(begin + title.size(), outcome.out.find("\n\n", begin) - begin - title.size());
+}
+
+TEST(Compare, RowsOfTablesAreToldByTheirNameAndColumn) {
+  const Workplace place;
+  const std::vector<std::string> brief{brief_row("housing", 4500, 3), brief_row("offices of the city", 3200),
+                                       brief_row("hotel", 3000),      brief_row("garden", 300),
+                                       brief_row("hall", 800),        brief_row("school", 2400)};
+  const auto differs = [&](const std::vector<std::string>& after) {
+    return set_differently(place, scene_of_brief(brief), scene_of_brief(after));
+  };
+  EXPECT_EQ(differs(brief), "  nothing");
+  auto larger = brief;
+  larger[3] = brief_row("garden", 350);
+  EXPECT_EQ(differs(larger), "  nodes/brief/programme/rows: row 4 `garden`: floor_area 300 -> 350");
+  larger[2] = brief_row("hotel", 4200, 2);
+  EXPECT_EQ(differs(larger),
+            "  nodes/brief/programme/rows: row 3 `hotel`: floor_area 3000 -> 4200, count 1 -> 2; row 4 `garden`: floor_area 300 "
+            "-> 350");
+  larger[0] = brief_row("housing", 4600, 3);
+  larger[4] = brief_row("hall", 900);
+  larger[5] = brief_row("school", 2500);
+  EXPECT_EQ(differs(larger),
+            "  nodes/brief/programme/rows: row 1 `housing`: floor_area 4500 -> 4600; row 3 `hotel`: floor_area 3000 -> 4200, "
+            "count 1 -> 2; row 4 `garden`: floor_area 300 -> 350; and 2 more rows");
+  auto other = brief;
+  other.erase(other.begin() + 1);
+  other.push_back(brief_row("pool", 700));
+  EXPECT_EQ(differs(other),
+            "  nodes/brief/programme/rows: row 2 `offices of the city` in the first only; row 6 `pool` in the second only");
+  std::swap(other[0], other[1]);
+  other[0] = brief_row("hotel", 10);
+  EXPECT_EQ(differs(other),
+            "  nodes/brief/programme/rows: row 2 `offices of the city` in the first only; row 3 `hotel`, now row 1: floor_area "
+            "3000 -> 10; row 6 `pool` in the second only");
+  auto turned = brief;
+  std::swap(turned[1], turned[2]);
+  EXPECT_EQ(differs(turned), "  nodes/brief/programme/rows: the same rows in another order");
+}
+
+// Rows without names of their own, and lists: corners of an exclusion, the points of a plan, long texts.
+TEST(Compare, WhatIsLongIsComparedWhole) {
+  const Workplace place;
+  const auto scene = [](const std::string& plan, const std::string& exclusions, const std::string& about) {
+    return R"({"format": "behaviourlinks", "version": 1, "settings": {"about": ")" + about +
+           R"("}, "nodes": [{"id": "site", "types": {"boundary": {"form": "plan", "plan": [)" + plan + R"(], "exclusions": [)" +
+           exclusions + R"(]}}}, {"id": "solver", "types": {"smart_volumes_solver": {}}}], "links": []})";
+  };
+  const auto corners = [](int x, int last) {
+    std::string text;
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {5, 0}, {5, 5}, {0, last}})
+      text += (text.empty() ? "" : ", ") + std::string(R"({"name": "street", "x": )") + std::to_string(x + dx) + R"(, "y": )" +
+              std::to_string(dy) + R"(, "bottom": 0, "top": 20})";
+    return text;
+  };
+  const std::string plan = "[-40.25,-40.25,0],[40.25,-40.25,0],[40.25,40.25,0],[0,41.5,0],[-40.25,40.25,0]";
+  const std::string base = scene(plan, corners(0, 5), std::string(80, 'a') + " ends");
+  EXPECT_EQ(set_differently(place, base, scene(plan, corners(0, 6), std::string(80, 'a') + " ends")),
+            "  nodes/site/boundary/exclusions: row 4 `street`: y 5 -> 6");
+  EXPECT_EQ(set_differently(place, base,
+                            scene("[-40.25,-40.25,0],[40.25,-40.25,0],[40.25,40.25,0],[0,41.5,0],[-40.25,39,0]", corners(0, 5),
+                                  std::string(80, 'a') + " ends")),
+            "  nodes/site/boundary/plan: entry 5: [-40.25, 40.25, 0] -> [-40.25, 39, 0]");
+  EXPECT_EQ(set_differently(place, base,
+                            scene("[-40.25,-40.25,0],[40.25,-40.25,0],[40.25,40.25,0],[-40.25,40.25,0]", corners(0, 5),
+                                  std::string(80, 'a') + " ends")),
+            "  nodes/site/boundary/plan: entry 4: [0, 41.5, 0] in the first only");
+  EXPECT_EQ(set_differently(place, base, scene(plan, corners(0, 5), std::string(80, 'a') + " goes on")),
+            "  settings/about: \"... aaaaaaaaaaaaaaa ends\" -> \"... aaaaaaaaaaaaaaa goes on\"");
 }
 
 TEST(Compare, ASceneWithItselfDiffersInNothing) {

@@ -74,6 +74,17 @@ TEST(Problems, ABrokenRuleOfAPlotIsListedWithWhoBreaksIt) {
   EXPECT_NE(broken[1].text.find("so that however small it becomes"), std::string::npos) << broken[1].text;
 }
 
+// A garden that has less sun than it asks for is short of sun; no boundary is too small for it.
+TEST(Problems, AGardenIsShortOfSun) {
+  ListDesktop desktop("scenes/studies/tower_and_garden.json");
+  desktop.ticks(80);
+  const auto items = desktop.of(ProblemKind::shortage);
+  ASSERT_EQ(items.size(), 1u);
+  EXPECT_EQ(items[0].subject, "Garden is short of sun");
+  EXPECT_EQ(items[0].nodes, std::vector<std::string>{"garden"});
+  EXPECT_NE(items[0].text.find("where 100 % is asked for"), std::string::npos) << items[0].text;
+}
+
 TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
   ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"site", {"boundary.height"}, {"12"}})));

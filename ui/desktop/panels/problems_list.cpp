@@ -7,6 +7,7 @@
 
 #include "core/reading/figures.h"
 #include "core/reading/views/solver.h"
+#include "core/reading/views/sun_need.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -60,7 +61,9 @@ std::string what_of(const State& state, const std::string& link) {
 
 // What a solver of standing volumes says is often no want of room: who stands where, or which storeys vanish.
 std::string what_is_short(const State& state, const reading::ProblemRow& row) {
-  const bool stands = reading::row_of<reading::StandingFigures>(state, state.plan->node_index(row.node)).has_value();
+  const std::uint32_t node = state.plan->node_index(row.node);
+  const bool stands = reading::row_of<reading::StandingFigures>(state, node).has_value();
+  if (!stands && reading::is_a<reading::SunNeed>(state, node)) return row.place.substr(5) + " is short of sun";
   return stands ? row.place.substr(5) + " builds otherwise than asked" : "The boundary is too small";
 }
 
