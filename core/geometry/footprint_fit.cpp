@@ -125,14 +125,15 @@ class DemandSearch {
   }
 
   // Where the largest share of all has been found: those whose footprints touch nobody who stands in the way get all that they
-  // ask for, and so do all but one of a group that touch each other, where it is that one. The others keep the share: how many.
-  Result<std::size_t> raise_others(double share) {
+  // ask for, and so do all but one of a group that touch each other, where it is that one. The others have the largest share that
+  // is left for them, which `share` becomes: how many.
+  Result<std::size_t> raise_others(double& share) {
     const std::vector<std::vector<std::uint32_t>> groups = newton_.touching();
     std::vector<std::uint32_t> all;
     for (const std::vector<std::uint32_t>& group : groups) all.insert(all.end(), group.begin(), group.end());
     for (const std::uint32_t g : all) newton_.aim(g, share);
     tries_ = 0;
-    std::size_t raised = 0;
+    std::vector<std::uint32_t> raised;
     // All of them at once cannot be: that is what the search for the share has found. Its halves are tried, and theirs.
     std::vector<Part> parts;
     if (groups.size() > 1) parts = halves_of({0, groups.size()});
@@ -146,14 +147,20 @@ class DemandSearch {
       const auto done = groups.size() > 1 ? raise(members, share) : Result<bool>(false);
       if (!done) return done.error();
       if (*done) {
-        raised += members.size();
+        raised.insert(raised.end(), members.begin(), members.end());
       } else if (part.count > 1) {
         for (const Part& half : halves_of(part)) parts.push_back(half);
       } else if (const auto others = raise_all_but_one(members, share); !others) {
         return others.error();
-      } else raised += *others;
+      } else raised.insert(raised.end(), others->begin(), others->end());
     }
-    return all.size() - raised;
+    std::ranges::sort(all);
+    std::ranges::sort(raised);
+    std::vector<std::uint32_t> kept;
+    std::ranges::set_difference(all, raised, std::back_inserter(kept));
+    if (!raised.empty() && !kept.empty())
+      if (auto done = share_among(kept, share); !done) return done.error();
+    return kept.size();
   }
 
  private:
@@ -178,9 +185,27 @@ class DemandSearch {
     return false;
   }
 
-  // Who gains least by more weight is tried first. How many have been raised.
-  Result<std::size_t> raise_all_but_one(const std::vector<std::uint32_t>& group, double share) {
-    if (group.size() < 2) return std::size_t{0};
+  // The largest share of these, where all others keep what they have; by halving, from the share that they have.
+  Result<void> share_among(const std::vector<std::uint32_t>& kept, double& share) {
+    std::vector<StandingSite> best = sites_;
+    double high = 1;
+    for (int k = 0; k < kScalings && !report_.is_stopped; ++k) {
+      const double middle = 0.5 * (share + high);
+      for (const std::uint32_t g : kept) newton_.aim(g, middle);
+      sites_ = best;
+      const auto met = newton_.run(1, steps_);
+      if (!met) return met.error();
+      (*met ? share : high) = middle;
+      if (*met) best = sites_;
+    }
+    for (const std::uint32_t g : kept) newton_.aim(g, share);
+    sites_ = best;
+    return newton_.evaluate();
+  }
+
+  // Who gains least by more weight is tried first. Who has been raised.
+  Result<std::vector<std::uint32_t>> raise_all_but_one(const std::vector<std::uint32_t>& group, double share) {
+    if (group.size() < 2) return std::vector<std::uint32_t>{};
     std::vector<std::uint32_t> candidates = group;
     std::ranges::sort(candidates, {}, [&](std::uint32_t g) { return std::pair(newton_.gain_of(g), g); });
     candidates.resize(std::min<std::size_t>(candidates.size(), kMostCandidates));
@@ -189,9 +214,9 @@ class DemandSearch {
       std::ranges::copy_if(group, std::back_inserter(others), [&](std::uint32_t g) { return g != kept; });
       const auto done = raise(others, share);
       if (!done) return done.error();
-      if (*done) return others.size();
+      if (*done) return others;
     }
-    return std::size_t{0};
+    return std::vector<std::uint32_t>{};
   }
 
   Result<double> largest_share(double most) {
@@ -266,6 +291,25 @@ std::size_t count_of_asking(const FootprintNewton& newton, std::span<const Floor
   return count;
 }
 
+// What cannot be met together is met in shares.
+Result<void> share_out(DemandSearch& search, const FootprintNewton& newton, std::span<const FloorDemand> demands, double most,
+                       FootprintFit& report) {
+  auto share = search.compromise(most);
+  if (!share) return share.error();
+  if (*share == 0) {
+    add_words("the demands cannot be met together, nor in any share of all: the weights stay as they are", report);
+  } else if (*share < 1) {
+    const auto short_of = search.raise_others(*share);
+    if (!short_of) return short_of.error();
+    add_words((*short_of < count_of_asking(newton, demands) ? std::to_string(*short_of) + " of the demands cannot be met"
+                                                            : "the demands cannot be met together") +
+                  ": " + fixed(100 * *share, 1) + (*short_of == 1 ? " % of it can" : " % of each can"),
+              report);
+  }
+  report.factor = *share;
+  return {};
+}
+
 }  // namespace
 
 double equal_footprint_weight(const FootprintDiagram& diagram, std::span<const StandingSite> sites,
@@ -303,19 +347,8 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
     DemandSearch search(newton, diagram, sites, demands, options, report);
     if (most == 1) met = search.run_again(1);
     if (!met) return met.error();
-    const auto share = *met || report.is_stopped ? Result<double>(1.0) : search.compromise(most);
-    if (!share) return share.error();
-    report.factor = *share;
-    if (*share == 0)
-      add_words("the demands cannot be met together, nor in any share of all: the weights stay as they are", report);
-    else if (*share < 1) {
-      const auto short_of = search.raise_others(*share);
-      if (!short_of) return short_of.error();
-      add_words((*short_of < count_of_asking(newton, demands) ? std::to_string(*short_of) + " of the demands cannot be met"
-                                                              : "the demands cannot be met together") +
-                    ": " + fixed(100 * *share, 1) + (*short_of == 1 ? " % of it can" : " % of each can"),
-                report);
-    }
+    if (!*met && !report.is_stopped)
+      if (auto done = share_out(search, newton, demands, most, report); !done) return done.error();
   }
   if (newton.left_out() > 0)
     add_words(std::to_string(newton.left_out()) +
