@@ -55,7 +55,7 @@ TEST(OpenSpace, GroundThatEndsBelowTheTopOfTheBoundaryIsTold) {
   const Accounts accounts = settled_accounts(world);
   EXPECT_NEAR(accounts.open[0].area, 0, 1e-9);
   EXPECT_EQ(why_short(accounts.open[0], accounts.tolerance),
-            "of the 600 m² that are drawn, 600 m² end below the top of the boundary, so that volumes may stand above them: raise "
+            "of the 600 m² that are drawn, 600 m² end below the top of the boundary, so that volumes may stand above them: raise "
             "the `top` of its `exclusions`");
 }
 
