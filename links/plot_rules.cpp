@@ -12,6 +12,7 @@
 #include "core/demand/demand_limit.h"
 #include "core/demand/shared_storeys.h"
 #include "core/geometry/plan_ring.h"
+#include "core/geometry/plot_measure.h"
 
 namespace bl {
 
@@ -36,6 +37,7 @@ struct PlotRules {
     All<std::optional<Shared<Table>>> buildings;
     All<std::optional<Point3>> places;
     All<std::optional<double>> footings;
+    All<std::string> stands_on;
   };
   struct Out {
     All<std::optional<double>> limits, height_limits, border_distances, street_distances;
@@ -110,11 +112,15 @@ struct PlotRules {
     l.reads_if_there(&Ends::buildings, End::to, "footprint.building");
     l.reads_if_there(&Ends::places, End::to, "footprint.stands_at", Unit::metre);
     l.reads_if_there(&Ends::footings, End::to, "footprint.ground", Unit::metre);
+    l.reads(&Ends::stands_on, End::to, "smart_volume.stands_on");
   }
 
-  // From where its height counts [m]: on a terrain above the plot's ground from the ground where it stands.
-  static double ground_at(const Ends& ends, std::size_t i) {
-    return std::max(ends.ground, ends.footings.values[i].value_or(ends.ground));
+  using Bases = std::vector<double>;  // of the volumes [m]
+  static Bases height_bases(const Ends& ends) {
+    std::vector<geometry::HeightBase> volumes;
+    for (std::size_t i = 0; i < ends.ids.values.size(); ++i)
+      volumes.push_back({ends.ids.values[i], ends.stands_on.values[i], ends.footings.values[i]});
+    return geometry::height_bases(volumes, ends.ground);
   }
 
   // One that keeps the largest height by its storeys, or by those of the building that it shares.
@@ -123,14 +129,14 @@ struct PlotRules {
     std::string holder, who;  // by id, and in a sentence
   };
   // Nothing for a rounded volume.
-  static std::optional<Standing> standing(const Ends& ends, std::size_t i) {
+  static std::optional<Standing> standing(const Ends& ends, const Bases& bases, std::size_t i) {
     if (!ends.built.values[i]) return std::nullopt;
     const auto building = demand::building_in(ends.buildings.values[i]);
     const demand::StandingVolume own{*ends.built.values[i],         *ends.wished.values[i],
                                      *ends.least_storeys.values[i], ends.storey_heights.values[i],
                                      *ends.height_limits.values[i], *ends.heights_locked.values[i]};
     return Standing{demand::standing_in(own, building),
-                    ends.height_max + ground_at(ends, i) - demand::ground_below(building, ends.bottoms.values[i]),
+                    ends.height_max + bases[i] - demand::ground_below(building, ends.bottoms.values[i]),
                     demand::holder_of(building, ends.ids.values[i]), demand::named_holder(building, ends.ids.values[i])};
   }
 
@@ -140,6 +146,7 @@ struct PlotRules {
     out.height_limits.values.resize(ends.demands.values.size());
     out.border_distances.values.resize(ends.demands.values.size());
     if (ends.polygon.size() < 3) return out;
+    const Bases bases = height_bases(ends);
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
       if (geometry::ring_contains(ends.polygon, ends.places.values[i].value_or(ends.centroids.values[i]))) on_plot.push_back(i);
@@ -156,14 +163,14 @@ struct PlotRules {
     for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
-      const auto volume = standing(ends, i);
+      const auto volume = standing(ends, bases, i);
       if (in.hold_height && volume) out.height_limits.values[i] = demand::limit_at(*volume, volume->height, in.least);
-      else if (in.hold_height) limit = std::min(limit, height_share(in, ends, i, own[i]));
+      else if (in.hold_height) limit = std::min(limit, height_share(in, ends, bases, i, own[i]));
       if (in.hold_setback && ends.setback > 0 && volume) out.border_distances.values[i] = ends.setback;
       out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
     out.street_distances = out.border_distances;
-    tell(in, ends, held, on_plot, tick);
+    tell(in, ends, bases, held, on_plot, tick);
     return out;
   }
 
@@ -181,13 +188,13 @@ struct PlotRules {
     return limits;
   }
 
-  static double height_share(const In& in, const Ends& ends, std::size_t i, double own) {
-    const double answer = demand::answer_within(ends.height_max, top(ends, i), in.tolerance);
+  static double height_share(const In& in, const Ends& ends, const Bases& bases, std::size_t i, double own) {
+    const double answer = demand::answer_within(ends.height_max, top(ends, bases, i), in.tolerance);
     const double limit = answer < 1 ? std::min(own, ends.limits.values[i]) : own;
     return demand::granted_share(ends.demands.values[i], limit) * (1 + in.gain * (answer - 1));
   }
-  static double top(const Ends& ends, std::size_t i) {
-    return ends.bottoms.values[i] + ends.heights.values[i] - ground_at(ends, i);
+  static double top(const Ends& ends, const Bases& bases, std::size_t i) {
+    return ends.bottoms.values[i] + ends.heights.values[i] - bases[i];
   }
 
   static constexpr std::size_t kMostHeights = 4;
@@ -219,11 +226,12 @@ struct PlotRules {
   }
 
   // Names the storeys that volumes that stand have given up for the largest height.
-  static void tell_storeys(const In& in, const Ends& ends, const std::vector<std::size_t>& on_plot, const Tick& tick) {
+  static void tell_storeys(const In& in, const Ends& ends, const Bases& bases, const std::vector<std::size_t>& on_plot,
+                           const Tick& tick) {
     std::string lost;
     std::vector<std::string> told;  // a building of several volumes is told once
     for (const std::size_t i : on_plot) {
-      const auto volume = standing(ends, i);
+      const auto volume = standing(ends, bases, i);
       // Another rule may leave less still: then it is not this one that takes the storeys.
       if (!in.hold_height || !volume || volume->built >= volume->wished || !demand::takes_storeys(*volume, volume->height) ||
           !demand::is_in_force(*volume, volume->height) || std::find(told.begin(), told.end(), volume->holder) != told.end())
@@ -235,17 +243,17 @@ struct PlotRules {
   }
 
   // Reports every broken rule: as being worked on, or as unmet where the volumes cannot be limited further.
-  static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
-                   const Tick& tick) {
+  static void tell(const In& in, const Ends& ends, const Bases& bases, const demand::LimitedVolumes& held,
+                   const std::vector<std::size_t>& on_plot, const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
     std::string low, ways;  // volumes that stand and can be no lower; what would let them
     if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + demand::found_of_allowed(ends.fsi, ends.fsi_max, 2));
     if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + demand::found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
-      if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max) {
-        const std::string found =
-            "height " + demand::found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" + ends.ids.values[i] + "`";
-        const auto volume = standing(ends, i);
+      if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, bases, i) > ends.height_max) {
+        const std::string found = "height " + demand::found_of_allowed(top(ends, bases, i), ends.height_max, 1, " m") + " at `" +
+                                  ends.ids.values[i] + "`";
+        const auto volume = standing(ends, bases, i);
         if (volume && demand::is_at_least(*volume, in.least)) {
           low = joined(low, found + ", " + demand::held_at_least(volume->holder, *volume, in.least), "; ");
           ways = joined(ways, demand::way_to_fewer(*volume, in.least) + " of `" + volume->holder + "`", ", ");
@@ -255,7 +263,7 @@ struct PlotRules {
         height.found.push_back(found);
         height.who.push_back(i);
       }
-    tell_storeys(in, ends, on_plot, tick);
+    tell_storeys(in, ends, bases, on_plot, tick);
     const Broken none;
     const bool is_all_stuck = is_exhausted(held, on_plot, in.least);
     const std::string found = joined(unmet(held, is_all_stuck ? all : none, stuck, in.least), low, "; ");

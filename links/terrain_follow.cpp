@@ -38,7 +38,7 @@ struct TerrainFollow {
         .doc(
             "Moves nodes vertically to a height above the ground, a share in every tick. Their position in plan does not "
             "change. A volume that stands gets its lowest floor at once at the lowest ground around its footprint, so that it "
-            "reaches into a slope and hangs nowhere above it.");
+            "reaches into a slope.");
     l.family(LinkFamily::ground);
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
     l.param(&In::stiffness, "stiffness")

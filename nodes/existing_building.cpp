@@ -87,6 +87,10 @@ struct ExistingBuilding {
         .column(index_column("b", "Second"))
         .column(index_column("c", "Third"))
         .doc("The closed surface: three corners per triangle, counter-clockwise seen from outside.");
+    declare_results(t);
+  }
+
+  static void declare_results(TypificationBuilder<ExistingBuilding>& t) {
     t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume of the body.");
     t.out(&Out::footprint, "footprint").unit(Unit::square_metre).doc("Area of the outline without its courts.");
     t.out(&Out::floor_area, "floor_area")

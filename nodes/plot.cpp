@@ -162,7 +162,14 @@ struct Plot {
     Out out;
     out.area = std::abs(geometry::signed_area(in.polygon));
     if (!(out.area > 0)) return Error{ErrorCode::geometry, "polygon", "the polygon encloses no area"};
+    std::vector<geometry::HeightBase> grounds;
     for (const Member& member : sets.volumes) {
+      const Standing* standing = standing_of(sets, member);
+      grounds.push_back({member.id, member.stands_on, standing == nullptr ? std::optional<double>() : standing->ground});
+    }
+    const std::vector<double> bases = geometry::height_bases(grounds, in.ground);
+    for (std::size_t i = 0; i < sets.volumes.size(); ++i) {
+      const Member& member = sets.volumes[i];
       const Standing* standing = standing_of(sets, member);
       const Point3& place = standing != nullptr ? standing->stands_at : member.centroid;
       if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, place)) continue;
@@ -171,8 +178,7 @@ struct Plot {
       out.footprint += member.footprint * geometry::built_share(standing != nullptr, member.stands_on, member.bottom,
                                                                 member.storey_height, in.ground);
       if (standing == nullptr) tell_height(in, member, out.message);
-      const double ground = standing == nullptr ? in.ground : std::max(in.ground, standing->ground);
-      out.top = std::max(out.top, member.bottom + member.height - ground);
+      out.top = std::max(out.top, member.bottom + member.height - bases[i]);
       if (in.setback > 0) out.setback_overshoot = std::max(out.setback_overshoot, in.setback - clearance(in, standing, member));
     }
     if (out.setback_overshoot < kRounding) out.setback_overshoot = 0;

@@ -15,10 +15,9 @@ namespace bl::geometry {
 
 namespace {
 
-constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4, kMostRaises = 24, kMostCandidates = 4;
+constexpr int kScalings = 7, kStepsOfATry = 30, kMostLeftOut = 4, kMostRaises = 120, kMostCandidates = 4;
 // Parts of the equal weights, from which fits start that lead nowhere otherwise: the smaller forms are, the more of them end
 // inside their cells.
-constexpr double kAll = 1e9;  // more than any part of a demand
 constexpr double kLooseStarts[] = {0.02, 0.0005};
 
 // The plot that a demand needs at the least: each plate is a whole footprint.
@@ -134,7 +133,7 @@ class DemandSearch {
     for (const std::uint32_t g : all) newton_.aim(g, share);
     tries_ = 0;
     std::vector<std::uint32_t> raised;
-    // All of them at once cannot be: that is what the search for the share has found. Its halves are tried, and theirs.
+    // All of them at once could not be met before. Their halves are tried, and the halves of those.
     std::vector<Part> parts;
     if (groups.size() > 1) parts = halves_of({0, groups.size()});
     else if (!groups.empty()) parts = {{0, 1}};
@@ -172,11 +171,12 @@ class DemandSearch {
     return {{part.first + half, part.count - half}, {part.first, half}};
   }
 
-  // Can these have all that they ask for, and the others what they have? If not, all stays as it is.
+  // Can these have all that they ask for, and the others what they have? If not, or after too many tries, all stays as it is.
   Result<bool> raise(std::span<const std::uint32_t> demands, double share) {
-    if (++tries_ > kMostRaises) return false;
+    if (tries_ >= kMostRaises) return false;
+    ++tries_;
     const std::vector<StandingSite> before = sites_;
-    for (const std::uint32_t g : demands) newton_.aim(g, kAll);
+    for (const std::uint32_t g : demands) newton_.aim(g, FootprintNewton::kAll);
     const auto met = newton_.run(1, steps_);
     if (!met || *met) return met;
     for (const std::uint32_t g : demands) newton_.aim(g, share);
@@ -291,9 +291,10 @@ std::size_t count_of_asking(const FootprintNewton& newton, std::span<const Floor
   return count;
 }
 
-// What cannot be met together is met in shares.
-Result<void> share_out(DemandSearch& search, const FootprintNewton& newton, std::span<const FloorDemand> demands, double most,
+// What cannot be met together is met in shares. Has everybody all after that?
+Result<bool> share_out(DemandSearch& search, const FootprintNewton& newton, std::span<const FloorDemand> demands, double most,
                        FootprintFit& report) {
+  bool is_met = false;
   auto share = search.compromise(most);
   if (!share) return share.error();
   if (*share == 0) {
@@ -301,13 +302,18 @@ Result<void> share_out(DemandSearch& search, const FootprintNewton& newton, std:
   } else if (*share < 1) {
     const auto short_of = search.raise_others(*share);
     if (!short_of) return short_of.error();
-    add_words((*short_of < count_of_asking(newton, demands) ? std::to_string(*short_of) + " of the demands cannot be met"
-                                                            : "the demands cannot be met together") +
-                  ": " + fixed(100 * *share, 1) + (*short_of == 1 ? " % of it can" : " % of each can"),
-              report);
+    const std::size_t asking = count_of_asking(newton, demands);
+    is_met = *short_of == 0;
+    if (is_met) *share = 1;
+    else
+      add_words((*short_of < asking ? std::to_string(*short_of) + " of the demands cannot be met"
+                 : asking > 1       ? "the demands cannot be met together"
+                                    : "the demand cannot be met") +
+                    std::string(": ") + fixed(100 * *share, 1) + (*short_of == 1 ? " % of it can" : " % of each can"),
+                report);
   }
   report.factor = *share;
-  return {};
+  return is_met;
 }
 
 }  // namespace
@@ -347,8 +353,8 @@ Result<FootprintFit> fit_footprints(FootprintDiagram& diagram, std::vector<Stand
     DemandSearch search(newton, diagram, sites, demands, options, report);
     if (most == 1) met = search.run_again(1);
     if (!met) return met.error();
-    if (!*met && !report.is_stopped)
-      if (auto done = share_out(search, newton, demands, most, report); !done) return done.error();
+    if (!*met && !report.is_stopped) met = share_out(search, newton, demands, most, report);
+    if (!met) return met.error();
   }
   if (newton.left_out() > 0)
     add_words(std::to_string(newton.left_out()) +

@@ -150,6 +150,10 @@ void Joiner::look_for_circles() {
 void Joiner::give_to_building(ProgrammeRow& row, std::optional<double>& length, std::optional<double> ProgrammeRow::*which,
                               const char* label) {
   if (!length) return;
+  if (row.is_below_ground) {
+    note(row, std::string("the ") + label + " of `" + row.use + "` was left out: what lies below the ground has none.");
+    return length.reset();
+  }
   ProgrammeRow* host = &import_.rows[row_of(row.shares)];
   while (!host->shares.empty()) host = &import_.rows[row_of(host->shares)];
   const std::string begin = std::string("the ") + label + " of `" + row.use + "`";
@@ -165,10 +169,6 @@ void Joiner::give_to_building(ProgrammeRow& row, std::optional<double>& length, 
 
 // What a row says of its own footprint or ground has no place where another row decides.
 void Joiner::leave_to_building(ProgrammeRow& row) {
-  if (!row.shares.empty()) {
-    give_to_building(row, row.depth, &ProgrammeRow::depth, "depth");
-    give_to_building(row, row.distance, &ProgrammeRow::distance, "distance");
-  }
   // The set-back that comes of it would hold from the edges of the roof, too, and nothing be left of a slim tower.
   if (!row.on.empty() && row.distance) {
     note(row, "the distance of `" + row.use + "` was left out: on the roof of `" + row.on + "` it keeps none.");
@@ -193,6 +193,11 @@ void Joiner::buildings() {
     join(i, row.shares, ProgrammeColumn::shares);
   }
   look_for_circles();
+  for (ProgrammeRow& row : import_.rows) {
+    if (row.shares.empty()) continue;
+    give_to_building(row, row.depth, &ProgrammeRow::depth, "depth");
+    give_to_building(row, row.distance, &ProgrammeRow::distance, "distance");
+  }
   for (ProgrammeRow& row : import_.rows) leave_to_building(row);
   // Who shares with one that shares takes part in the same building.
   for (ProgrammeRow& row : import_.rows)

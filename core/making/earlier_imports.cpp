@@ -64,11 +64,12 @@ std::string key_of(const std::string& kind, const std::string& element) { return
 
 }  // namespace
 
-void set_as_imported(NodeRecord& node, const NodeRecord& before, const Registry& registry) {
+bool set_as_imported(NodeRecord& node, const NodeRecord& before, const Registry& registry) {
   const auto record = node.types.find(kRecord);
-  if (record == node.types.end()) return;
-  if (hash_of_node(set_by_import(before), registry) == text_of(record->second, "as_read"))
-    record->second["as_read"] = hash_of_node(set_by_import(node), registry);
+  if (record == node.types.end() || hash_of_node(set_by_import(before), registry) != text_of(record->second, "as_read"))
+    return false;
+  record->second["as_read"] = hash_of_node(set_by_import(node), registry);
+  return true;
 }
 
 EarlierImports::EarlierImports(const Scene& scene, const Registry& registry) : scene_(&scene), registry_(&registry) {

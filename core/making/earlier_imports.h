@@ -15,8 +15,8 @@
 namespace bl::making {
 
 /// Of a node that an import has set, and another one changes in its place: later imports take it for unchanged by people where it
-/// was unchanged before.
-void set_as_imported(NodeRecord& node, const NodeRecord& before, const Registry& registry);
+/// was unchanged before. Was it?
+bool set_as_imported(NodeRecord& node, const NodeRecord& before, const Registry& registry);
 
 /// Knows a node again by its typification, its element, and one of three: the same place; an id that holds beyond a file, as
 /// those of OpenStreetMap do; or the same source. Of features without an id the geometry is the element (`kGeometryId`); one

@@ -266,6 +266,25 @@ Result<Addition> add_sun(const Scene& scene, const Registry& registry, const Sun
   return adding.take();
 }
 
+namespace {
+
+// The id of a plot, or of a boundary that becomes one.
+Result<std::string> plot_of(const Scene& scene, const std::string& wanted) {
+  std::vector<std::string> plots = nodes_with(scene, "plot");
+  if (!wanted.empty()) {
+    if (scene.nodes.contains(wanted)) return wanted;
+    for (const std::string& boundary : nodes_with(scene, "boundary")) plots.push_back(boundary);
+    return Error{ErrorCode::not_found, "--plot", "there is no node `" + wanted + "`" + did_you_mean(wanted, plots)};
+  }
+  if (plots.empty()) plots = nodes_with(scene, "boundary");
+  if (plots.empty()) return Error{ErrorCode::not_found, "--plot", "the scene has neither a plot nor a boundary"};
+  if (plots.size() > 1)
+    return Error{ErrorCode::missing, "--plot", "the scene has several plots: say which by --plot, such as " + list_of(plots)};
+  return plots.front();
+}
+
+}  // namespace
+
 Result<Addition> add_rules(const Scene& scene, const Registry& registry, const RuleAddition& rules) {
   if (!rules.fsi && !rules.gsi && !rules.height && !rules.setback)
     return Error{ErrorCode::missing, "", "say which rules: --fsi, --gsi, --height or --setback"};
@@ -273,21 +292,10 @@ Result<Addition> add_rules(const Scene& scene, const Registry& registry, const R
   if (auto sound = within("--gsi", rules.gsi, 0, 1, ""); !sound) return sound.error();
   if (auto sound = within("--height", rules.height, 0, kHighestRule, " m"); !sound) return sound.error();
   if (auto sound = within("--setback", rules.setback, 0, 1000, " m"); !sound) return sound.error();
-  std::string id = rules.plot;
-  if (id.empty()) {
-    std::vector<std::string> plots = nodes_with(scene, "plot");
-    if (plots.empty()) plots = nodes_with(scene, "boundary");
-    if (plots.empty()) return Error{ErrorCode::not_found, "--plot", "the scene has neither a plot nor a boundary"};
-    if (plots.size() > 1)
-      return Error{ErrorCode::missing, "--plot", "the scene has several plots: say which by --plot, such as " + list_of(plots)};
-    id = plots.front();
-  }
+  const auto plot_id = plot_of(scene, rules.plot);
+  if (!plot_id) return plot_id.error();
+  const std::string& id = *plot_id;
   const auto node = scene.nodes.find(id);
-  if (node == scene.nodes.end()) {
-    std::vector<std::string> ids = nodes_with(scene, "plot");
-    for (const std::string& boundary : nodes_with(scene, "boundary")) ids.push_back(boundary);
-    return Error{ErrorCode::not_found, "--plot", "there is no node `" + id + "`" + did_you_mean(id, ids)};
-  }
   Adding adding(scene, registry);
   Json ports = Json::object();
   std::string list;

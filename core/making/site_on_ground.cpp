@@ -31,12 +31,15 @@ constexpr double kLeastCovered = 0.5;  // [ratio] of a site; with less the terra
 // The heights of the ground below a site [m], and for how much of it the terrain has some.
 struct Below {
   double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+  double sum = 0;  // of all that are known: another one where any has changed
   std::size_t places = 0, known = 0;
+  bool operator==(const Below&) const = default;
 
   void add(const std::optional<double>& height) {
     ++places;
     if (!height) return;
     ++known;
+    sum += *height;
     lowest = std::min(lowest, *height);
     highest = std::max(highest, *height);
   }
@@ -106,6 +109,12 @@ class Standing {
     set(node, std::string("boundary.") + port, value_to_json(Shared<Table>(std::move(table)), definition));
   }
 
+  // Elements of OpenStreetMap: ways and relations with their numbers.
+  bool is_of_map(const NodeRecord& node) const {
+    const auto& element = std::get<std::string>(value(node, "imported", "element"));
+    return element.size() > 1 && (element[0] == 'w' || element[0] == 'r') && element[1] >= '0' && element[1] <= '9';
+  }
+
   // Buildings whose heights count from the ground, and which people have left as an import has set them.
   void lift_buildings(const std::vector<SceneTerrain>& grounds) {
     std::size_t count = 0;
@@ -118,19 +127,20 @@ class Standing {
       if (!ground) continue;
       const double rise = *ground - lowest_along(old_grounds_, *outline).value_or(0);
       if (std::abs(rise) < kSameHeight) continue;
+      // Of files before `is_above_sea` only maps are known to count heights from the ground.
+      const double base = as_number(value(node, "existing_building", "base"));
+      if (base != 0 && !is_of_map(node)) continue;
       NodeRecord lifted = node;
       Point3 place = std::get<Vector3>(value(node, "node", "position"));
-      const double base = as_number(value(node, "existing_building", "base"));
       place.z = tidy_length(place.z + rise);
       lifted.types["node"]["position"] = place;
       lifted.types["existing_building"]["base"] = tidy_length(base + rise);
-      set_as_imported(lifted, node, registry_);
-      const Value& read = lifted.types["imported"]["as_read"];
+      const bool is_left = set_as_imported(lifted, node, registry_);
       // Where people have changed it already, they may have set where it begins.
-      if (read == types->second.at("as_read") && base != 0) continue;
+      if (!is_left && base != 0) continue;
       set(id, "existing_building.base", tidy_length(base + rise));
       set(id, "node.position", {place.x, place.y, place.z});
-      set(id, "imported.as_read", std::get<std::string>(read));
+      if (is_left) set(id, "imported.as_read", std::get<std::string>(lifted.types["imported"]["as_read"]));
       lifted_.insert(id);
       ++count;
     }
@@ -142,17 +152,21 @@ class Standing {
 
   // A further terrain below a site whose volumes follow another one.
   void tell_unused(const Site& site, const std::vector<SceneTerrain>& grounds) {
-    for (const auto& [id, link] : scene_.links)
-      for (const SceneTerrain& ground : grounds) {
-        const NodeRecord& node = scene_.nodes.find(ground.id)->second;
-        if (link.kind != "terrain_follow" || before_.nodes.contains(ground.id) ||
-            selects(registry_, link.from, ground.id, node) || !(below(site, ground.grid).covered() > 0))
-          continue;
-        made_.warnings.push_back("The terrain `" + ground.id + "` lies below the site `" + site.id +
-                                 "` too, and its volumes "
-                                 "stand on another one, by the link `" +
-                                 id + "`: connect that link to `" + ground.id + "`, or remove one of the terrains.");
-      }
+    for (const SceneTerrain& ground : grounds) {
+      if (before_.nodes.contains(ground.id) || !(below(site, ground.grid).covered() > 0)) continue;
+      const NodeRecord& node = scene_.nodes.find(ground.id)->second;
+      std::string other;
+      bool is_followed = false;
+      for (const auto& [id, link] : scene_.links)
+        if (link.kind == "terrain_follow" && link.is_enabled) {
+          if (selects(registry_, link.from, ground.id, node)) is_followed = true;
+          else if (other.empty()) other = id;
+        }
+      if (!is_followed && !other.empty())
+        made_.warnings.push_back("The terrain `" + ground.id + "` lies below the site `" + site.id + "` too, and the link `" +
+                                 other + "` follows another one: connect that link to `" + ground.id +
+                                 "`, or remove one of the terrains.");
+    }
   }
 
   void tell_beside(const Site& site, const std::vector<SceneTerrain>& grounds) {
@@ -167,7 +181,7 @@ class Standing {
     const NodeRecord& node = scene_.nodes.find(site.id)->second;
     const double lowest = floor_of(found.lowest);
     const bool is_plan = std::get<std::string>(value(node, "boundary", "form")) == "plan";
-    const SceneTerrain* old = old_ground(site, ground, lowest);
+    const SceneTerrain* old = old_ground(site, ground, found);
     // What an import has set to the ground that a terrain had goes with the terrain.
     const bool is_new = !before_.nodes.contains(ground.id) || old != nullptr;
     const bool is_unsaid = !node.types.at("boundary").contains("bottom") || old != nullptr;
@@ -187,7 +201,9 @@ class Standing {
     }
     if (!is_new) return;
     std::string sentence;
-    if (is_unsaid && std::abs(lowest - site.bottom) > kSameHeight) sentence = lift(site, node, {ground, old}, found, lowest);
+    const double rise = lowest - site.bottom, more = growth(site, {ground, old}, found);
+    if (is_unsaid && (std::abs(rise) > kSameHeight || more > kSameHeight || old != nullptr))
+      sentence = lift(site, node, {ground, old}, found, lowest);
     const std::string link = add_link(ground);
     if (!link.empty())
       sentence += (sentence.empty() ? heights + ". The link `" : " The link `") + link + "` sets all volumes that stand on it.";
@@ -209,11 +225,11 @@ class Standing {
     }
   };
 
-  // The terrain as it was, where the site began at its lowest ground and that is another one now.
-  const SceneTerrain* old_ground(const Site& site, const SceneTerrain& ground, double lowest) const {
+  // The terrain as it was, where the site began at its lowest ground and the ground below it is another one now.
+  const SceneTerrain* old_ground(const Site& site, const SceneTerrain& ground, const Below& found) const {
     for (const SceneTerrain& old : old_grounds_)
-      if (old.id == ground.id && std::abs(lowest - site.bottom) > kSameHeight &&
-          std::abs(floor_of(below(site, old.grid).lowest) - site.bottom) < kSameHeight)
+      if (const Below before = old.id == ground.id ? below(site, old.grid) : Below();
+          before.known > 0 && !(before == found) && std::abs(floor_of(before.lowest) - site.bottom) < kSameHeight)
         return &old;
     return nullptr;
   }
@@ -231,20 +247,26 @@ class Standing {
   // The sentence about it.
   std::string lift(const Site& site, const NodeRecord& node, const Change& change, const Below& found, double lowest) {
     const double rise = lowest - site.bottom, height = as_number(value(node, "boundary", "height"));
-    // Uphill there is as much room above the ground as there was.
-    const double more =
-        tidy_length(relief_of(found) - (change.old == nullptr ? 0 : relief_of(below(site, change.old->grid))));
-    set(site.id, "boundary.bottom", lowest);
+    const double more = growth(site, change, found);
+    if (rise != 0) set(site.id, "boundary.bottom", lowest);
     if (more != 0) set(site.id, "boundary.height", tidy_length(height + more));
     lift_exclusions(site, rise, more, lowest);
     lift_tables(site.id, node, rise, more);
     lift_nodes(site, change, rise, lowest);
+    if (rise == 0 && more == 0) return "What stands on the site `" + site.id + "` follows the new heights of its ground.";
     return "The site `" + site.id + "` begins at " + fixed(lowest, 2) + " m now, its lowest ground, instead of " +
            shortest(site.bottom) + " m, and " +
            (more == 0 ? "keeps its height of " + shortest(height) + " m; its"
                       : "its height is " + shortest(tidy_length(height + more)) + " m instead of " + shortest(height) +
                             " m, because its") +
            " ground rises up to " + fixed(found.highest, 2) + " m.";
+  }
+
+  // How much higher the site becomes [m], so that uphill there is as much room above the ground as there was; never lower,
+  // because people may have set its height since.
+  static double growth(const Site& site, const Change& change, const Below& found) {
+    const double before = change.old == nullptr ? 0 : relief_of(below(site, change.old->grid));
+    return tidy_length(std::max(0.0, relief_of(found) - before));
   }
 
   // [m], in whole centimetres

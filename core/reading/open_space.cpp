@@ -87,7 +87,7 @@ std::string why_short(const OpenAccount& account, double tolerance) {
     return "no boundary keeps ground open for it: lay it by `behaviourlinks add SCENE garden --open --use " + account.use +
            " --corners ...`, or as `exclusions` of a boundary with this use";
   const double lost = account.drawn - account.area;
-  if (lost > kNoGround && account.roofed > kNoGround)
+  if (lost > kNoGround && account.roofed >= lost - kNoGround)
     return "of the " + quantity(account.drawn, Unit::square_metre) + " that are drawn, " +
            quantity(account.roofed, Unit::square_metre) +
            " end below the top of the boundary, so that volumes may stand above them: raise the `top` of its `exclusions`";

@@ -31,6 +31,8 @@ struct VolumeThere {
   PlotVolume figures;
   double clearance = 0;  // how far it stays inside the sides of the plot [m]
   bool is_standing = false;
+  std::optional<double> ground;  // of its footprint [m]
+  double base = 0;               // from where its height counts [m]
 };
 
 // As the plot measures it: the plates of a volume that stands, else a disc of the area of its footprint. Nothing of a volume that
@@ -44,7 +46,12 @@ std::optional<VolumeThere> volume_on(const State& state, std::uint32_t node, con
   if (!geometry::ring_contains(figures.polygon, is_standing ? standing->stands_at : volume->centroid)) return std::nullopt;
   const double clearance = is_standing ? geometry::clearance_of(geometry::read_body(standing->plates), figures.polygon, kChords)
                                        : geometry::clearance_of_disc(figures.polygon, volume->centroid, volume->footprint);
-  return VolumeThere{state.plan->nodes[node].id, std::move(*volume), clearance, is_standing};
+  return VolumeThere{state.plan->nodes[node].id,
+                     std::move(*volume),
+                     clearance,
+                     is_standing,
+                     is_standing ? std::optional(standing->ground) : std::nullopt,
+                     0};
 }
 
 // The volumes of its selection that the plot counts.
@@ -56,6 +63,10 @@ std::vector<VolumeThere> volumes_on(const State& state, std::uint32_t plot, cons
       if (auto volume = volume_on(state, member, figures)) volumes.push_back(std::move(*volume));
     break;  // the other sets of a plot hold the same volumes
   }
+  std::vector<geometry::HeightBase> grounds;
+  for (const VolumeThere& volume : volumes) grounds.push_back({volume.id, volume.figures.stands_on, volume.ground});
+  const std::vector<double> bases = geometry::height_bases(grounds, figures.ground);
+  for (std::size_t i = 0; i < volumes.size(); ++i) volumes[i].base = bases[i];
   return volumes;
 }
 
@@ -147,10 +158,7 @@ class Rules {
             breakers(volumes_, [&](const VolumeThere& v) { return built_ground(v); }), Unit::square_metre);
     if (figures_.top >= figures_.height_max + kLeastLength)
       at_most("height_max", "a height of ", figures_.top, figures_.height_max, 1, " m",
-              breakers(volumes_,
-                       [&](const VolumeThere& v) {
-                         return top(v.figures) >= figures_.height_max + kLeastLength ? top(v.figures) : 0;
-                       }),
+              breakers(volumes_, [&](const VolumeThere& v) { return top(v) >= figures_.height_max + kLeastLength ? top(v) : 0; }),
               Unit::metre);
     if (figures_.setback_overshoot < kLeastLength) return;
     const double found = figures_.setback - figures_.setback_overshoot;
@@ -165,7 +173,7 @@ class Rules {
   }
 
  private:
-  double top(const PlotVolume& volume) const { return volume.bottom + volume.height - figures_.ground; }
+  static double top(const VolumeThere& volume) { return volume.figures.bottom + volume.figures.height - volume.base; }
   double lack_of_setback(const VolumeThere& volume) const {
     const double lack = figures_.setback - volume.clearance;
     return lack < kLeastLength ? 0 : lack;

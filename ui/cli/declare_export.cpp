@@ -33,7 +33,8 @@ void declare_export(CLI::App& app, ExportOptions& o) {
       "\nAll files are made before the first is written. A format that cannot hold the proposal says why, and the others are "
       "written; where a file may not be written, none is. A folder ends with `/`, or is there already.\n\nExample:\n  "
       "behaviourlinks export scenes/start/quarter.json --settle --format csv --out schedule.csv "
-      "--format dxf --out plans.dxf\n\nExit codes: 0 written; 2 bad input, or nothing that can be written; 3 written, but not "
+      "--format dxf --out plans.dxf\n\nExit codes: 0 written; 2 bad input, or a format that cannot hold the proposal; 3 written, "
+      "but not "
       "settled; 130 stopped by Ctrl-C.");
 }
 

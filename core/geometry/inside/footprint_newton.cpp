@@ -35,7 +35,7 @@ FootprintNewton::FootprintNewton(FootprintDiagram& diagram, std::vector<Standing
       report_(report),
       demand_of_(sites.size(), kNoDemand),
       is_out_(demands.size(), 0),
-      aims_(demands.size(), 1e9) {
+      aims_(demands.size(), kAll) {
   for (std::uint32_t g = 0; g < demands.size(); ++g)
     for (const std::uint32_t i : demands[g].sites) demand_of_[i] = g;
 }

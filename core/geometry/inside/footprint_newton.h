@@ -26,7 +26,8 @@ class FootprintNewton {
   /// them nearer (`is_stalled`), or because `most_steps` were not enough.
   /// Where it `ends_with_lost`, it ends at once if a site has nothing however heavy it was made (`has_lost`).
   Result<bool> run(double factor, int most_steps, bool ends_with_lost = true);
-  /// The largest part of what it asks for that a demand aims at, whatever the factor of a run is; 1e9: all.
+  static constexpr double kAll = 1e9;  ///< more than any part of a demand
+  /// The largest part of what it asks for that a demand aims at, whatever the factor of a run is.
   void aim(std::uint32_t demand, double most) { aims_[demand] = most; }
   /// Measures the sites as they are.
   Result<void> evaluate();

@@ -40,6 +40,7 @@ void PlotStanding::declare(ViewBuilder<PlotStanding>& v) {
   v.of("footprint");
   v.reads(&PlotStanding::plates, "footprint.plates");
   v.reads(&PlotStanding::stands_at, "footprint.stands_at", Unit::metre);
+  v.reads(&PlotStanding::ground, "footprint.ground", Unit::metre);
 }
 BL_VIEW(PlotStanding)
 

@@ -44,8 +44,9 @@ struct PlotVolume {
 
 /// And of one that stands.
 struct PlotStanding {
-  Table plates;      ///< see core/geometry/plates_table.h
-  Point3 stands_at;  ///< [m]
+  Table plates;       ///< see core/geometry/plates_table.h
+  Point3 stands_at;   ///< [m]
+  double ground = 0;  ///< where it stands [m]
 
   static void declare(ViewBuilder<PlotStanding>& v);
   static const ViewDefinition& view();

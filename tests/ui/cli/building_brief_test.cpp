@@ -53,6 +53,22 @@ TEST_F(BuildingBrief, TheDepthOfARowThatSharesHoldsForTheBuilding) {
       << other.out << other.err;
 }
 
+// Whatever the order of the rows is, and not by rows that lie in cellars.
+TEST_F(BuildingBrief, ADistanceOnARoofIsLeftOutInAnyOrder) {
+  const std::string head = "use,floor_area_m2,storeys,on,shares,distance,below_ground\n", podium = "podium,1600,1,,,,\n",
+                    office = "offices,1200,3,podium,,,\n", hotel = "hotel,800,2,,offices,8,\n";
+  for (const std::string& rows : {podium + office + hotel, hotel + office + podium}) {
+    const Outcome made = make(head + rows);
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_FALSE(footprint("offices").contains("setback")) << rows;
+    EXPECT_NE((made.out + made.err).find("the distance of `offices` was left out: on the roof of `podium`"), std::string::npos)
+        << made.out << made.err;
+  }
+  const Outcome cellar = make(head + "offices,1200,3,,,,\narchive,300,1,,offices,12,1\n");
+  ASSERT_EQ(cellar.code, 0) << cellar.err;
+  EXPECT_FALSE(footprint("offices").contains("setback")) << cellar.out;
+}
+
 TEST_F(BuildingBrief, ShopsBelowFlatsShareAFootprintInTheOrderOfRows) {
   const Outcome made = make(
       "use,floor_area_m2,count,storey_height_m,storeys,shares\nshops,600,2,4,1,\noffices,600,2,3.5,1,shops\n"

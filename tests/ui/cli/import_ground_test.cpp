@@ -11,10 +11,10 @@ namespace bl::test {
 namespace {
 
 // A plane that rises to the east: 67 m at the western border of the site, 71 m at the eastern one.
-std::string plane_rows(int columns, int lowest = 66) {
+std::string plane_rows(int columns, int lowest = 66, int step = 2) {
   std::string text = "ncols " + std::to_string(columns) + "\nnrows 5\nxllcorner 84950\nyllcorner 446940\ncellsize 50\n";
   for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < columns; ++column) text += std::to_string(lowest + 2 * column) + " ";
+    for (int column = 0; column < columns; ++column) text += std::to_string(lowest + step * column) + " ";
     text += "\n";
   }
   return text;
@@ -147,12 +147,45 @@ TEST_F(ImportGround, AnUpdatedTerrainTakesTheSiteWithIt) {
   EXPECT_NEAR(garden_height("b.json"), before + 10, 0.011);
 }
 
+// With a site at the height of its lowest ground already, and with a terrain that only rises more than the one before.
+TEST_F(ImportGround, ASteeperTerrainRaisesTheSite) {
+  place.write("sea.asc", plane_rows(5, -1));
+  (void)import("sea.asc", "scene.json", "sea.json");
+  const nlohmann::json by_sea = ground_part(place.json("sea.json"), "site")["boundary"];
+  EXPECT_NEAR(by_sea.value("bottom", 0.0), 0, 0.0101);
+  EXPECT_NEAR(by_sea.value("height", 0.0), 29, 0.0201);
+  (void)import("hill.asc", "scene.json", "a.json");
+  place.write("hill.asc", plane_rows(5, 65, 4));
+  (void)import("hill.asc", "a.json", "b.json");
+  const nlohmann::json steeper = ground_part(place.json("b.json"), "site")["boundary"];
+  EXPECT_NEAR(steeper.value("bottom", 0.0), 67, 0.0101);
+  EXPECT_NEAR(steeper.value("height", 0.0), 33, 0.0201);
+  // Back again the site keeps its height: somebody may count on it.
+  place.write("hill.asc", plane_rows(5));
+  (void)import("hill.asc", "b.json", "c.json");
+  EXPECT_NEAR(ground_part(place.json("c.json"), "site")["boundary"].value("height", 0.0), 33, 0.0201);
+}
+
+// A building that somebody has written by hand, with a source and no record of what was read.
+TEST_F(ImportGround, ABuildingWithoutARecordOfWhatWasReadIsLiftedWhereItHasNoHeight) {
+  nlohmann::json scene = place.json("scene.json");
+  for (const double base : {0.0, 5.0})
+    scene["nodes"].push_back(
+        {{"id", base == 0 ? "low" : "high"},
+         {"types",
+          {{"existing_building", {{"outline", {{60, 0, 0}, {70, 0, 0}, {70, 10, 0}, {60, 10, 0}}}, {"base", base}}},
+           {"imported", {{"source", "map"}, {"element", base == 0 ? "a" : "b"}}}}}});
+  place.write("scene.json", scene.dump());
+  (void)import("hill.asc", "scene.json", "a.json");
+  EXPECT_NEAR(ground_part(place.json("a.json"), "low")["existing_building"].value("base", 0.0), 71.4, 0.05);
+  EXPECT_EQ(ground_part(place.json("a.json"), "high")["existing_building"].value("base", 0.0), 5);
+}
+
 TEST_F(ImportGround, AFurtherTerrainThatNobodyFollowsIsTold) {
   (void)import("hill.asc", "scene.json", "a.json");
   place.write("other.asc", "ncols 4\nnrows 3\nxllcorner 84940\nyllcorner 446950\ncellsize 60\n1 2 3 4\n1 2 3 4\n1 2 3 4\n");
   const Outcome done = import("other.asc", "a.json", "b.json");
-  EXPECT_NE(done.out.find("lies below the site `site` too, and its volumes stand on another one, by the link `on_ground`"),
-            std::string::npos)
+  EXPECT_NE(done.out.find("lies below the site `site` too, and the link `on_ground` follows another one"), std::string::npos)
       << done.out;
 }
 
