@@ -221,7 +221,7 @@ TEST(StandingTick, TooMuchForARoofIsSaidOfThatRoof) {
   const auto outcome = run(plot(60, 40), wishes, kept);
   ASSERT_EQ(outcome.on_roofs.size(), 1u);
   EXPECT_EQ(outcome.on_roofs.front().base, 0);
-  EXPECT_NE(outcome.on_roofs.front().text.find("cannot be met together"), std::string::npos) << outcome.on_roofs.front().text;
+  EXPECT_NE(outcome.on_roofs.front().text.find("the demand cannot be met: "), std::string::npos) << outcome.on_roofs.front().text;
   ASSERT_EQ(outcome.losses.size(), 1u);
   EXPECT_EQ(outcome.losses.front().demand, 1u);
   EXPECT_NEAR(outcome.results[0].floor_area, 300, 1e-6) << "those below do not suffer";

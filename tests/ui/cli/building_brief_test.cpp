@@ -64,7 +64,7 @@ TEST_F(BuildingBrief, ADistanceOnARoofIsLeftOutInAnyOrder) {
     EXPECT_NE((made.out + made.err).find("the distance of `offices` was left out: on the roof of `podium`"), std::string::npos)
         << made.out << made.err;
   }
-  const Outcome cellar = make(head + "offices,1200,3,,,,\narchive,300,1,,offices,12,1\n");
+  const Outcome cellar = make(head + "offices,1200,3,,,,\narchive,300,,,offices,12,yes\n");
   ASSERT_EQ(cellar.code, 0) << cellar.err;
   EXPECT_FALSE(footprint("offices").contains("setback")) << cellar.out;
 }
