@@ -300,7 +300,8 @@ Result<bool> share_out(DemandSearch& search, const FootprintNewton& newton, std:
   if (*share == 0) {
     add_words("the demands cannot be met together, nor in any share of all: the weights stay as they are", report);
   } else if (*share < 1) {
-    const auto short_of = search.raise_others(*share);
+    // Where all need more ground than there is, nobody gets all without another who goes without: no time is spent on that.
+    const auto short_of = most < 1 ? Result<std::size_t>(count_of_asking(newton, demands)) : search.raise_others(*share);
     if (!short_of) return short_of.error();
     const std::size_t asking = count_of_asking(newton, demands);
     is_met = *short_of == 0;
