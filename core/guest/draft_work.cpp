@@ -21,8 +21,8 @@ std::optional<std::int64_t> step_number(std::string_view text) {
 
 }  // namespace
 
-DraftWork::DraftWork(const Registry& registry, std::string id, std::string title)
-    : registry_(&registry), id_(std::move(id)), title_(std::move(title)), fold_(registry) {}
+DraftWork::DraftWork(const Registry& registry, std::string run, std::string id, std::string title)
+    : registry_(&registry), run_(std::move(run)), id_(std::move(id)), title_(std::move(title)), fold_(registry) {}
 
 Fold::Placed DraftWork::placed() const {
   Fold::Placed all = fold_.placed();
@@ -36,40 +36,46 @@ std::size_t DraftWork::step_count() const {
   return steps_.size() + static_cast<std::size_t>(count);
 }
 
-void DraftWork::follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view, bool is_whole) {
+void DraftWork::follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view) {
   head_ = head;
   seq_ = seq;
-  if (view != nullptr) follow_steps(*view, is_whole);
+  if (view != nullptr) follow_steps(*view);
   make_base();
 }
 
-// A step that is new, or is gone, puts what it moved to its place once more. Another device of the seat may have taken a step
-// back that this window has never been told of; one that is newer than a whole view comes back with the next.
-void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view, bool is_whole) {
+// The view tells the steps as they are after the last operation of this run that the room has taken. What was said here up to
+// that one is told, refused or taken back, whatever answers are under way or lost. A step that is new, or is gone, puts what it
+// moved to its place once more.
+void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view) {
+  const auto counted = view.find("/" + run_);
+  const auto taken = counted == view.end() ? std::nullopt : step_number(counted->second.text());
+  std::map<std::int64_t, Step> known;
+  while (taken && !own_.empty() && own_.begin()->first <= *taken) {
+    auto own = own_.extract(own_.begin());
+    (void)fold_.answered(own.key());
+    known.insert(std::move(own));
+  }
   std::map<std::int64_t, Step> told;
   const std::string begin = id_ + "/";
   for (auto one = view.lower_bound(begin); one != view.end() && one->first.starts_with(begin); ++one) {
     const auto number = step_number(std::string_view(one->first).substr(begin.size()));
-    const auto json = one->second.read();
-    if (!number || !json) continue;
-    std::string text = write_json_line(**json);
-    const auto is_same = [&](const auto& step) { return step.second.text == text; };
-    if (const auto known = steps_.find(*number); known != steps_.end() && is_same(*known)) {
-      told.insert(steps_.extract(known));
-    } else if (const auto own = std::find_if(own_.begin(), own_.end(), is_same); own != own_.end()) {
-      (void)fold_.answered(own->first);
+    if (!number) continue;
+    const JsonValue& content = one->second;
+    const auto before = steps_.find(*number);
+    // Of two own ones that say the same, either is as good: only what they have moved is taken from it.
+    const auto own = std::find_if(known.begin(), known.end(), [&](const auto& step) { return step.second.content == content; });
+    if (before != steps_.end() && before->second.content == content) {
+      told.insert(steps_.extract(before));
+    } else if (own != known.end()) {
       told[*number] = std::move(own->second);
-      own_.erase(own);
-    } else if (auto command = command_from_json(*registry_, **json, "c")) {
-      told[*number] = {std::move(text), std::move(*command)};
+      known.erase(own);
+    } else if (const auto json = content.read()) {
+      if (auto command = command_from_json(*registry_, **json, "c")) told[*number] = {content, std::move(*command)};
     }
   }
-  for (const auto& [number, gone] : steps_) moved_.insert(gone.placed.begin(), gone.placed.end());
+  for (const auto* gone : {&steps_, &known})
+    for (const auto& [number, step] : *gone) moved_.insert(step.placed.begin(), step.placed.end());
   steps_ = std::move(told);
-  if (!is_whole) return;
-  for (const auto& [operation, step] : own_)
-    if (step.is_stored) moved_.insert(step.placed.begin(), step.placed.end());
-  std::erase_if(own_, [](const auto& one) { return one.second.is_stored; });
 }
 
 void DraftWork::make_base() {
@@ -90,9 +96,9 @@ void DraftWork::make_base() {
 // --- What is said here ----------------------------------------------------------------------------------------------
 
 Result<void> DraftWork::say(std::int64_t operation, Command command) {
-  std::string text = write_json_line(command_to_json(*registry_, command));
+  JsonValue content = JsonValue::of(command_to_json(*registry_, command));
   if (auto done = fold_.add(operation, command); !done) return done;
-  own_[operation] = {std::move(text), std::move(command)};
+  own_[operation] = {std::move(content), std::move(command)};
   return {};
 }
 

@@ -16,7 +16,8 @@ namespace bl::guest {
 
 class DraftWork {
  public:
-  DraftWork(const Registry& registry, std::string id, std::string title);
+  /// `run`: under which what is said here is counted.
+  DraftWork(const Registry& registry, std::string run, std::string id, std::string title);
 
   const std::string& id() const { return id_; }
   const std::string& title() const { return title_; }
@@ -30,8 +31,7 @@ class DraftWork {
 
   /// The room's scene after the entry `seq`, and what its view `draft_steps` says; null where it has said nothing on this
   /// connection yet. Steps that do not fit are left out, as the room does.
-  /// `is_whole`: the view has come as a whole, so that a stored step that it lacks is gone.
-  void follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view, bool is_whole = false);
+  void follow(const Scene& head, std::int64_t seq, const std::map<std::string, JsonValue>* view);
   /// What others have moved in the room's scene: the ticks are to put it to its place once.
   void note_moved(Fold::Placed placed) { moved_.merge(std::move(placed)); }
   /// A step that is said; an error where it does not fit what is shown. And one that could not be said.
@@ -55,16 +55,16 @@ class DraftWork {
 
  private:
   struct Step {
-    std::string text;  ///< the command as the room writes it
+    JsonValue content;  ///< the command as the room writes it
     Command command;
     Fold::Placed placed = {};
     bool is_stored = false, is_taken_back = false;  ///< of an own one
   };
-  void follow_steps(const std::map<std::string, JsonValue>& view, bool is_whole);
+  void follow_steps(const std::map<std::string, JsonValue>& view);
   void make_base();
 
   const Registry* registry_;
-  std::string id_, title_;
+  std::string run_, id_, title_;
   Fold fold_;
   Scene head_;
   std::int64_t seq_ = 0;

@@ -202,7 +202,7 @@ class RoomGuest final : public host::Running {
   Result<void> say_of_draft(wire::DraftOp::What what, const std::string& id, const std::string& words,
                             const std::string& title = "");
   /// The draft follows the room's scene and the steps that it tells.
-  void follow_draft(bool is_whole = false);
+  void follow_draft();
   /// Everything that is shown may be another.
   void tell_all_changed();
   void give_up_run();

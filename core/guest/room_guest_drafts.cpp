@@ -32,9 +32,9 @@ void RoomGuest::tell_all_changed() {
   log_.push_back(std::move(all));
 }
 
-void RoomGuest::follow_draft(bool is_whole) {
+void RoomGuest::follow_draft() {
   const auto steps = views_.find("draft_steps");
-  if (work_) work_->follow(fold_.confirmed(), fold_.seq(), steps == views_.end() ? nullptr : &steps->second, is_whole);
+  if (work_) work_->follow(fold_.confirmed(), fold_.seq(), steps == views_.end() ? nullptr : &steps->second);
 }
 
 // A draft that was left here is as it was. In another one, what a window before this one has said and has no answer is in the
@@ -44,7 +44,7 @@ void RoomGuest::work_in(std::string id, std::string title) {
     work_ = std::move(known->second);
     parked_.erase(known);
   } else {
-    work_ = std::make_unique<DraftWork>(*registry_, std::move(id), std::move(title));
+    work_ = std::make_unique<DraftWork>(*registry_, outbox_.run(), std::move(id), std::move(title));
     work_->follow(fold_.confirmed(), fold_.seq(), nullptr);
     for (const Sent& sent : outbox_.waiting()) {
       const auto json = wire::read_frame(sent.frame);

@@ -324,7 +324,7 @@ void RoomGuest::hear_view(const wire::StateOut& view) {
   if (view.view == "drafts") {
     hear_drafts(view);
   } else if (work_ && view.view == "draft_steps") {
-    follow_draft(view.whole);
+    follow_draft();
     tell_all_changed();
   }
   if (view.view != "room") return;

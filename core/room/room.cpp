@@ -39,6 +39,13 @@ std::int64_t Room::greet(std::int64_t seat, const std::string& run, std::int64_t
   return known.last;
 }
 
+std::map<std::string, std::int64_t> Room::last_operations(std::int64_t seat) const {
+  std::map<std::string, std::int64_t> last;
+  for (const auto& [name, run] : runs_)
+    if (run.seat == seat) last.emplace(name, run.last);
+  return last;
+}
+
 Answer Room::submit(std::int64_t seat, const Operation& operation, Now now) {
   if (operation.run.empty() || operation.id < 1) return refuse(Reason::bad, "id", "an operation needs a run and a number from 1");
   if (state_.seat(seat) == nullptr) return refuse(Reason::right, "", "you have no seat in this room");

@@ -88,6 +88,8 @@ class Room {
   /// A run of that seat is there: the number of its last operation that was answered. `last_known`: of the last one that the page
   /// has an answer for, which is the truth where a refusal was not stored before a crash. -1 where the run is somebody else's.
   std::int64_t greet(std::int64_t seat, const std::string& run, std::int64_t last_known);
+  /// Of each run of that seat, the number of its last operation that was answered.
+  std::map<std::string, std::int64_t> last_operations(std::int64_t seat) const;
   void note_presence(std::int64_t seat, bool is_here, Now now);
   /// Lets time pass: a pen whose holder does not answer, or has left, goes to whoever asked first.
   void pass(Now now);
