@@ -70,14 +70,15 @@ TEST(DraftTrials, StepsAreForTheirAuthorWhileTheDraftIsOpen) {
     for (const auto& [key, content] : make_view("draft_steps", sources, seat)) found.push_back(key);
     return found;
   };
-  EXPECT_EQ(keys(anna), (std::vector<std::string>{"d/0", "d/1", "d/2"}));
+  EXPECT_EQ(keys(anna), (std::vector<std::string>{"/run 2", "d/0", "d/1", "d/2"}));
   EXPECT_TRUE(keys(lead).empty()) << "it is private";
   const auto last = command_from_json(full_registry(), *parse_json(make_view("draft_steps", sources, anna).at("d/2")), "");
   ASSERT_TRUE(last.ok());
   EXPECT_EQ(last->id, "set_port");
   (void)world.say(anna, room::OperationKind::draft_undo, R"({"draft": "d"})");
   (void)world.command(anna, room::set_demand("north", 600), "d");
-  EXPECT_EQ(keys(anna), (std::vector<std::string>{"d/0", "d/1", "d/3"})) << "numbers never change";
+  EXPECT_EQ(keys(anna), (std::vector<std::string>{"/run 2", "d/0", "d/1", "d/3"})) << "numbers never change";
+  EXPECT_EQ(make_view("draft_steps", sources, anna).at("/run 2"), "6") << "of a beginning, four steps and one taken back";
   (void)world.event(anna, "propose", R"({"draft": "d"})");
   EXPECT_TRUE(keys(anna).empty()) << "nothing can be changed in it";
 }
