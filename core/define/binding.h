@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,40 @@
 #include "core/define/definition.h"
 
 namespace bl {
+
+/// A new Owner: its members have the values of their initialisers.
+template <class Owner>
+const Owner& fresh() {
+  static const Owner kFresh{};
+  return kFresh;
+}
+
+/// Where a member of type M stands in its struct. What binds a member holds this instead of a pointer to the member, so that it
+/// is compiled once for each type of members and not for each struct besides: these are nearly half of all functions of nodes and
+/// links.
+template <class M>
+class MemberPlace {
+ public:
+  template <class Owner>
+  MemberPlace(M Owner::*member)
+      : offset_(reinterpret_cast<const std::byte*>(&(fresh<Owner>().*member)) -
+                reinterpret_cast<const std::byte*>(&fresh<Owner>())) {}
+
+  /// The place in a struct that holds this one's at `outer`.
+  template <class Outer>
+  MemberPlace within(const MemberPlace<Outer>& outer) const {
+    MemberPlace place = *this;
+    place.offset_ += outer.offset();
+    return place;
+  }
+  std::ptrdiff_t offset() const { return offset_; }
+
+  M& in(void* owner) const { return *reinterpret_cast<M*>(static_cast<std::byte*>(owner) + offset_); }
+  const M& in(const void* owner) const { return *reinterpret_cast<const M*>(static_cast<const std::byte*>(owner) + offset_); }
+
+ private:
+  std::ptrdiff_t offset_;
+};
 
 /// The id of a port that people choose, as a separate member type.
 struct PortChoice {
@@ -159,13 +194,13 @@ struct offered_type<std::optional<T>> {
   using type = T;
 };
 
-/// A read of one node's value into `member`, or of a whole end's into an All.
-template <class Owner, class M>
-void bind_read(ReadDefinition& read, M Owner::*member) {
+/// A read of one node's value into a member.
+template <class M>
+void bind_place(ReadDefinition& read, MemberPlace<M> member) {
   read.kind = Binding<M>::kKind;
   read.made = made_type_of<M>::get();
   read.assign = [member](void* owner, std::span<const Value* const> values) {
-    static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
+    member.in(owner) = Binding<M>::from_value(*values.front());
   };
 }
 /// A read of a port that nodes may lack: nothing where there is none.
@@ -173,61 +208,70 @@ template <class M>
 std::optional<M> read_if_there(const Value* value) {
   return value == nullptr ? std::nullopt : std::optional<M>(Binding<M>::from_value(*value));
 }
-template <class Owner, class M>
-void bind_optional_read(ReadDefinition& read, std::optional<M> Owner::*member) {
+template <class M>
+void bind_place(ReadDefinition& read, MemberPlace<std::optional<M>> member) {
   read.kind = Binding<M>::kKind;
   read.made = made_type_of<M>::get();
   read.assign = [member](void* owner, std::span<const Value* const> values) {
-    static_cast<Owner*>(owner)->*member = read_if_there<M>(values.front());
+    member.in(owner) = read_if_there<M>(values.front());
   };
 }
-template <class Owner, class M>
-void bind_optional_read(ReadDefinition& read, All<std::optional<M>> Owner::*member) {
+/// A read of a whole end's values.
+template <class M>
+void bind_place(ReadDefinition& read, MemberPlace<All<std::optional<M>>> member) {
   read.kind = Binding<M>::kKind;
   read.made = made_type_of<M>::get();
   read.is_whole = true;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
-    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    auto& all = member.in(owner).values;
     all.clear();
     for (const Value* value : values) all.push_back(read_if_there<M>(value));
   };
   read.assign_some = [member](void* owner, std::span<const Value* const> values, std::span<const std::uint32_t> places) {
-    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    auto& all = member.in(owner).values;
     for (const std::uint32_t place : places) all[place] = read_if_there<M>(values[place]);
   };
 }
-template <class Owner, class M>
-void bind_read(ReadDefinition& read, All<M> Owner::*member) {
+template <class M>
+void bind_place(ReadDefinition& read, MemberPlace<All<M>> member) {
   read.kind = Binding<M>::kKind;
   read.made = made_type_of<M>::get();
   read.is_whole = true;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
-    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    auto& all = member.in(owner).values;
     all.clear();
     for (const Value* value : values) all.push_back(Binding<M>::from_value(*value));
   };
   read.assign_some = [member](void* owner, std::span<const Value* const> values, std::span<const std::uint32_t> places) {
-    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    auto& all = member.in(owner).values;
     for (const std::uint32_t place : places) all[place] = Binding<M>::from_value(*values[place]);
   };
 }
-
-/// A write of one node's value from `member`, or of a whole end's from an All (missing entries propose nothing).
 template <class Owner, class M>
-void bind_write(WriteDefinition& write, M Owner::*member) {
+void bind_read(ReadDefinition& read, M Owner::*member) {
+  bind_place(read, MemberPlace<M>(member));
+}
+
+/// A write of one node's value from a member, or of a whole end's from an All (missing entries propose nothing).
+template <class M>
+void bind_place(WriteDefinition& write, MemberPlace<M> member) {
   write.kind = Binding<typename offered_type<M>::type>::kKind;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
-    offer(static_cast<const Owner*>(owner)->*member, values.front());
+    offer(member.in(owner), values.front());
   };
 }
-template <class Owner, class M>
-void bind_write(WriteDefinition& write, All<M> Owner::*member) {
+template <class M>
+void bind_place(WriteDefinition& write, MemberPlace<All<M>> member) {
   write.kind = Binding<typename offered_type<M>::type>::kKind;
   write.is_whole = true;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
-    const auto& all = (static_cast<const Owner*>(owner)->*member).values;
+    const auto& all = member.in(owner).values;
     for (std::size_t i = 0; i < values.size() && i < all.size(); ++i) offer(all[i], values[i]);
   };
+}
+template <class Owner, class M>
+void bind_write(WriteDefinition& write, M Owner::*member) {
+  bind_place(write, MemberPlace<M>(member));
 }
 
 }  // namespace bl

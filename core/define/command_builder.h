@@ -43,8 +43,8 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
   using In = typename T::In;
 
   template <class M>
-  PortBuilder<M> argument(M In::*member, std::string id) {
-    return add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> argument(M In::*member, std::string_view id) {
+    return add_port(definition_->ports, member, id);
   }
 
   static CommandDefinition build() {
@@ -55,7 +55,7 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition.ports);
     definition.apply = [ports](SceneEdit& edit, std::span<const Value> values) {
       In in;
-      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&in, values[p]);
+      set_members(*ports, values, &in);
       return T::apply(edit, in);
     };
     if constexpr (requires { &T::narrow; }) definition.narrow = &T::narrow;

@@ -26,6 +26,27 @@ std::optional<PortPath> parse_port_path(std::string_view text) {
   return PortPath{std::string(text.substr(0, dot)), std::string(text.substr(dot + 1)), ""};
 }
 
+PortPath port_path(std::string_view text) { return parse_port_path(text).value(); }
+
+void assign_text(std::string& place, std::string_view text) { place = text; }
+
+PortDefinition& new_port(std::vector<PortDefinition>& ports, std::string_view id) {
+  PortDefinition& port = ports.emplace_back();
+  port.id = id;
+  return port;
+}
+
+void set_members(const std::vector<PortDefinition>& ports, std::span<const Value> values, void* settings) {
+  for (std::size_t p = 0; p < ports.size(); ++p)
+    if (!ports[p].is_computed) ports[p].set(settings, values[p]);
+    else if (ports[p].recall) ports[p].recall(settings, values[p]);
+}
+
+void get_members(const std::vector<PortDefinition>& ports, const void* results, std::span<Value> values) {
+  for (std::size_t p = 0; p < ports.size(); ++p)
+    if (ports[p].is_computed && !ports[p].make) values[p] = ports[p].get(results);
+}
+
 bool can_read(ValueKind wanted, ValueKind held) {
   const bool is_numeric = held == ValueKind::integer || held == ValueKind::boolean;
   return held == wanted || (wanted == ValueKind::number && is_numeric) ||

@@ -28,12 +28,12 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   }
 
   template <class M>
-  PortBuilder<M> param(M In::*member, std::string id) {
-    return add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> param(M In::*member, std::string_view id) {
+    return add_port(definition_->ports, member, id);
   }
   template <ChoiceMember E>
-  PortBuilder<E> param(E In::*member, std::string id, std::vector<Choice<E>> choices) {
-    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  PortBuilder<E> param(E In::*member, std::string_view id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, id, std::span<const Choice<E>>(choices));
   }
 
   /// Reads `path` ("typification.port", or "node.id") of the end into `member`; `unit` is what the code expects there.
@@ -41,7 +41,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   LinkBuilder& reads(M Ends::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkRead& read = definition_->reads.emplace_back();
     read.end = end;
-    read.path = parse_port_path(path).value();
+    read.path = port_path(path);
     read.unit = unit;
     bind_read(read, member);
     return *this;
@@ -51,10 +51,10 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   LinkBuilder& reads_if_there(M Ends::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkRead& read = definition_->reads.emplace_back();
     read.end = end;
-    read.path = parse_port_path(path).value();
+    read.path = port_path(path);
     read.unit = unit;
     read.is_optional = true;
-    bind_optional_read(read, member);
+    bind_read(read, member);
     return *this;
   }
   /// Reads the port that is chosen in `parameter`.
@@ -83,7 +83,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   LinkBuilder& proposes(M Out::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkWrite& write = definition_->proposes.emplace_back();
     write.end = end;
-    write.path = parse_port_path(path).value();
+    write.path = port_path(path);
     write.unit = unit;
     bind_write(write, member);
     return *this;
@@ -155,7 +155,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     const auto proposes = std::make_shared<const std::vector<LinkWrite>>(definition_->proposes);
     definition_->instantiate = [ports](std::span<const Value> values) -> std::shared_ptr<const void> {
       auto in = std::make_shared<In>();
-      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(in.get(), values[p]);
+      set_members(*ports, values, in.get());
       return in;
     };
     definition_->evaluate = [reads, proposes](const void* parameters, const LinkReads& in, LinkWrites& out,

@@ -1,7 +1,10 @@
 // The fluent declaration of one port: the member's type decides which modifiers exist.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,7 +16,7 @@ namespace bl {
 template <class E>
 struct Choice {
   E value;
-  std::string id, doc;
+  std::string_view id, doc;
 };
 
 /// Declares a port bound to a member of type M. Defaults come from the struct's member initialisers.
@@ -22,8 +25,8 @@ class PortBuilder {
  public:
   explicit PortBuilder(PortDefinition& port) : port_(&port) {}
 
-  PortBuilder& doc(std::string text) {
-    port_->doc = std::move(text);
+  PortBuilder& doc(std::string_view text) {
+    assign_text(port_->doc, text);
     return *this;
   }
   /// The port gets the scene's setting of the same id, kind and unit. Where a set value replaces the setting, the check of a
@@ -49,8 +52,8 @@ class PortBuilder {
     return *this;
   }
   /// The unit is named by another port of the same declaration: a unit symbol in a text, or a port whose unit it is.
-  PortBuilder& unit_from(std::string port) requires std::same_as<M, double> {
-    port_->unit_from = std::move(port);
+  PortBuilder& unit_from(std::string_view port) requires std::same_as<M, double> {
+    assign_text(port_->unit_from, port);
     return *this;
   }
   PortBuilder& min(double hard) requires NumericMember<M> {
@@ -115,37 +118,45 @@ class PortBuilder {
   PortDefinition* port_;
 };
 
+template <class M>
+PortBuilder<M> add_port(std::vector<PortDefinition>& ports, MemberPlace<M> member, const M& default_value, std::string_view id) {
+  PortDefinition& port = new_port(ports, id);
+  port.kind = Binding<M>::kKind;
+  port.default_value = Binding<M>::to_value(default_value);
+  port.get = [member](const void* owner) { return Binding<M>::to_value(member.in(owner)); };
+  port.set = [member](void* owner, const Value& value) { member.in(owner) = Binding<M>::from_value(value); };
+  return PortBuilder<M>(port);
+}
+
 /// Binds `member` of Owner as a new port; its default is the value in a new Owner.
 template <class Owner, class M>
-PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::*member, std::string id) {
-  PortDefinition& port = ports.emplace_back();
-  port.id = std::move(id);
-  port.kind = Binding<M>::kKind;
-  port.default_value = Binding<M>::to_value(Owner{}.*member);
-  port.get = [member](const void* owner) { return Binding<M>::to_value(static_cast<const Owner*>(owner)->*member); };
-  port.set = [member](void* owner, const Value& value) { static_cast<Owner*>(owner)->*member = Binding<M>::from_value(value); };
-  return PortBuilder<M>(port);
+PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::*member, std::string_view id) {
+  return add_port<M>(ports, member, fresh<Owner>().*member, id);
 }
 
 /// Binds an enumeration: files and values hold the text of the choice, the struct holds the enumerator.
 template <class Owner, ChoiceMember E>
-PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::*member, std::string id, std::vector<Choice<E>> choices) {
-  PortDefinition& port = ports.emplace_back();
-  port.id = std::move(id);
+PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::*member, std::string_view id,
+                          std::span<const Choice<E>> choices) {
+  PortDefinition& port = new_port(ports, id);
   port.kind = ValueKind::choice;
-  for (const Choice<E>& choice : choices) port.choices.push_back({choice.id, choice.doc});
-  port.get = [member, choices](const void* owner) -> Value {
-    for (const Choice<E>& choice : choices)
-      if (choice.value == static_cast<const Owner*>(owner)->*member) return choice.id;
-    return choices.front().id;
+  std::vector<E> enumerators;
+  std::vector<std::string> ids;
+  for (const Choice<E>& choice : choices) {
+    port.choices.push_back({std::string(choice.id), std::string(choice.doc)});
+    enumerators.push_back(choice.value);
+    ids.emplace_back(choice.id);
+  }
+  const MemberPlace<E> place = member;
+  port.get = [place, enumerators, ids](const void* owner) -> Value {
+    const auto found = std::find(enumerators.begin(), enumerators.end(), place.in(owner));
+    return ids[found == enumerators.end() ? 0 : static_cast<std::size_t>(found - enumerators.begin())];
   };
-  port.set = [member, choices](void* owner, const Value& value) {
-    const std::string text = Binding<std::string>::from_value(value);
-    for (const Choice<E>& choice : choices)
-      if (choice.id == text) static_cast<Owner*>(owner)->*member = choice.value;
+  port.set = [place, enumerators, ids](void* owner, const Value& value) {
+    const auto found = std::find(ids.begin(), ids.end(), Binding<std::string>::from_value(value));
+    if (found != ids.end()) place.in(owner) = enumerators[static_cast<std::size_t>(found - ids.begin())];
   };
-  const Owner fresh{};
-  port.default_value = port.get(&fresh);
+  port.default_value = port.get(&fresh<Owner>());
   return PortBuilder<E>(port);
 }
 
@@ -156,20 +167,20 @@ class TypeBuilder {
   explicit TypeBuilder(Definition& definition) : definition_(&definition) {}
 
   /// The id in files. Never changes once released: a renamed type keeps its old ids as aliases.
-  TypeBuilder& id(std::string text) {
-    definition_->id = std::move(text);
+  TypeBuilder& id(std::string_view text) {
+    assign_text(definition_->id, text);
     return *this;
   }
-  TypeBuilder& label(std::string text) {
-    definition_->label = std::move(text);
+  TypeBuilder& label(std::string_view text) {
+    assign_text(definition_->label, text);
     return *this;
   }
-  TypeBuilder& doc(std::string text) {
-    definition_->doc = std::move(text);
+  TypeBuilder& doc(std::string_view text) {
+    assign_text(definition_->doc, text);
     return *this;
   }
-  TypeBuilder& alias(std::string old_id) {
-    definition_->aliases.push_back(std::move(old_id));
+  TypeBuilder& alias(std::string_view old_id) {
+    definition_->aliases.emplace_back(old_id);
     return *this;
   }
   /// Its result follows from the number of the tick as well. Only such a type is given that number, and is evaluated in every

@@ -49,7 +49,7 @@ struct Rights {
   Of facilitator = Ground::always;
   Of designer = {}, stakeholder = {}, participant = {}, viewer = {}, recorder = {}, device = {};
   Activity activity = Activity::change;  ///< what the phase must let people do for it; in a draft it is `draft`
-  bool is_by_parts = false;  ///< the command holds others: what they may do decides
+  bool is_by_parts = false;              ///< the command holds others: what they may do decides
 
   constexpr Grounds of(Role role) const {
     const std::array<Of, kRoleCount> row = {facilitator, designer, stakeholder, participant, viewer, recorder, device};

@@ -23,7 +23,7 @@ class SetBuilder {
   template <class M>
   SetBuilder& reads(M Member::*member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     ReadDefinition& read = set_->reads.emplace_back();
-    read.path = parse_port_path(path).value();
+    read.path = port_path(path);
     read.unit = unit;
     bind_read(read, member);
     return *this;
@@ -39,7 +39,7 @@ class SetBuilder {
   template <class M>
   SetBuilder& writes(M Reply::*member, std::string_view path) {
     WriteDefinition& write = set_->writes.emplace_back();
-    write.path = parse_port_path(path).value();
+    write.path = port_path(path);
     bind_write(write, member);
     return *this;
   }
@@ -87,30 +87,30 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   }
 
   template <class M>
-  PortBuilder<M> in(M In::*member, std::string id) {
-    return add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> in(M In::*member, std::string_view id) {
+    return add_port(definition_->ports, member, id);
   }
   template <ChoiceMember E>
-  PortBuilder<E> in(E In::*member, std::string id, std::vector<Choice<E>> choices) {
-    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  PortBuilder<E> in(E In::*member, std::string_view id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, id, std::span<const Choice<E>>(choices));
   }
   /// The evaluation runs beside the ticks: it starts with the data of one tick, and its result counts a given number of ticks
   /// later, whatever time it takes. Its outputs hold no meshes. Only for typifications with sets; `Tick::pool` and `Tick::memo`
   /// are null.
-  PortBuilder<int> latency(int In::*member, std::string id) {
+  PortBuilder<int> latency(int In::*member, std::string_view id) {
     definition_->latency = id;
     return in(member, std::move(id)).unit(Unit::count).range(0, 1000).soft(1, 30);
   }
   /// Declare all settings before the first output.
   template <class M>
-  PortBuilder<M> out(M Out::*member, std::string id) {
-    auto builder = add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> out(M Out::*member, std::string_view id) {
+    auto builder = add_port(definition_->ports, member, id);
     definition_->ports.back().is_computed = true;
     return builder;
   }
   template <ChoiceMember E>
-  PortBuilder<E> out(E Out::*member, std::string id, std::vector<Choice<E>> choices) {
-    auto builder = add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  PortBuilder<E> out(E Out::*member, std::string_view id, std::vector<Choice<E>> choices) {
+    auto builder = add_choice(definition_->ports, member, id, std::span<const Choice<E>>(choices));
     definition_->ports.back().is_computed = true;
     return builder;
   }
@@ -139,13 +139,15 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
   /// such members, `kept` and `last`. A typification with memory is evaluated again until neither its settings nor these change.
   template <class Memory, class M>
-  PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string id) {
-    PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string_view id) {
+    PortBuilder<M> builder = add_port(definition_->ports, member, id);
     PortDefinition& port = definition_->ports.back();
     port.is_computed = true;
-    port.get = [kept, member](const void* out) { return Binding<M>::to_value(static_cast<const Out*>(out)->*kept.*member); };
-    port.recall = [last, member](void* in, const Value& value) {
-      static_cast<In*>(in)->*last.*member = Binding<M>::from_value(value);
+    port.get = [place = MemberPlace<M>(member).within(MemberPlace<Memory>(kept))](const void* out) {
+      return Binding<M>::to_value(place.in(out));
+    };
+    port.recall = [place = MemberPlace<M>(member).within(MemberPlace<Memory>(last))](void* in, const Value& value) {
+      place.in(in) = Binding<M>::from_value(value);
     };
     return builder;
   }
@@ -262,9 +264,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
       definition_->evaluate = [ports, sets, loaders, repliers](std::span<Value> values, std::span<SetValues> set_values,
                                                                const Tick& tick) -> Result<void> {
         In in;
-        for (std::size_t p = 0; p < ports->size(); ++p)
-          if (!(*ports)[p].is_computed) (*ports)[p].set(&in, values[p]);
-          else if ((*ports)[p].recall) (*ports)[p].recall(&in, values[p]);
+        set_members(*ports, values, &in);
         Result<Out> out = [&]() -> Result<Out> {
           if constexpr (kIsPlain) {
             return T::evaluate(in, tick);
@@ -275,8 +275,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
           }
         }();
         if (!out) return out.error();
-        for (std::size_t p = 0; p < ports->size(); ++p)
-          if ((*ports)[p].is_computed && !(*ports)[p].make) values[p] = (*ports)[p].get(&out.value());
+        get_members(*ports, &out.value(), values);
         for (std::size_t s = 0; s < repliers.size(); ++s) repliers[s](out.value(), (*sets)[s], set_values[s]);
         return {};
       };

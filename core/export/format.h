@@ -71,13 +71,13 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
   }
   /// Options may come from a struct that several formats share.
   template <class M, class Shared>
-  requires std::derived_from<Options, Shared> PortBuilder<M> option(M Shared::*member, std::string id) {
-    return add_port(definition_->ports, static_cast<M Options::*>(member), std::move(id));
+  requires std::derived_from<Options, Shared> PortBuilder<M> option(M Shared::*member, std::string_view id) {
+    return add_port(definition_->ports, static_cast<M Options::*>(member), id);
   }
   template <ChoiceMember E, class Shared>
   requires std::derived_from<Options, Shared> PortBuilder<E> option(E Shared::*member, std::string id,
                                                                     std::vector<Choice<E>> choices) {
-    return add_choice(definition_->ports, static_cast<E Options::*>(member), std::move(id), std::move(choices));
+    return add_choice(definition_->ports, static_cast<E Options::*>(member), id, std::span<const Choice<E>>(choices));
   }
 
   static FormatDefinition build() {
@@ -89,7 +89,7 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
     definition.may_fill_folder = kFillsFolder;
     definition.write = [ports](const Proposal& proposal, std::span<const Value> values, bool is_folder) -> Result<ExportFiles> {
       Options options;
-      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&options, values[p]);
+      set_members(*ports, values, &options);
       (void)is_folder;
       const auto written = [&](const Proposal& formed) -> Result<ExportFiles> {
         if constexpr (kFillsFolder) return T::write(formed, options, is_folder);

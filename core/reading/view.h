@@ -54,7 +54,7 @@ class ViewBuilder {
   template <class M>
   ViewBuilder& reads(M V::*member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     ViewRead& read = view_->reads.emplace_back();
-    read.path = parse_port_path(path).value();
+    read.path = port_path(path);
     read.unit = unit;
     read.member = key_of_member(member);
     bind_read(read, member);

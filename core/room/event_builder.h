@@ -40,17 +40,17 @@ class EventBuilder : public TypeBuilder<EventDefinition> {
   using In = typename T::In;
 
   template <class M>
-  PortBuilder<M> argument(M In::*member, std::string id) {
-    return add_port(definition_->ports, member, std::move(id));
+  PortBuilder<M> argument(M In::*member, std::string_view id) {
+    return add_port(definition_->ports, member, id);
   }
   template <ChoiceMember E>
-  PortBuilder<E> argument(E In::*member, std::string id, std::vector<Choice<E>> choices) {
-    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  PortBuilder<E> argument(E In::*member, std::string_view id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, id, std::span<const Choice<E>>(choices));
   }
   /// What somebody says in their own words. It can be erased later, because only its name stands in the log.
   PortBuilder<std::string> words(std::string In::*member, std::string id) {
     definition_->words.push_back(id);
-    return add_port(definition_->ports, member, std::move(id));
+    return add_port(definition_->ports, member, id);
   }
   /// The same for something short that may be said again, such as the name of a phase: the same words have the same name in the
   /// log.
@@ -66,7 +66,7 @@ class EventBuilder : public TypeBuilder<EventDefinition> {
     const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition.ports);
     definition.apply = [ports](RoomState& state, std::span<const Value> values, const EventPlace& place) {
       In in;
-      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&in, values[p]);
+      set_members(*ports, values, &in);
       return T::apply(state, in, place);
     };
     return definition;

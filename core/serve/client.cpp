@@ -29,7 +29,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // A room that says nothing for four seconds is asked, and is gone after eight: a window has to say so before people wonder.
-constexpr seconds kOpening{10}, kIdle{8}, kFarewell{1};
+constexpr seconds kOpening{10}, kQuietServer{8}, kFarewell{1};
 constexpr milliseconds kPatience{1500};                                  // of the destructor
 constexpr std::size_t kLargestFrame = 64 << 20, kMostUnsent = 16 << 20;  // [bytes]
 
@@ -144,7 +144,7 @@ class SocketConnection : public Connection, public std::enable_shared_from_this<
   void shake_hands() {
     websocket::stream_base::timeout timeouts{};
     timeouts.handshake_timeout = kOpening;
-    timeouts.idle_timeout = kIdle;
+    timeouts.idle_timeout = kQuietServer;
     timeouts.keep_alive_pings = true;
     socket_.set_option(timeouts);
     const std::string origin =

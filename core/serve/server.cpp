@@ -19,7 +19,7 @@ using std::chrono::seconds;
 constexpr std::uint32_t kMostHeader = 8192;
 constexpr std::uint64_t kMostBody = 16 << 10;
 constexpr seconds kRequest{5};
-constexpr std::size_t kSlowest = 16 << 10;  // whoever takes an answer slower than that is sent away [bytes/s]
+constexpr std::size_t kSlowestTaker = 16 << 10;  // whoever takes an answer slower than that is sent away [bytes/s]
 
 // An address as limits count it: a whole network of IPv6 is one, because whoever has it has all of its addresses.
 std::string network_of(const asio::ip::address& address) {
@@ -140,7 +140,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
     const std::size_t length = response.body.size();
     if (!is_head_) response_->body() = std::move(response.body);
     response_->content_length(length);
-    beast::get_lowest_layer(stream_).expires_after(kRequest + seconds(length / kSlowest));
+    beast::get_lowest_layer(stream_).expires_after(kRequest + seconds(length / kSlowestTaker));
     const auto done = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error || !self->keeps_alive_) return self->end();
       self->read();

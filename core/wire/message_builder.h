@@ -30,12 +30,12 @@ class MessageBuilder : public TypeBuilder<MessageDefinition> {
     return *this;
   }
   template <class T>
-  PortBuilder<T> field(T M::*member, std::string id) {
-    return add_port(definition_->ports, member, std::move(id));
+  PortBuilder<T> field(T M::*member, std::string_view id) {
+    return add_port(definition_->ports, member, id);
   }
   template <ChoiceMember E>
-  PortBuilder<E> field(E M::*member, std::string id, std::vector<Choice<E>> choices) {
-    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  PortBuilder<E> field(E M::*member, std::string_view id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, id, std::span<const Choice<E>>(choices));
   }
 };
 
