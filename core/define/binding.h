@@ -13,16 +13,16 @@
 
 namespace bl {
 
-/// A new Owner: its members have the values of their initialisers.
+/// A new Owner: its members have the values of their initialisers. Hidden, so that a plugin's struct is not taken for one of the
+/// same name in the program or in another plugin.
 template <class Owner>
-const Owner& fresh() {
+[[gnu::visibility("hidden")]] const Owner& fresh() {
   static const Owner kFresh{};
   return kFresh;
 }
 
-/// Where a member of type M stands in its struct. What binds a member holds this instead of a pointer to the member, so that it
-/// is compiled once for each type of members and not for each struct besides: these are nearly half of all functions of nodes and
-/// links.
+/// Where a member of type M stands in its struct. What binds a member holds this instead of a pointer to the member: it is then
+/// compiled once for each type of member, not again for each struct.
 template <class M>
 class MemberPlace {
  public:
@@ -247,10 +247,17 @@ void bind_place(ReadDefinition& read, MemberPlace<All<M>> member) {
     for (const std::uint32_t place : places) all[place] = Binding<M>::from_value(*values[place]);
   };
 }
+/// Members that may stay without a value, or an All of such.
+template <class M>
+inline constexpr bool kIsOptional = is_optional_type<M>::value;
+template <class M>
+inline constexpr bool kIsOptional<All<M>> = is_optional_type<M>::value;
+template <class M>
+concept OptionalMember = kIsOptional<M>;
+
+/// A read of what each node must have.
 template <class Owner, class M>
-void bind_read(ReadDefinition& read, M Owner::*member) {
-  bind_place(read, MemberPlace<M>(member));
-}
+requires(!OptionalMember<M>) void bind_read(ReadDefinition& read, M Owner::*member) { bind_place(read, MemberPlace<M>(member)); }
 
 /// A write of one node's value from a member, or of a whole end's from an All (missing entries propose nothing).
 template <class M>

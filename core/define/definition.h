@@ -120,8 +120,7 @@ struct PortDefinition {
   std::function<Made(std::span<const Value>)> make;  ///< makes the object from all values of the typification, in order
 };
 
-/// Declarations are long lists of texts. These make the strings in one place instead of in each declaration, which nearly halves
-/// what has to be compiled of one.
+/// Declarations are long lists of texts. These make the strings in one place, which nearly halves the code of a declaration.
 void assign_text(std::string& place, std::string_view text);
 PortDefinition& new_port(std::vector<PortDefinition>& ports, std::string_view id);
 
@@ -137,7 +136,7 @@ struct PortPath {
 };
 /// "smart_volume.volume" split in two; nothing where there is no dot with text on both sides.
 std::optional<PortPath> parse_port_path(std::string_view text);
-/// Of a path in a declaration; what is none ends the program.
+/// Of a path in a declaration; a text that is no path ends the program.
 PortPath port_path(std::string_view text);
 
 /// A datum read from other nodes: its port, and the kind and unit that the reader expects.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/define/port_builder.h"
@@ -47,14 +48,14 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     return *this;
   }
   /// Reads `path` where a node has it: `member` is a std::optional<X>, or an All of them. A node without it fits the end too.
-  template <class M>
+  template <OptionalMember M>
   LinkBuilder& reads_if_there(M Ends::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkRead& read = definition_->reads.emplace_back();
     read.end = end;
     read.path = port_path(path);
     read.unit = unit;
     read.is_optional = true;
-    bind_read(read, member);
+    bind_place(read, MemberPlace<M>(member));
     return *this;
   }
   /// Reads the port that is chosen in `parameter`.
@@ -73,7 +74,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     definition_->reads.back().is_lock = true;
     return *this;
   }
-  template <class M>
+  template <OptionalMember M>
   LinkBuilder& reads_lock_if_there(M Ends::*member, End end, std::string_view path) {
     reads_if_there(member, end, path);
     definition_->reads.back().is_lock = true;

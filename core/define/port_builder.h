@@ -12,7 +12,8 @@
 
 namespace bl {
 
-/// One choice of an enumeration port: the value in code, the text in files, and what it does.
+/// One choice of an enumeration port: the value in code, the text in files, and what it does. The texts outlive the declaration,
+/// as literals do.
 template <class E>
 struct Choice {
   E value;

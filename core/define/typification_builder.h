@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -99,7 +100,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   /// are null.
   PortBuilder<int> latency(int In::*member, std::string_view id) {
     definition_->latency = id;
-    return in(member, std::move(id)).unit(Unit::count).range(0, 1000).soft(1, 30);
+    return in(member, id).unit(Unit::count).range(0, 1000).soft(1, 30);
   }
   /// Declare all settings before the first output.
   template <class M>

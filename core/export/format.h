@@ -75,7 +75,7 @@ class FormatBuilder : public TypeBuilder<FormatDefinition> {
     return add_port(definition_->ports, static_cast<M Options::*>(member), id);
   }
   template <ChoiceMember E, class Shared>
-  requires std::derived_from<Options, Shared> PortBuilder<E> option(E Shared::*member, std::string id,
+  requires std::derived_from<Options, Shared> PortBuilder<E> option(E Shared::*member, std::string_view id,
                                                                     std::vector<Choice<E>> choices) {
     return add_choice(definition_->ports, static_cast<E Options::*>(member), id, std::span<const Choice<E>>(choices));
   }

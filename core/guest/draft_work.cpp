@@ -48,9 +48,15 @@ void DraftWork::follow(const Scene& head, std::int64_t seq, const std::map<std::
 // moved to its place once more.
 void DraftWork::follow_steps(const std::map<std::string, JsonValue>& view) {
   const auto counted = view.find("/" + run_);
-  const auto taken = counted == view.end() ? std::nullopt : step_number(counted->second.text());
+  taken_ = counted == view.end() ? 0 : step_number(counted->second.text()).value_or(0);
   std::map<std::int64_t, Step> known;
-  while (taken && !own_.empty() && own_.begin()->first <= *taken) {
+  // A server that does not count this run is of an earlier program, or has lost the end of its record: it has told what it has.
+  if (counted == view.end() && !view.empty())
+    for (auto own = own_.begin(); own != own_.end();) {
+      const auto one = own++;
+      if (one->second.is_stored) known.insert(own_.extract(one));
+    }
+  while (!own_.empty() && own_.begin()->first <= taken_) {
     auto own = own_.extract(own_.begin());
     (void)fold_.answered(own.key());
     known.insert(std::move(own));

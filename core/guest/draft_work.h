@@ -37,8 +37,10 @@ class DraftWork {
   /// A step that is said; an error where it does not fit what is shown. And one that could not be said.
   Result<void> say(std::int64_t operation, Command command);
   void unsay(std::int64_t operation);
-  /// The operation was answered; `is_stored`: it is a step now. Answers may come in any order, and after the room has told the
-  /// step. False where it is none of this draft.
+  /// Is it among those that were said here, or has the room's view taken it into account?
+  bool has(std::int64_t operation) const { return operation <= taken_ || own_.contains(operation); }
+  /// The operation was answered; `is_stored`: it is a step now. Answers may come in any order. False where it is none of this
+  /// draft, or where the room's view has told already what became of it.
   bool answered(std::int64_t operation, bool is_stored);
   /// The room has taken the last step before this operation back.
   void took_back(std::int64_t operation);
@@ -67,7 +69,7 @@ class DraftWork {
   std::string run_, id_, title_;
   Fold fold_;
   Scene head_;
-  std::int64_t seq_ = 0;
+  std::int64_t seq_ = 0, taken_ = 0;    // the last entry of the room, and the last operation of the run, that are in the base
   std::map<std::int64_t, Step> steps_;  // that the room has told, by number
   std::map<std::int64_t, Step> own_;    // that were said here and are not told yet, by operation; some have an answer
   Fold::Placed moved_;                  // what the ticks are to put to its place once

@@ -203,6 +203,7 @@ class RoomGuest final : public host::Running {
                             const std::string& title = "");
   /// The draft follows the room's scene and the steps that it tells.
   void follow_draft();
+  void show_waiting_steps();
   /// Everything that is shown may be another.
   void tell_all_changed();
   void give_up_run();

@@ -37,6 +37,16 @@ void RoomGuest::follow_draft() {
   if (work_) work_->follow(fold_.confirmed(), fold_.seq(), steps == views_.end() ? nullptr : &steps->second);
 }
 
+// A window before this one may have said them; or a server that has lost the end of its record has told them once.
+void RoomGuest::show_waiting_steps() {
+  for (const Sent& sent : outbox_.waiting()) {
+    const auto json = work_->has(sent.id) ? Result<Json>(Error{}) : wire::read_frame(sent.frame);
+    if (!json || text_in(*json, "t") != "op" || text_in(*json, "draft") != work_->id()) continue;
+    const auto command = command_from_json(*registry_, (*json)["c"], "c");
+    if (command) (void)work_->say(sent.id, *command);
+  }
+}
+
 // A draft that was left here is as it was. In another one, what a window before this one has said and has no answer is in the
 // outbox; it is shown again. A window that shows the server's values has no ticks of its own: there the draft stands in these.
 void RoomGuest::work_in(std::string id, std::string title) {
@@ -46,12 +56,7 @@ void RoomGuest::work_in(std::string id, std::string title) {
   } else {
     work_ = std::make_unique<DraftWork>(*registry_, outbox_.run(), std::move(id), std::move(title));
     work_->follow(fold_.confirmed(), fold_.seq(), nullptr);
-    for (const Sent& sent : outbox_.waiting()) {
-      const auto json = wire::read_frame(sent.frame);
-      if (!json || text_in(*json, "t") != "op" || text_in(*json, "draft") != work_->id()) continue;
-      const auto command = command_from_json(*registry_, (*json)["c"], "c");
-      if (command) (void)work_->say(sent.id, *command);
-    }
+    show_waiting_steps();
   }
   follow_draft();
   if (mode_ != "values")

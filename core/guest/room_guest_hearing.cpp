@@ -325,6 +325,7 @@ void RoomGuest::hear_view(const wire::StateOut& view) {
     hear_drafts(view);
   } else if (work_ && view.view == "draft_steps") {
     follow_draft();
+    if (view.whole) show_waiting_steps();
     tell_all_changed();
   }
   if (view.view != "room") return;

@@ -30,26 +30,28 @@ Room::Room(Ledger& ledger, RoomOptions options) : ledger_(&ledger), options_(std
 
 std::int64_t Room::greet(std::int64_t seat, const std::string& run, std::int64_t last_known) {
   if (run.empty() || state_.seat(seat) == nullptr) return -1;
-  Run& known = runs_.try_emplace(run, Run{.seat = seat, .last = 0, .answers = {}, .gesture = {}}).first->second;
+  Run& known =
+      runs_.try_emplace(run, Run{.seat = seat, .last = 0, .last_of_draft = 0, .answers = {}, .gesture = {}}).first->second;
   if (known.seat != seat) return -1;
   if (last_known > known.last) {
-    known.last = last_known;
+    known.last = known.last_of_draft = last_known;
     record_.runs.push_back({run, seat, known.last});
   }
   return known.last;
 }
 
-std::map<std::string, std::int64_t> Room::last_operations(std::int64_t seat) const {
+std::map<std::string, std::int64_t> Room::last_of_drafts(std::int64_t seat) const {
   std::map<std::string, std::int64_t> last;
   for (const auto& [name, run] : runs_)
-    if (run.seat == seat) last.emplace(name, run.last);
+    if (run.seat == seat && run.last_of_draft > 0) last.emplace(name, run.last_of_draft);
   return last;
 }
 
 Answer Room::submit(std::int64_t seat, const Operation& operation, Now now) {
   if (operation.run.empty() || operation.id < 1) return refuse(Reason::bad, "id", "an operation needs a run and a number from 1");
   if (state_.seat(seat) == nullptr) return refuse(Reason::right, "", "you have no seat in this room");
-  Run& run = runs_.try_emplace(operation.run, Run{.seat = seat, .last = 0, .answers = {}, .gesture = {}}).first->second;
+  Run& run = runs_.try_emplace(operation.run, Run{.seat = seat, .last = 0, .last_of_draft = 0, .answers = {}, .gesture = {}})
+                 .first->second;
   if (run.seat != seat) return refuse(Reason::right, "run", "this run belongs to another seat");
   if (operation.id <= run.last) {
     const auto known =
@@ -64,8 +66,15 @@ Answer Room::submit(std::int64_t seat, const Operation& operation, Now now) {
   return result;
 }
 
+bool Room::is_of_draft(const Operation& operation) {
+  return !operation.draft.empty() || operation.kind == OperationKind::draft_begin ||
+         operation.kind == OperationKind::draft_undo || operation.kind == OperationKind::draft_redo ||
+         operation.kind == OperationKind::draft_drop;
+}
+
 void Room::answer(Run& run, const Operation& operation, const Answer& answer) {
   run.last = operation.id;
+  if (is_of_draft(operation)) run.last_of_draft = operation.id;
   run.answers.emplace_back(operation.id, answer);
   if (run.answers.size() > kKeptAnswers) run.answers.pop_front();
   record_.runs.push_back({operation.run, run.seat, run.last});
@@ -351,7 +360,8 @@ Result<void> Room::replay(const EntryRecord& record) {
 
 void Room::restore(const Record& rows) {
   for (const RunRecord& run : rows.runs)
-    runs_[run.run] = {.seat = run.seat, .last = run.last_operation, .answers = {}, .gesture = {}};
+    runs_[run.run] = {
+        .seat = run.seat, .last = run.last_operation, .last_of_draft = run.last_operation, .answers = {}, .gesture = {}};
   for (const LogEntry& entry : ledger_->log()) {
     const auto run = runs_.find(entry.source.origin);
     if (entry.source.operation == 0 || run == runs_.end()) continue;

@@ -88,8 +88,9 @@ class Room {
   /// A run of that seat is there: the number of its last operation that was answered. `last_known`: of the last one that the page
   /// has an answer for, which is the truth where a refusal was not stored before a crash. -1 where the run is somebody else's.
   std::int64_t greet(std::int64_t seat, const std::string& run, std::int64_t last_known);
-  /// Of each run of that seat, the number of its last operation that was answered.
-  std::map<std::string, std::int64_t> last_operations(std::int64_t seat) const;
+  /// Of each run of that seat, the number of its last operation on a draft that was answered. After a start of the program it may
+  /// be a later one, of something else.
+  std::map<std::string, std::int64_t> last_of_drafts(std::int64_t seat) const;
   void note_presence(std::int64_t seat, bool is_here, Now now);
   /// Lets time pass: a pen whose holder does not answer, or has left, goes to whoever asked first.
   void pass(Now now);
@@ -136,7 +137,7 @@ class Room {
 
  private:
   struct Run {
-    std::int64_t seat = 0, last = 0;
+    std::int64_t seat = 0, last = 0, last_of_draft = 0;
     std::deque<std::pair<std::int64_t, Answer>> answers;  // the last ones, ascending
     std::pair<std::int64_t, std::int64_t> gesture;        // the sender's number, and the ledger's
   };
@@ -196,6 +197,7 @@ class Room {
   void after_event(const std::string& event, const std::map<std::string, Value>& arguments, const Said& said);
   void write_secret_ballots(const std::string& vote, Now now);
   void erase(std::int64_t seat);
+  static bool is_of_draft(const Operation& operation);
   void answer(Run& run, const Operation& operation, const Answer& answer);
   Acknowledgement done(const Now& now) const { return {ledger_->last_seq(), now.tick}; }
   Asking asking(std::int64_t seat, bool is_in_draft = false) const {

@@ -220,20 +220,21 @@ void RoomHost::flush() {
     return;
   }
   ++commits_under_way_;
+  const std::int64_t commit = ++commits_begun_;
   std::vector<std::shared_ptr<const std::string>> entries;
   const std::int64_t seq = session_->last_seq();
   if (!record.entries.empty()) entries.push_back(frame_of_entries(record.entries, seq, epoch()));
-  auto done = [this, seq, tellings = std::exchange(tellings_, {}), entries = std::move(entries),
+  auto done = [this, commit, seq, tellings = std::exchange(tellings_, {}), entries = std::move(entries),
                is_alive = std::weak_ptr<bool>(is_alive_)](const Result<void>& result) {
-    options_.on_own_thread([this, seq, tellings, entries, result, is_alive] {
-      if (!is_alive.expired()) stored(seq, tellings, entries, result);
+    options_.on_own_thread([this, commit, seq, tellings, entries, result, is_alive] {
+      if (!is_alive.expired()) stored(commit, seq, tellings, entries, result);
     });
   };
   writer_->submit(std::move(record), std::move(done));
 }
 
-void RoomHost::stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
-                      const Result<void>& result) {
+void RoomHost::stored(std::int64_t commit, std::int64_t seq, std::vector<Telling> tellings,
+                      std::vector<std::shared_ptr<const std::string>> entries, const Result<void>& result) {
   if (!result) {
     --commits_under_way_;
     if (problem_.empty()) {
@@ -244,8 +245,10 @@ void RoomHost::stored(std::int64_t seq, std::vector<Telling> tellings, std::vect
     }
     return;  // who waits for an answer asks again
   }
-  followers_->when_kept(
-      [this, seq, tellings = std::move(tellings), entries = std::move(entries)] { tell(seq, tellings, entries); });
+  followers_->when_kept([this, commit, seq, tellings = std::move(tellings), entries = std::move(entries)] {
+    commits_told_ = std::max(commits_told_, commit);
+    tell(seq, tellings, entries);
+  });
 }
 
 void RoomHost::tell(std::int64_t seq, const std::vector<Telling>& tellings,
@@ -285,6 +288,7 @@ void RoomHost::recover() {
           session_.reset();
           room_.reset();
           tellings_.clear();
+          commits_told_ = commits_begun_;  // those that failed are no more
           next_.reset();
           now_.reset();
           seen_.reset();  // it may hold what was never stored

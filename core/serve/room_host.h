@@ -130,6 +130,7 @@ class RoomHost {
   using Telling = std::function<void()>;
   struct Published {
     std::int64_t seq = 0, tick = 0;
+    std::int64_t commit = 0;  ///< the last one that was begun when the views were made
     std::map<std::string, std::shared_ptr<const wire::View>> shared;
     std::map<std::int64_t, std::map<std::string, std::shared_ptr<const wire::View>>> by_seat;
   };
@@ -158,8 +159,8 @@ class RoomHost {
   void store_scenarios();
   /// Hands to the disk what has been said, and what is to be told after it.
   void flush();
-  void stored(std::int64_t seq, std::vector<Telling> tellings, std::vector<std::shared_ptr<const std::string>> entries,
-              const Result<void>& result);
+  void stored(std::int64_t commit, std::int64_t seq, std::vector<Telling> tellings,
+              std::vector<std::shared_ptr<const std::string>> entries, const Result<void>& result);
   void tell(std::int64_t seq, const std::vector<Telling>& tellings,
             const std::vector<std::shared_ptr<const std::string>>& entries);
   void recover();
@@ -237,7 +238,8 @@ class RoomHost {
   std::vector<Telling> tellings_;  // of what has been said since the last flush
   std::int64_t stored_seq_ = 0;
   int commits_under_way_ = 0;
-  std::string problem_;  // why nothing can be stored
+  std::int64_t commits_begun_ = 0, commits_told_ = 0;  // numbers; not all that is stored is an entry with a number
+  std::string problem_;                                // why nothing can be stored
   double problem_since_ = 0, last_views_ = 0, last_snapshot_ = 0, last_health_ = -1e9;
   std::optional<double> snapshot_stored_;  // when, of this run of the program [s]
   std::string journal_path_;

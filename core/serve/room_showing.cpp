@@ -26,7 +26,7 @@ void RoomHost::publish() {
   keep_past(seen_ ? seen_->state.get() : nullptr);
   seen_ = moment;
   is_changed_ = false;
-  Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .shared = {}, .by_seat = {}};
+  Published made{.seq = session_->last_seq(), .tick = moment->state->tick, .commit = commits_begun_, .shared = {}, .by_seat = {}};
   const bool were_shapes_held = std::exchange(are_shapes_held_, false);
   hold_shapes(made);
   const wire::ViewSources from = sources(*moment->state);
@@ -83,7 +83,7 @@ void RoomHost::hold_shapes(Published& made) {
 }
 
 void RoomHost::show() {
-  if (!next_ || next_->seq > stored_seq_) return;
+  if (!next_ || next_->seq > stored_seq_ || next_->commit > commits_told_) return;
   hold_shapes(*next_);  // somebody may have got shapes while these views waited
   now_ = std::move(next_);
   next_.reset();

@@ -138,17 +138,21 @@ View drafts_view(const ViewSources& sources, std::int64_t seat) {
 }
 
 // The commands of the seat's own drafts, for windows, which make the scene of a draft themselves. A step that was taken back has
-// none. `/RUN` is the last operation of a run that they hold, so that a window knows which of its own steps are told: steps can
-// have the same words, and answers can come in another order. No draft has a name without a letter.
+// none. `/RUN` is the number of the last operation on a draft in that run that the steps take into account, so that a window
+// knows which of its own steps are told: steps can have the same words, and answers can come in another order. No draft has an
+// empty name.
 View draft_steps_view(const ViewSources& sources, std::int64_t seat) {
   View view;
+  bool is_any_open = false;
   for (const auto& [id, draft] : sources.room.drafts()) {
     if (draft.seat() != seat || draft.state() != room::DraftState::open) continue;
+    is_any_open = true;
     const std::vector<Command>& steps = draft.steps();
     for (std::size_t k = 0; k < steps.size(); ++k)
       if (!steps[k].id.empty()) put(view, id + "/" + std::to_string(k), command_to_json(full_registry(), steps[k]));
-    for (const auto& [run, last] : sources.room.last_operations(seat)) put(view, "/" + run, last);
   }
+  if (is_any_open)
+    for (const auto& [run, last] : sources.room.last_of_drafts(seat)) put(view, "/" + run, last);
   return view;
 }
 

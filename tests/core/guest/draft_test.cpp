@@ -135,6 +135,28 @@ TEST(Drafts, WhatIsDoneInOneIsSeenThereAndNowhereElse) {
   EXPECT_EQ(state_of(at.room, at.anna, draft), "none");
 }
 
+TEST(Drafts, NoStepIsToldBeforeItIsStored) {
+  DraftRoom at;
+  ASSERT_TRUE(at.anna.begin_draft("").ok());
+  const std::string begin = at.anna.draft()->id() + "/";
+  at.rest();
+  at.room.slowness = 40;  // turns; views are made every ten
+  ASSERT_TRUE(at.anna.submit({command<RenameNode>({"cafe", "Anna's"})}).ok());
+  const auto is_told = [&] {
+    const auto& steps = at.anna.view("draft_steps");
+    const auto first = steps.lower_bound(begin);
+    return first != steps.end() && first->first.starts_with(begin);
+  };
+  int early = 0;
+  ASSERT_TRUE(at.room.turn_until([&] {
+    if (at.anna.standing().waiting > 0 && is_told()) ++early;
+    return at.anna.standing().waiting == 0;
+  }));
+  EXPECT_EQ(early, 0);
+  EXPECT_TRUE(at.room.turn_until(is_told));
+  EXPECT_EQ(at.anna.draft()->step_count(), 1u);
+}
+
 TEST(Drafts, AGestureIsOneStepAndAnAbandonedOneIsNone) {
   DraftRoom at;
   ASSERT_TRUE(at.anna.begin_draft("").ok());

@@ -1,8 +1,13 @@
 // A window's own picture of its draft: whatever answers are late, lost or out of order, it becomes that of the room.
 #include "core/guest/draft_work.h"
 
+#include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -96,6 +101,32 @@ TEST(DraftWork, OfTwoStepsThatSayTheSameTheOneThatWasTakenBackIsGone) {
   work.follow(two_nodes(), 1, &view);
   EXPECT_FALSE(work.answered(1, true)) << "the view has told what became of it";
   EXPECT_FALSE(work.answered(3, true));
+  EXPECT_EQ(work.step_count(), 1u);
+}
+
+TEST(DraftWork, AServerThatHasLostTheEndOfItsRecordIsToldAgain) {
+  DraftWork work(full_registry(), "run", "d", "");
+  work.follow(two_nodes(), 1, nullptr);
+  const Command first = command<RenameNode>({"a", "X"}), second = command<RenameNode>({"b", "Y"});
+  ASSERT_TRUE(work.say(1, first).ok() && work.say(2, second).ok());
+  const View whole = {{"d/0", told(first)}, {"d/1", told(second)}, {"/run", JsonValue::of(2)}};
+  work.follow(two_nodes(), 1, &whole);
+  EXPECT_TRUE(work.has(2));
+  const View lost = {{"d/0", told(first)}, {"/run", JsonValue::of(1)}};
+  work.follow(two_nodes(), 1, &lost);
+  EXPECT_TRUE(work.has(1));
+  EXPECT_FALSE(work.has(2)) << "who still has it says and shows it again";
+  ASSERT_TRUE(work.say(2, second).ok());
+  EXPECT_EQ(work.step_count(), 2u);
+}
+
+TEST(DraftWork, AServerThatCountsNoRunsHasToldWhatIsStored) {
+  DraftWork work(full_registry(), "run", "d", "");
+  work.follow(two_nodes(), 1, nullptr);
+  ASSERT_TRUE(work.say(1, command<RenameNode>({"a", "X"})).ok());
+  EXPECT_TRUE(work.answered(1, true));
+  const View view = {{"d/0", told(command<RenameNode>({"a", "X"}))}};
+  work.follow(two_nodes(), 1, &view);
   EXPECT_EQ(work.step_count(), 1u);
 }
 
