@@ -22,7 +22,6 @@ namespace bl::serve {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using Tcp = asio::ip::tcp;
 
 inline constexpr std::chrono::seconds kHandshake{5};
 

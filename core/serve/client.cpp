@@ -24,7 +24,6 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using Tcp = asio::ip::tcp;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 

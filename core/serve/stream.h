@@ -9,12 +9,15 @@
 #include <variant>
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/core/role.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 
 namespace bl::serve {
+
+using Tcp = boost::asio::ip::tcp;
 
 /// What is called once, when something that was begun on a stream is over. Copies of handlers are never made: they may hold what
 /// cannot be copied.
